@@ -1,0 +1,40 @@
+"""Refusals of values that mean nothing: one sentence with the value and the remedy, before any work is done."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+
+def real(name: str, value: Any) -> float:
+    """`value` as a float; ValueError unless it is one number (nan is not a number)."""
+    if isinstance(value, bool) or isinstance(value, (str, bytes)):
+        raise ValueError(f"{name} = {value!r} is not a number: give a float")
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {value!r} is not a number: give a float") from None
+    if math.isnan(number):
+        raise ValueError(f"{name} is nan: give a number")
+    return number
+
+
+def finite(name: str, value: Any) -> float:
+    number = real(name, value)
+    if math.isinf(number):
+        raise ValueError(f"{name} = {number} is infinite: give a finite number")
+    return number
+
+
+def positive(name: str, value: Any) -> float:
+    number = finite(name, value)
+    if number <= 0.0:
+        raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
+    return number
+
+
+def not_negative(name: str, value: Any) -> float:
+    number = finite(name, value)
+    if number < 0.0:
+        raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
+    return number

@@ -1,0 +1,227 @@
+"""The slope H = h' of an indenter, piece by piece: what the numerics see of a profile.
+
+On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus functions that are smooth there:
+
+    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j  +  Σ functions(t),       breaks[k] < t < breaks[k+1]
+
+The first and last break are the ends of the indenter and may be infinite. Each piece has its own origin because a profile is often
+small there and nowhere else: (t - a)/R on the rim of a punch whose rim is 1e-12 of its width must not be formed as t/R - a/R.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Vectorised = Callable[[Array], Any]
+
+
+# Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
+FEW, LOW = 6, 4
+
+
+@dataclass(frozen=True)
+class FunctionTerm:
+    """t -> sign f(sign (t - shift)): a function of the user's, moved and mirrored with its profile."""
+
+    function: Vectorised
+    shift: float = 0.0
+    sign: float = 1.0
+
+    def __call__(self, offset: Array) -> Array:
+        """Values at t, given offset = t - shift."""
+        values: Array = np.asarray(self.function(self.sign * offset), dtype=float)
+        if values.shape != offset.shape:
+            values = np.broadcast_to(values, offset.shape)
+        return self.sign * values
+
+
+@dataclass(frozen=True, eq=False)
+class Slope:
+    """H on its breaks. Arrays: breaks (N+1,), origins (N,), coefficients (N, D) low order first, degrees (N,).
+
+    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree where there is no function.
+    """
+
+    breaks: Array
+    origins: Array
+    coefficients: Array
+    degrees: NDArray[np.int64]
+    functions: tuple[FunctionTerm, ...] = ()
+
+    def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
+        """H at t = (start + tail) + u on the pieces k: start and tail (K,), u (K, n); exact differences, no rounding of t."""
+        c = self.coefficients[k]
+        values: Array = c[:, -1:]
+        if c.shape[1] > 1:
+            y = ((start - self.origins[k]) + tail)[:, None] + u
+            for j in range(c.shape[1] - 2, -1, -1):
+                values = values * y + c[:, j : j + 1]
+        for f in self.functions:
+            values = values + f(((start - f.shift) + tail)[:, None] + u)
+        return values if values.shape == u.shape else values + np.zeros_like(u)
+
+    def local_derivative(self, k: Any, start: Array, tail: Array, u: Array) -> Array | float:
+        """H' of the polynomials at the same points; functions have no derivative here."""
+        c = self.coefficients[k]
+        degree = c.shape[1] - 1
+        if degree == 0:
+            return 0.0
+        values: Array = degree * c[:, -1:]
+        if degree > 1:
+            y = ((start - self.origins[k]) + tail)[:, None] + u
+            for j in range(degree - 1, 0, -1):
+                values = values * y + j * c[:, j : j + 1]
+        return values
+
+    def __call__(self, x: Any) -> Array:
+        """H(x): the mean of both sides at a break, -inf and inf beyond the ends of the indenter, which are vertical walls."""
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        right = np.searchsorted(self.breaks, flat, side="right") - 1
+        left = np.searchsorted(self.breaks, flat, side="left") - 1
+        last = len(self.origins) - 1
+        values = self._on(np.clip(right, 0, last), flat)
+        at_break = np.flatnonzero((left != right) & (left >= 0) & (right <= last))
+        if at_break.size:
+            values[at_break] = 0.5 * (values[at_break] + self._on(left[at_break], flat[at_break]))
+        values[flat < self.breaks[0]] = -np.inf
+        values[flat > self.breaks[-1]] = np.inf
+        return values.reshape(x.shape)
+
+    def inside(self, x: Array) -> Array:
+        """H at points x (K, n), each row inside one piece."""
+        k = np.clip(np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1, 0, len(self.origins) - 1)
+        return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
+
+    def _on(self, k: NDArray[np.int64], x: Array) -> Array:
+        inside = np.clip(x, self.breaks[0], self.breaks[-1])  # beyond the ends the value is replaced; keep functions in their domain
+        return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
+
+    @cached_property
+    def is_zero(self) -> NDArray[np.bool_]:
+        """Which pieces are flat: they cost nothing."""
+        zero: NDArray[np.bool_] = ~self.coefficients.any(axis=1)
+        return zero if not self.functions else np.zeros_like(zero)
+
+    @cached_property
+    def has_zero(self) -> bool:
+        return bool(self.is_zero.any())
+
+    @cached_property
+    def degree(self) -> int:
+        """The largest degree that resolves a piece."""
+        return int(self.degrees.max())
+
+    @cached_property
+    def rows(self) -> tuple[tuple[float, float, float, tuple[float, ...]], ...]:
+        """(lo, hi, origin, coefficients high order first) of the pieces that are not flat, as plain floats."""
+        ends = self.breaks.tolist()
+        rows = zip(ends[:-1], ends[1:], self.origins.tolist(), self.coefficients[:, ::-1].tolist(), self.is_zero.tolist(), strict=True)
+        return tuple((lo, hi, origin, tuple(c)) for lo, hi, origin, c, zero in rows if not zero)
+
+    @cached_property
+    def break_points(self) -> tuple[float, ...]:
+        """The finite breaks as plain floats."""
+        return tuple(b for b in self.breaks.tolist() if abs(b) < np.inf)
+
+    @cached_property
+    def few(self) -> bool:
+        """Whether plain floats beat arrays."""
+        return not self.functions and len(self.is_zero) - int(self.is_zero.sum()) <= FEW and self.degree <= LOW
+
+    @cached_property
+    def without_functions(self) -> Slope:
+        return replace(self, functions=())
+
+    @cached_property
+    def continuous(self) -> bool:
+        """Whether H is known to have no jumps at its breaks (a function may have them at declared ones)."""
+        if self.functions:
+            return False
+        if self.few:
+            left = {hi: _horner(c, hi - origin) for _, hi, origin, c in self.rows}
+            right = {lo: _horner(c, lo - origin) for lo, _, origin, c in self.rows}
+            return all(left.get(b, 0.0) == right.get(b, 0.0) for b in self.breaks[1:-1].tolist())
+        k, inner = np.arange(len(self.origins)), self.breaks[1:-1]
+        ends = [self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1))) for j in (k[:-1], k[1:])]
+        return bool((ends[0] == ends[1]).all())
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return float(self.breaks[0]), float(self.breaks[-1])
+
+    def tilted(self, tilt: float) -> Slope:
+        if tilt == 0.0:
+            return self
+        c = self.coefficients.copy()
+        c[:, 0] += tilt
+        return replace(self, coefficients=c)
+
+    def shifted(self, dx: float) -> Slope:
+        functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
+        return replace(self, breaks=self.breaks + dx, origins=self.origins + dx, functions=functions)
+
+    def mirrored(self) -> Slope:
+        """The slope of h(-x), that is -H(-x)."""
+        c = -self.coefficients[::-1] * (-1.0) ** np.arange(self.coefficients.shape[1])
+        functions = tuple(replace(f, shift=-f.shift, sign=-f.sign) for f in self.functions)
+        return Slope(-self.breaks[::-1], -self.origins[::-1], c, self.degrees[::-1], functions)
+
+    def __add__(self, other: Slope) -> Slope:
+        """The sum on the intersection of both domains, broken where either is."""
+        lo, hi = max(self.breaks[0], other.breaks[0]), min(self.breaks[-1], other.breaks[-1])
+        if not lo < hi:
+            raise ValueError(f"profiles on {self.domain} and {other.domain} do not overlap: shift one of them before adding")
+        merged = np.union1d(self.breaks, other.breaks)
+        breaks = merged[(merged >= lo) & (merged <= hi)]
+        mine, theirs = (np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other))
+        origins = np.where(
+            other.is_zero[theirs] | (~self.is_zero[mine] & (_distance(self.origins[mine], breaks) <= _distance(other.origins[theirs], breaks))),
+            self.origins[mine],
+            other.origins[theirs],
+        )
+        width = max(self.coefficients.shape[1], other.coefficients.shape[1])
+        c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
+        degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
+        return Slope(breaks, origins, c, degrees, self.functions + other.functions)
+
+
+def _horner(high_first: tuple[float, ...], y: float) -> float:
+    value = 0.0
+    for c in high_first:
+        value = value * y + c
+    return value
+
+
+def polynomial_slope(breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]) -> Slope:
+    """A Slope from rows of polynomial coefficients of unequal length."""
+    width = max(len(row) for row in coefficients)
+    c = np.zeros((len(coefficients), width))
+    for k, row in enumerate(coefficients):
+        c[k, : len(row)] = row
+    degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
+    return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, degrees)
+
+
+def _distance(origins: Array, breaks: Array) -> Array:
+    """How far each origin lies outside its piece (0 inside)."""
+    return np.maximum(np.maximum(breaks[:-1] - origins, origins - breaks[1:]), 0.0)
+
+
+def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
+    """Coefficients of the pieces k about new origins (Horner's synthetic division, exact where the origin stays)."""
+    c = np.zeros((len(k), width))
+    c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
+    step = origins - slope.origins[k]
+    if step.any():
+        for i in range(width - 1):
+            for j in range(width - 2, i - 1, -1):
+                c[:, j] += step * c[:, j + 1]
+    return c
