@@ -1,0 +1,57 @@
+"""Plane elastic contact as Cauchy singular integral equations.
+
+One notation for the whole package, its messages and its plots:
+
+    x, y        along the surface; depth into the half-plane, y >= 0
+    h(x), H     gap between the undeformed indenter and the flat surface; its slope h'
+    [x1, x2]    the contact; m its centre, r its half-width; w(x) = sqrt((x - x1)(x2 - x))
+    p(x), q(x)  contact pressure, >= 0; shear traction, q > 0 pushes the half-plane in +x
+    P, Q, M     ∫p dx, ∫q dx, ∫p x dx (about x = 0), per unit length
+    E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant; f Coulomb's friction
+    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction
+
+    (1)   E*/2 h'(x) = 1/π PV∫ p(ξ)/(x - ξ) dξ - β q(x)          in contact
+
+Units are free: any consistent set works, and nothing depends on scale.
+
+>>> import sie
+>>> punch = sie.RoundedFlat(half_flat=1.0, radius=50.0)
+>>> solution = sie.solve(sie.Scene(profile=punch, body=sie.Elastic(young=210e3, poisson=0.3), normal_load=500.0))
+>>> round(float(solution.pressure(0.0)), 3)
+133.553
+"""
+
+from .density import ZERO, Density
+from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .material import RIGID, Elastic
+from .plan import Plan, plan
+from .profile import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, Profile, RoundedFlat, Wedge
+from .scene import Scene
+from .solution import Solution, solve
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "RIGID",
+    "ZERO",
+    "ContactError",
+    "Density",
+    "Elastic",
+    "Flat",
+    "FromFunction",
+    "InequalityError",
+    "LoadError",
+    "Parabola",
+    "Piecewise",
+    "Plan",
+    "Polynomial",
+    "Power",
+    "Profile",
+    "ResolutionError",
+    "RoundedFlat",
+    "Scene",
+    "Solution",
+    "Wedge",
+    "plan",
+    "solve",
+]

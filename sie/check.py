@@ -1,0 +1,195 @@
+"""The certificate: does the answer satisfy the question? Measured on the pressure's values alone, at points that no solver used.
+
+    residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak       the integral equation (1)
+    equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)              the equation is blind to C/w(x): these are not
+    inequalities  p >= 0 in contact, gap >= 0 outside
+
+The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope: nothing of the closed forms is used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import chebyshev
+from .adaptive import refined
+from .density import SlopeDensity
+from .errors import InequalityError
+from .gap import gap
+from .interval import EPS, Interval
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+NODES = 12
+GRADING = 0.25
+LEVELS = 26  # GRADING**LEVELS is rounding
+LARGE = 0.02  # of panels in φ, whose ends are far enough from any node to measure the residual there
+POINTS = 24  # at which the residual is measured, about
+# Tension or overlap below this fraction of the peak is rounding.
+TOLERATED = 1e-11
+FAR = 1e3  # half-widths, how far out the gap is looked at
+SCAN = 40
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
+
+    abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
+    error           the estimated relative error of the pressure: the largest of the measured defects
+    """
+
+    residual: float
+    force: float
+    moment: float
+    lowest_pressure: float
+    lowest_gap: float
+    abscissae: float
+    tol: float
+
+    @property
+    def error(self) -> float:
+        return max(self.residual, self.force, self.moment, 2.0 * EPS)
+
+    @property
+    def ok(self) -> bool:
+        """Every defect within tol, but for what rounding of the abscissae explains."""
+        allowed = self.tol + 4.0 * self.abscissae
+        return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
+
+    def as_dict(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+
+    def __str__(self) -> str:
+        rows = (
+            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
+            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
+            ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("estimated relative error of the pressure", f"{self.error:.1e}"),
+        )
+        verdict = f"certified to {self.tol:.0e}" if self.ok else f"NOT certified to {self.tol:.0e}"
+        return "\n".join([f"{name:<45} {value:>9}" for name, value in rows] + [verdict])
+
+
+def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
+    """Measure an answer; `slope` includes the tilt."""
+    contact = density.contact
+    x, weight, ends = _rule(contact, slope)
+    p = density(x)
+    moved = density(np.nextafter(x, contact.m))
+    peak = float(p.max())
+    P, r = density.resultant, contact.r
+    residual = _residual(density, slope, x, weight, p, ends) / peak
+    lowest_gap, _ = _lowest_gap(density, slope)
+    return Certificate(
+        residual=residual,
+        force=abs(float(weight @ p) - P) / P,
+        moment=abs(float(weight @ (p * (x - contact.m))) + P * contact.m - density.moment) / (P * r),
+        lowest_pressure=min(float(p.min()) / peak, 0.0),
+        lowest_gap=min(lowest_gap, 0.0),
+        abscissae=float(np.abs(weight * (moved - p)).sum()) / P,
+        tol=tol,
+    )
+
+
+def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
+    """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
+    x, _, _ = _rule(density.contact, slope, levels=6)
+    with_breaks = np.concatenate((x, _inner_breaks(density.contact, slope)))
+    p = density(with_breaks)
+    peak = float(p[np.isfinite(p)].max())
+    worst = int(np.argmin(p))
+    if p[worst] < -TOLERATED * peak or peak <= 0.0 or min(density.k1, density.k2) < 0.0:
+        where = float(with_breaks[worst]) if min(density.k1, density.k2) >= 0.0 else density.interval[int(density.k2 < density.k1)]
+        raise InequalityError(
+            f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would need tension at x = {where:.6g} "
+            f"(p = {float(p[worst]):.3g}, peak {peak:.3g}): the profile is not convex there and lifts off; "
+            "several patches of contact are not covered yet, raise the load or smooth the profile",
+            x=where,
+            edges=density.interval,
+        )
+    lowest, where = _lowest_gap(density, slope)
+    if lowest < -TOLERATED:
+        raise InequalityError(
+            f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would overlap the body at x = {where:.6g}: "
+            "the profile touches there too; several patches of contact are not covered yet, lower the load or smooth the profile",
+            x=where,
+            edges=density.interval,
+        )
+
+
+def _inner_breaks(contact: Interval, slope: Slope) -> Array:
+    b = slope.breaks
+    inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
+    return inner
+
+
+def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> tuple[Array, Array, Array]:
+    """Nodes x, weights of ∫ dx, and some ends of large panels, where no node is near.
+
+    Graded towards the declared breaks; the breaks that a function's resolution added are graded already, and are only cut at.
+    """
+    ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, slope)), [np.pi]))
+    resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
+    cuts = [_angles(contact, _inner_breaks(contact, resolution))]
+    graded = GRADING ** np.arange(levels, 0, -1)
+    graded = graded[graded < 0.25]
+    for k, (lo, hi) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+        left = graded if k > 0 else graded[:0]
+        right = 1.0 - graded[::-1] if k < len(ends) - 2 else graded[:0]
+        cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 5), right)))
+    edges = np.unique(np.concatenate([*cuts, [np.pi]]))
+    g, w = chebyshev.gauss_legendre(NODES)
+    length = np.diff(edges)
+    angle = (edges[:-1, None] + length[:, None] * g).ravel()
+    weight = (length[:, None] * w).ravel() * contact.r * np.sin(angle)
+    large = edges[1:-1][np.minimum(length[:-1], length[1:]) > LARGE]
+    return _position(contact, angle), weight, _position(contact, large)
+
+
+def _angles(contact: Interval, x: Array) -> Array:
+    """Angles from the right edge, ascending."""
+    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
+    return psi[::-1]
+
+
+def _position(contact: Interval, angle: Array) -> Array:
+    """x at an angle from the right edge, counted from the nearer one."""
+    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
+    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
+    return np.where(angle < 0.5 * np.pi, right, left)
+
+
+def _residual(density: SlopeDensity, slope: Slope, x: Array, weight: Array, p: Array, at: Array) -> float:
+    """max |1/π PV∫p/(x - t) - E*/2 H| at the points `at`, by subtracting p there: what is left of the integrand is smooth."""
+    contact = density.contact
+    at = at[:: max(len(at) // POINTS, 1)]
+    values = density(at)
+    whole = values * np.log(contact.from_left(at) / contact.from_right(at))
+    integral = ((p - values[:, None]) / (at[:, None] - x)) @ weight + whole
+    return float(np.abs(integral / np.pi - density.half_modulus * slope(at)).max())
+
+
+def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
+    """(lowest gap relative to its largest value within one half-width, where), over a scan of both sides out to FAR half-widths."""
+    contact = density.contact
+    lo, hi = slope.domain
+    r = contact.r
+    distance = r * np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
+    outer = slope.breaks[np.isfinite(slope.breaks)]
+    x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
+    x = x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
+    if not x.size:
+        return 0.0, contact.x2
+    values = gap(x, density, slope)
+    scale = max(float(np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(initial=0.0)), density.resultant / density.half_modulus * 1e-3)
+    worst = int(np.argmin(values))
+    return float(values[worst]) / scale, float(x[worst])

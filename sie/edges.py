@@ -1,0 +1,335 @@
+"""Where contact begins and ends.
+
+With G = E*/2, t = m + r sin φ and the integrals of `panels.Moments`, a contact [x1, x2] of a profile with slope H needs
+
+    K2 = I1 + I0 = ∫H (1 + sin φ) dφ,      K1 = I1 - I0 = -∫H (1 - sin φ) dφ
+    P  = G r K2  if the right edge is smooth,      P = G r K1  if the left edge is smooth          (both: I0 = 0)
+    M  = m P - G r² ∫H cos²φ dφ
+
+and an edge where P exceeds that value is square-root singular: only the end of the indenter can be. Of a convex profile K1 and K2 grow
+with the contact, each edge has an equation of its own, and along the solution the Jacobian is diagonal:
+
+    d(r K2)/dx2 = r (J0 + J1) + I0/2,        d(r K1)/dx1 = -r (J0 - J1) + I0/2,        dM/d(tilt) = -π/2 G r²  at constant P.
+
+So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where the profile touches first (a power law
+there is a straight line, solved in one step); then both edges are polished together, with steps added to unrounded edges.
+
+Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for smooth and sharp edges.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .errors import ContactError, LoadError
+from .interval import EPS, Interval, interval_about, two_sum
+from .panels import Moments, moments
+from .slope import Slope
+from .touch import lowest_points
+
+# The logarithmic search hands over to polishing at this relative error of the load: Newton then squares it.
+ROUGH = 1e-3
+# Polishing stops when a step is below this many units of rounding of the distance it corrects.
+POLISHED = 4.0 * EPS
+MAX_STEPS = 200
+# Steps of the logarithmic search are capped at a factor e^20, so that one bad derivative cannot throw it out of range.
+MAX_LOG_STEP = 20.0
+# While the root is not bracketed and the load is wrong by more than the factor OPEN, a step is at least the factor OPEN_STEP.
+OPEN = 0.1
+OPEN_STEP = 4.0
+
+
+@dataclass(frozen=True)
+class Edges:
+    """An answered question: contact, load, moment about x = 0, tilt; which edges are sharp, and the stresses k1, k2 of these."""
+
+    contact: Interval
+    normal_load: float
+    moment: float
+    tilt: float
+    sharp: tuple[bool, bool]
+    k1: float
+    k2: float
+    I0: float
+    evaluations: int
+
+
+@dataclass
+class Search:
+    """One profile's slope under one modulus; counts how often the moments were evaluated."""
+
+    slope: Slope
+    half_modulus: float
+    axis: float | None = None  # of a symmetric profile: half the unknowns and half the pieces
+    keep_zero: bool = False
+    evaluations: int = field(default=0)
+
+    # -- evaluation ---------------------------------------------------------------------------------------------------
+
+    def moments(self, contact: Interval) -> Moments:
+        self.evaluations += 1
+        if self.axis is None:
+            return moments(self.slope, contact, keep_zero=self.keep_zero)
+        half = moments(self.slope, contact, self.axis, self.keep_zero)
+        return Moments(0.0, 2.0 * half.I1, 0.0, 2.0 * half.J0, 0.0, 0.0)
+
+    def load(self, contact: Interval, k: Moments) -> float:
+        """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G r K2."""
+        return self.half_modulus * contact.r * (k.I1 + abs(k.I0))
+
+    def finished(self, contact: Interval, load: float | None, tilt: float, sharp: tuple[bool, bool]) -> Edges:
+        contact = contact.rounded(self.slope.break_points)
+        G, r = self.half_modulus, contact.r
+        if self.axis is not None and load is not None and not any(sharp):
+            return Edges(contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations)
+        k = self.moments(contact)
+        I0 = k.I0 if any(sharp) else 0.0
+        P = self.load(contact, k) if load is None else load
+        g0 = G * I0 / np.pi
+        C = (P / r - G * k.I1) / np.pi if any(sharp) else 0.0
+        k1, k2 = (max(C + g0, 0.0) if sharp[0] else 0.0), (max(C - g0, 0.0) if sharp[1] else 0.0)
+        return Edges(contact, P, contact.m * P - G * r * r * k.C2, tilt, sharp, k1, k2, I0, self.evaluations)
+
+    # -- where the profile touches first --------------------------------------------------------------------------------
+
+    def touch(self) -> tuple[float, float]:
+        """[z1, z2] where H = 0: the lowest points of the profile."""
+        if self.axis is not None:
+            z = next((lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1])
+            z = max(z, self.axis)
+            return 2.0 * self.axis - z, z
+        return lowest_points(self.slope)
+
+    # -- symmetric contact --------------------------------------------------------------------------------------------
+
+    def symmetric(self, load: float) -> tuple[Interval, tuple[bool, bool]]:
+        axis, z = self.axis, self.touch()[1]
+        assert axis is not None
+        hi = self.slope.domain[1]
+
+        def at(distance: float) -> Interval:
+            r, tail = two_sum(z - axis, distance)
+            return interval_about(axis, r).moved(-tail, tail)
+
+        if math.isfinite(hi):
+            whole = interval_about(axis, hi - axis)
+            if self.load(whole, self.moments(whole)) <= load:
+                return whole, (True, True)
+
+        def excess(distance: float) -> tuple[float, float]:
+            contact = at(distance)
+            k = self.moments(contact)
+            return k.I1 * contact.r, distance * contact.r * k.J0
+
+        target = load / self.half_modulus
+        distance = _logarithmic_root(excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load))
+        contact = at(distance)
+        for _ in range(MAX_STEPS):
+            k = self.moments(contact)
+            step = (target - contact.r * k.I1) / (contact.r * k.J0)
+            contact = contact.moved(-step, step)
+            if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance * 1e-2:
+                break
+        return contact, (False, False)
+
+    def _first_guess(self, z: float, hi: float, target: float) -> float:
+        if math.isfinite(hi):
+            return 0.5 * (hi - z)
+        breaks = self.slope.break_points
+        ahead = bisect_right(breaks, z)
+        if ahead < len(breaks):
+            return breaks[ahead] - z
+        return max(z - breaks[0], abs(z)) if breaks and breaks[0] < z else target
+
+    def _too_much(self, load: float) -> Callable[[float, float], ContactError]:
+        def error(distance: float, reached: float) -> ContactError:
+            P = reached * self.half_modulus
+            return LoadError(
+                f"the load {load:.6g} exceeds what this profile carries in one patch of contact, {P:.6g}: "
+                "beyond it the slope no longer rises enough towards the edge; lower the load or extend the profile",
+                load=P,
+            )
+
+        return error
+
+    # -- general contact ------------------------------------------------------------------------------------------------
+
+    def general(self, load: float) -> tuple[Interval, tuple[bool, bool]]:
+        """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the indenter."""
+        right = self._right_edge(load)
+        if right is None:
+            flipped = replace(self, slope=self.slope.mirrored(), evaluations=0)
+            left = flipped._right_edge(load)
+            self.evaluations += flipped.evaluations
+            if left is None:
+                return Interval(*self.slope.domain), (True, True)
+            return left[0].mirrored(), (False, left[1])
+        contact, left_sharp = right
+        return contact, (left_sharp, False)
+
+    def _right_edge(self, load: float) -> tuple[Interval, bool] | None:
+        """The contact whose right edge is smooth, and whether its left edge is sharp; None if the right edge is sharp too."""
+        z1, z2 = self.touch()
+        lo, hi = self.slope.domain
+        target = load / self.half_modulus
+        if hi <= z2:
+            return None  # lowest at its end: all contact has a sharp edge there
+        left = [1.0]  # the last distance of the left edge from z1, a guess for the next
+
+        def contact_at(distance: float) -> tuple[Interval, Moments]:
+            x2, tail = two_sum(z2, distance)
+            return self._left_edge(z1, x2, tail, left)
+
+        if math.isfinite(hi):
+            left[0] = hi - z1
+            whole, k = self._left_edge(z1, hi, 0.0, left)
+            if whole.r * (k.I1 + k.I0) <= target:
+                return None
+
+        def excess(distance: float) -> tuple[float, float]:
+            contact, k = contact_at(distance)
+            return contact.r * (k.I1 + k.I0), distance * (contact.r * (k.J0 + k.J1) + 0.5 * max(k.I0, 0.0))
+
+        guess = self._first_guess(z2, hi, target)
+        left[0] = guess
+        distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
+        contact, _ = contact_at(distance)
+        left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
+        return self._polished(contact, target, left_sharp), left_sharp
+
+    def _left_edge(self, z1: float, x2: float, tail2: float, left: list[float]) -> tuple[Interval, Moments]:
+        """x1 with I0 = 0 for a given x2, or the end of the indenter where I0 >= 0 even there (a sharp edge)."""
+        lo = self.slope.domain[0]
+        if math.isfinite(lo):
+            contact = Interval(lo, x2, 0.0, tail2)
+            k = self.moments(contact)
+            if k.I0 >= 0.0:
+                return contact, k
+
+        last: list[tuple[Interval, Moments]] = []
+
+        def balance(distance: float) -> tuple[float, float]:
+            x1, tail = two_sum(z1, -distance)
+            contact = Interval(x1, x2, tail, tail2)
+            k = self.moments(contact)
+            last[:] = [(contact, k)]
+            tiny = np.finfo(float).tiny
+            # ∫ of -H left of z1 over ∫ of H right of z2: 1 at the root
+            ratio = (k.positive - k.I0) / max(k.positive, tiny)
+            return max(ratio, tiny), 0.5 * distance * (k.J0 - k.J1) / max(k.positive, tiny)
+
+        def error(distance: float, reached: float) -> ContactError:
+            return LoadError(
+                f"a contact that ends at x2 = {x2:.6g} finds no left edge: the profile does not rise enough to the left; "
+                "prescribe less tilt or load, or a profile that rises on both sides"
+            )
+
+        left[0] = _logarithmic_root(balance, 1.0, min(left[0], z1 - lo), z1 - lo, error, rough=0.1 * ROUGH)
+        return last[0]
+
+    def _polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
+        """Newton for both edges at once; the Jacobian is diagonal at the solution."""
+        previous = np.inf
+        for _ in range(MAX_STEPS):
+            k = self.moments(contact)
+            r = contact.r
+            step2 = (target - r * (k.I1 + k.I0)) / (r * (k.J0 + k.J1) + (0.5 * k.I0 if left_sharp else 0.0))
+            step1 = 0.0 if left_sharp else (r * (k.I1 - k.I0) - target) / (r * (k.J0 - k.J1))
+            contact = contact.moved(step1, step2)
+            size = max(abs(step1), abs(step2)) / contact.r
+            # Rim by rim the steps end at rounding of the moments, not of r: stop when they no longer shrink
+            if size >= 0.25 * previous or size == 0.0:
+                break
+            previous = size
+        return contact
+
+    # -- a prescribed half-width ----------------------------------------------------------------------------------------
+
+    def of_half_width(self, r: float) -> tuple[Interval, tuple[bool, bool]]:
+        lo, hi = self.slope.domain
+        if 2.0 * r > (hi - lo) * (1.0 + 4.0 * EPS):
+            raise LoadError(f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: give at most that, or a normal_load")
+        if self.axis is not None:
+            return interval_about(self.axis, r), (False, False)
+        z1, z2 = self.touch()
+        low, high = max(lo + r, z1 - r), min(hi - r, z2 + r)
+        for m, side in ((high, 1), (low, 0)):
+            # At the end of the indenter one edge is sharp if the other wants to be there
+            if (m == hi - r) if side else (m == lo + r):
+                contact = Interval(hi - 2.0 * r, hi) if side else Interval(lo, lo + 2.0 * r)
+                k = self.moments(contact)
+                if k.I0 == 0.0:
+                    return contact, (False, False)
+                if (k.I0 < 0.0) == bool(side):
+                    return contact, (not side, bool(side))
+        m, tail = 0.5 * (low + high), 0.0
+        previous = np.inf
+        for _ in range(MAX_STEPS):
+            contact = interval_about(m, r).moved(tail, tail)
+            k = self.moments(contact)
+            low, high = (m, high) if k.I0 < 0.0 else (low, m)
+            step = -k.I0 / k.J0 if k.J0 > 0.0 else np.inf
+            if not low <= m + step <= high:
+                step = 0.5 * (low + high) - m
+            m, tail = two_sum(m, step + tail)
+            if abs(step) <= POLISHED * r or (abs(step) >= 0.25 * previous and abs(step) < 1e-12 * r):
+                break
+            previous = abs(step)
+        return interval_about(m, r).moved(tail, tail), (False, False)
+
+
+def _logarithmic_root(
+    function: Callable[[float], tuple[float, float]],
+    target: float,
+    guess: float,
+    limit: float,
+    error: Callable[[float, float], ContactError],
+    rough: float = ROUGH,
+) -> float:
+    """u in (0, limit) with function(u) = target, to `rough`, by Newton in ln u and ln f inside a bracket.
+
+    `function` returns (f, u f'). It may fall again beyond a largest value, which a negative derivative shows; if the target exceeds that
+    value, `error(u, f)` is raised with the best that was found.
+    """
+    low, high = 0.0, limit
+    u, best, best_u = guess, 0.0, guess
+    steps = [np.inf, np.inf]
+    for _ in range(MAX_STEPS):
+        f, slope = function(u)
+        if f > best:
+            best, best_u = f, u
+        rising = f > 0.0 and slope > 0.0
+        step = math.log(target / f) * f / slope if rising else np.inf
+        if rising and abs(math.log(f / target)) <= rough:
+            return min(u * math.exp(step), limit)
+        if f >= target or not rising:
+            high = u
+        else:
+            low = u
+        if math.isfinite(high) and high - low <= 4.0 * EPS * high:
+            break
+        far = not OPEN * target < f < target / OPEN
+        open_ended = low == 0.0 or not math.isfinite(high)
+        new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
+        if rising and far and open_ended:
+            # steep where the contact is small, flat where it is large: without a bracket Newton creeps
+            new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
+        if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
+            new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
+        steps.append(abs(math.log(new / u)))
+        u = new
+    if best >= target * (1.0 - rough):
+        return best_u
+    raise error(best_u, best)
+
+
+def _between(low: float, high: float, u: float) -> float:
+    """A point inside the bracket: the geometric mean, or a large step where one end is still open."""
+    if not math.isfinite(high):
+        return u * 8.0
+    return float(np.sqrt(low) * np.sqrt(high)) if low > 0.0 else high / 8.0

@@ -1,0 +1,82 @@
+"""The gap between the deformed bodies, outside the contact.
+
+    gap'(x) = H(x) - (2/E*) 1/π ∫p(t)/(x - t) dt,        gap = ∫ gap' from the edge
+
+The slope is exact, and relative to itself at a smooth edge, where gap ~ distance^(3/2). Its integral is Gauss-Legendre in θ, x = m + r cosh θ,
+in which the square root disappears; panels are graded by the breaks inside and cut at the breaks outside the contact.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import chebyshev
+from .adaptive import refined
+from .density import SlopeDensity
+from .interval import EPS, Interval
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+NODES = 20
+LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
+
+
+def gap(x: Array, density: SlopeDensity, slope: Slope) -> Array:
+    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the tilt."""
+    out = np.zeros(x.shape)
+    lo, hi = slope.domain
+    out[(x < lo) | (x > hi)] = np.inf
+    contact = density.contact
+    for side, outside in ((1.0, (contact.from_right(x) < 0.0) & (x <= hi)), (-1.0, (contact.from_left(x) < 0.0) & (x >= lo))):
+        if outside.any():
+            out[outside] = _on_one_side(x[outside], side, density, slope)
+    return out
+
+
+def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
+    """gap'(x) at x beside the contact, all on one side."""
+    G, continued = density.gap_excess(x)
+    difference: Array = slope(x) - continued
+    # On the piece that reaches the edge H is its own continuation; what is left there is rounding, and would hide G next to the edge
+    own = np.abs(difference) <= 16.0 * EPS * (np.abs(continued) + density.slope_scale)
+    difference[own] = 0.0
+    return difference + G
+
+
+def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> Array:
+    contact = density.contact
+    distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
+    theta = 2.0 * np.arcsinh(np.sqrt(distance / (2.0 * contact.r)))
+    cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
+    g, w = chebyshev.gauss_legendre(NODES)
+
+    def integral(start: Array, length: Array) -> Array:
+        if not start.size:
+            return np.zeros(0)
+        t = start[:, None] + length[:, None] * g
+        d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
+        at = (contact.x2 + d) + contact.tail2 if side > 0.0 else (contact.x1 - d) + contact.tail1
+        values = side * gap_slope(at.ravel(), density, slope).reshape(t.shape) * (contact.r * np.sinh(t))
+        return length * (values @ w)
+
+    until = np.concatenate(([0.0], np.cumsum(integral(cuts[:-1], np.diff(cuts)))))
+    k = np.clip(np.searchsorted(cuts, theta, side="right") - 1, 0, len(cuts) - 1)
+    return until[k] + integral(cuts[k], theta - cuts[k])
+
+
+def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
+    """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer than LONGEST."""
+    inner = slope.breaks[(contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)]
+    near, far = (contact.from_right(inner), contact.from_left(inner)) if side > 0.0 else (contact.from_left(inner), contact.from_right(inner))
+    first = float(min((2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))).min(initial=LONGEST), LONGEST))
+    graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
+    even = np.arange(LONGEST, theta_max, LONGEST)
+    edge = contact.x2 if side > 0.0 else contact.x1
+    pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS).breaks
+    outside = -(contact.from_right(pieces) if side > 0.0 else contact.from_left(pieces))
+    outside = outside[(outside > 0.0) & np.isfinite(outside)]
+    breaks = 2.0 * np.arcsinh(np.sqrt(outside / (2.0 * contact.r)))
+    cuts = np.unique(np.concatenate(([0.0], graded, even, breaks)))
+    return cuts[(cuts < theta_max) | (cuts == 0.0)]

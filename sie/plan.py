@@ -1,0 +1,130 @@
+"""What will be computed for a scene, what is skipped, and why: known before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+
+from .normal import ECONOMY
+from .scene import Scene
+
+# What can be asked for, and the stages of `Solution` that answer it.
+WANTS: dict[str, tuple[str, ...]] = {
+    "edges": ("normal",),
+    "pressure": ("normal", "pressure"),
+    "gap": ("normal", "pressure"),
+    "check": ("normal", "pressure", "certificate"),
+}
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step: `stage` names the cached property of `Solution` it fills, "" for a decision inside a stage."""
+
+    name: str
+    run: bool
+    reason: str
+    stage: str = ""
+
+
+@dataclass(frozen=True)
+class Plan:
+    steps: tuple[Step, ...]
+
+    @property
+    def stages(self) -> frozenset[str]:
+        """The stages that will run: the footprint of the solution."""
+        return frozenset(s.stage for s in self.steps if s.run and s.stage)
+
+    def __str__(self) -> str:
+        width = max(len(s.name) for s in self.steps)
+        return "\n".join(f"{'run ' if s.run else 'skip'}  {s.name:<{width}}  {s.reason}" for s in self.steps)
+
+
+def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
+    """The steps for what is wanted ("edges", "pressure", "gap", "check"), as a printable Plan. Computes nothing."""
+    stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    profile = scene.profile
+    convex = profile.convex and "convexity" in economy
+    if not convex:
+        stages |= {"pressure", "inequalities"}
+    steps = [_resolution(scene), Step("edges", True, _edges(scene), "normal"), _symmetry(scene, economy), _flat_pieces(scene, economy), _tilt(scene)]
+    if "pressure" in stages:
+        why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
+        steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
+    else:
+        steps.append(Step("pressure", False, "not asked for", "pressure"))
+    if convex:
+        steps.append(Step("inequalities", False, "the profile is convex: p > 0 and gap > 0 follow", "inequalities"))
+    else:
+        why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
+        steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
+    steps += [_coupling(scene), _slip(scene)]
+    asked = "certificate" in stages
+    steps.append(Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate"))
+    return Plan(tuple(steps))
+
+
+def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
+    names = (want,) if isinstance(want, str) else tuple(want)
+    for name in names:
+        if name not in WANTS:
+            raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
+    if not names:
+        raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
+    return names
+
+
+def _resolution(scene: Scene) -> Step:
+    n = len(scene.profile.pieces.functions)
+    if n:
+        return Step("resolution", True, "the slope is a function: Chebyshev pieces on a window fitted to the contact")
+    return Step("resolution", False, "the slope is polynomial on each piece: known exactly")
+
+
+def _edges(scene: Scene) -> str:
+    given = "half-width" if scene.half_width is not None else "load"
+    ends = " or sharp at the ends of the indenter" if any(abs(e) != float("inf") for e in scene.profile.domain) else ""
+    return f"{given} given: smooth edges{ends}, by bracketed Newton with exact derivatives"
+
+
+def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
+    tilted = scene.tilt != 0.0
+    if scene.profile.axis is None or tilted or "symmetry" not in economy:
+        why = "economy is switched off" if "symmetry" not in economy else "the tilt breaks it" if tilted else "the profile has no axis"
+        return Step("symmetry", False, f"{why}: both edges are unknown")
+    extra = " while the tilt is zero" if scene.moment is not None else ""
+    return Step("symmetry", True, f"about x = {scene.profile.axis:g}{extra}: half the unknowns, half the pieces")
+
+
+def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
+    flat = int(scene.profile.pieces.is_zero.sum())
+    if flat and scene.tilt == 0.0 and "zero panels" not in economy:
+        return Step("flat pieces", True, f"{flat} integrated although zero: economy is switched off")
+    if flat and scene.tilt == 0.0:
+        return Step("flat pieces", False, f"{flat} of {len(scene.profile.pieces.origins)} cost nothing: h' = 0 there")
+    return Step("flat pieces", False, "there are none")
+
+
+def _tilt(scene: Scene) -> Step:
+    if scene.moment is None:
+        return Step("tilt", False, f"given: {scene.tilt:g}")
+    return Step("tilt", True, "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form")
+
+
+def _pressure(scene: Scene, economy: Collection[str]) -> str:
+    if "transform" not in economy:
+        return "exact panels: economy is switched off"
+    if not scene.profile.breaks:
+        return "the slope is smooth: one DCT, no linear system"
+    return "exact panels on the pieces in the contact; one DCT if no break falls inside"
+
+
+def _coupling(scene: Scene) -> Step:
+    if scene.beta == 0.0:
+        return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
+    return Step("coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure")
+
+
+def _slip(scene: Scene) -> Step:
+    return Step("slip", False, "f = 0: there is no shear traction" if scene.friction == 0.0 else "Q = 0 and no bulk stress: there is no shear traction")

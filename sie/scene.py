@@ -1,0 +1,109 @@
+"""The question: a profile, two bodies, loads, friction. A value that refuses nonsense when it is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import checks
+from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus
+from .profile import Profile
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """A plane contact problem, per unit length, in any consistent units.
+
+    profile            the gap h(x) between the undeformed indenter and the flat surface
+    body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
+                       or, in their place, modulus = E*, dundurs = β, poisson = ν
+    normal_load        P, force per length;  or half_width, length: exactly one of the two
+    tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
+    friction           Coulomb's coefficient f
+    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body
+
+    Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
+    """
+
+    profile: Profile
+    body: Body | None = None
+    indenter: Body | None = None
+    normal_load: float | None = None
+    half_width: float | None = None
+    tilt: float = 0.0
+    moment: float | None = None
+    friction: float = 0.0
+    tangential_load: float = 0.0
+    bulk_stress: float = 0.0
+    modulus: float | None = None
+    dundurs: float | None = None
+    poisson: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.profile, Profile):
+            raise ValueError(f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another")
+        self._check_bodies()
+        self._check_loads()
+
+    def _check_bodies(self) -> None:
+        if (self.body is None) == (self.modulus is None):
+            what = "neither" if self.body is None else "both"
+            raise ValueError(f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*")
+        if self.body is not None:
+            for name in ("dundurs", "poisson"):
+                if getattr(self, name) is not None:
+                    raise ValueError(f"{name} = {getattr(self, name)!r} follows from body and indenter: leave it out")
+            if self.indenter is None:
+                self._set("indenter", self.body)
+            for name in ("body", "indenter"):
+                if not isinstance(getattr(self, name), (Elastic, Rigid)):
+                    raise ValueError(f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID")
+            if self.body == RIGID == self.indenter:
+                raise ValueError("body and indenter are both rigid: nothing can deform; make one of them sie.Elastic(young, poisson)")
+            return
+        if self.indenter is not None:
+            raise ValueError("indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out")
+        self._set("modulus", checks.positive("modulus", self.modulus))
+        beta = checks.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs)
+        if abs(beta) > 0.5:
+            raise ValueError(f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it")
+        self._set("dundurs", beta)
+        if self.poisson is not None:
+            self._set("poisson", Elastic(1.0, self.poisson).poisson)
+
+    def _check_loads(self) -> None:
+        if (self.normal_load is None) == (self.half_width is None):
+            what = "neither" if self.normal_load is None else "both"
+            raise ValueError(f"{what} of normal_load and half_width given: give exactly one, the other follows")
+        for name in ("normal_load", "half_width"):
+            if getattr(self, name) is not None:
+                self._set(name, checks.positive(name, getattr(self, name)))
+        self._set("tilt", checks.finite("tilt", self.tilt))
+        if self.moment is not None:
+            self._set("moment", checks.finite("moment", self.moment))
+            if self.tilt != 0.0:
+                raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
+        self._set("friction", checks.not_negative("friction", self.friction))
+        for name in ("tangential_load", "bulk_stress"):
+            self._set(name, checks.finite(name, getattr(self, name)))
+        if self.tangential_load != 0.0 and self.friction == 0.0:
+            raise ValueError(f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0")
+
+    def _set(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
+
+    @property
+    def Estar(self) -> float:
+        """E*, in units of stress."""
+        if self.modulus is not None:
+            return self.modulus
+        assert self.body is not None and self.indenter is not None
+        return pair_modulus(self.body, self.indenter)
+
+    @property
+    def beta(self) -> float:
+        """Dundurs' second constant β."""
+        if self.dundurs is not None:
+            return self.dundurs
+        assert self.body is not None and self.indenter is not None
+        return dundurs(self.body, self.indenter)

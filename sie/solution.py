@@ -1,0 +1,176 @@
+"""The answer: a lazy view over the stages. Nothing is computed until it is asked for, and `vars(solution)` shows what was."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import checks
+from .check import Certificate, certificate, verify_inequalities
+from .density import ZERO, Density, SlopeDensity
+from .errors import ContactError
+from .gap import gap
+from .normal import ECONOMY, Normal, normal_contact, pressure
+from .scene import Scene
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+# What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
+_NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment"})
+_STAGES = ("normal", "pressure", "inequalities", "certificate")
+
+
+class Solution:
+    """What a scene answers; see `solve`. Lengths, stresses and loads in the scene's units.
+
+    edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
+    pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
+    gap(x)       the gap between the deformed bodies, 0 in contact
+    check()      Certificate
+    with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
+
+    Asking raises ContactError where the scene has no answer that the package covers.
+    """
+
+    def __init__(self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> None:
+        self.scene = scene
+        self.tol = tol
+        self.economy = frozenset(economy)
+
+    # -- stages -------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def normal(self) -> Normal:
+        """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
+        found = normal_contact(self.scene, self.tol, self.economy)
+        if not (self.scene.profile.convex and "convexity" in self.economy):
+            density = pressure(found, self.scene, self.tol, self.economy)
+            verify_inequalities(density, self.scene.profile.pieces.tilted(found.edges.tilt))
+            self.__dict__["pressure"] = density
+            self.__dict__["inequalities"] = True
+        return found
+
+    @cached_property
+    def pressure(self) -> SlopeDensity:
+        """The contact pressure p(x)."""
+        normal = self.normal
+        verified: SlopeDensity | None = self.__dict__.get("pressure")
+        return verified or pressure(normal, self.scene, self.tol, self.economy)
+
+    @cached_property
+    def certificate(self) -> Certificate:
+        return certificate(self.pressure, self._slope, self.tol)
+
+    @property
+    def _slope(self) -> Slope:
+        return self.scene.profile.pieces.tilted(self.normal.edges.tilt)
+
+    # -- answers ------------------------------------------------------------------------------------------------------
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """(x1, x2), where contact begins and ends."""
+        contact = self.normal.edges.contact
+        return contact.x1, contact.x2
+
+    @property
+    def half_width(self) -> float:
+        return self.normal.edges.contact.r
+
+    @property
+    def centre(self) -> float:
+        return self.normal.edges.contact.m
+
+    @property
+    def normal_load(self) -> float:
+        """P, force per length."""
+        return self.normal.edges.normal_load
+
+    @property
+    def moment(self) -> float:
+        """∫ p x dx about x = 0, force (per length times length)."""
+        return self.normal.edges.moment
+
+    @property
+    def tilt(self) -> float:
+        """What was added to the slope of the profile."""
+        return self.normal.edges.tilt
+
+    @property
+    def sharp(self) -> tuple[bool, bool]:
+        """Which edges are the indenter's own corners, where the pressure is square-root singular."""
+        return self.normal.edges.sharp
+
+    @property
+    def shear(self) -> Density:
+        """The shear traction q(x): zero without friction, tangential load and bulk stress; other states are not covered yet."""
+        return ZERO
+
+    def gap(self, x: ArrayLike) -> Array:
+        """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
+        x = np.asarray(x, dtype=float)
+        return gap(x.ravel(), self.pressure, self._slope).reshape(x.shape)
+
+    def check(self) -> Certificate:
+        """The certificate of this answer, measured on points that were not used to find it."""
+        return self.certificate
+
+    def with_(self, **changes: Any) -> Solution:
+        """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
+        known = {f.name for f in fields(Scene)}
+        for name in changes:
+            if name not in known:
+                raise ValueError(f"{name} is not a field of a scene: change {', '.join(sorted(known))}")
+        for one, other in (("normal_load", "half_width"), ("tilt", "moment")):
+            for given, replaced in ((one, other), (other, one)):
+                if changes.get(given) is not None and replaced not in changes:
+                    changes[replaced] = 0.0 if replaced == "tilt" else None
+        if "modulus" in changes and self.scene.body is not None:
+            changes = {"body": None, "indenter": None} | changes
+        new = Solution(replace(self.scene, **changes), self.tol, self.economy)
+        _refuse_uncovered(new.scene)
+        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in _NORMAL_FIELDS):
+            new.__dict__.update({stage: self.__dict__[stage] for stage in _STAGES if stage in self.__dict__})
+        return new
+
+    def __repr__(self) -> str:
+        return f"Solution({self.scene!r}, tol={self.tol!r})"
+
+
+def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> Solution:
+    """The solution of a scene, as a lazy view: nothing is computed yet.
+
+    tol       relative accuracy asked of functions' resolution and of the certificate
+    economy   what may be skipped; () computes everything, with the same answer
+
+    >>> import sie
+    >>> solution = sie.solve(sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0))
+    >>> round(solution.half_width, 6)
+    0.282095
+    """
+    if not isinstance(scene, Scene):
+        raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
+    tol = checks.positive("tol", tol)
+    unknown = set(economy) - ECONOMY
+    if unknown:
+        raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")
+    _refuse_uncovered(scene)
+    return Solution(scene, tol, economy)
+
+
+def _refuse_uncovered(scene: Scene) -> None:
+    if scene.tangential_load != 0.0 or scene.bulk_stress != 0.0:
+        raise ContactError(
+            f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "
+            "set both to 0 for the normal contact"
+        )
+    if scene.beta != 0.0 and scene.friction != 0.0:
+        raise ContactError(
+            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: set friction = 0 for the frictionless contact"
+        )

@@ -1,0 +1,116 @@
+"""Where a profile touches first: its lowest points.
+
+A profile is lowest where its slope changes from negative to positive; a flat base is an interval of such points, and the end of an indenter
+can be one. Of several minima the deepest is taken: contact starts there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import chebyshev
+from .errors import LoadError
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
+SECTIONS = 32
+HEIGHT_NODES = 16
+
+
+def lowest_points(slope: Slope) -> tuple[float, float]:
+    """[z1, z2] where h is lowest: H <= 0 to the left, H = 0 between, H >= 0 to the right."""
+    ends = _finite_ends(slope)
+    x, H, piece = _samples(slope, ends)
+    sign = np.sign(H)
+    if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
+        raise LoadError("the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt")
+    if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
+        raise LoadError("the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt")
+    candidates = _candidates(slope, ends, x, sign, piece)
+    if len(candidates) == 1:
+        return candidates[0]
+    heights = [_height(slope, ends, z1) for z1, _ in candidates]
+    return candidates[int(np.argmin(heights))]
+
+
+def _finite_ends(slope: Slope) -> Array:
+    """Both ends of every piece (N, 2), infinite ones replaced by points beyond the polynomial's last root (Fujiwara's bound)."""
+    ends = np.stack((slope.breaks[:-1], slope.breaks[1:]), axis=1)
+    for k, j in np.argwhere(~np.isfinite(ends)):
+        c = np.abs(slope.coefficients[k])
+        degree = int(np.flatnonzero(c)[-1]) if c.any() else 0
+        powers = 1.0 / np.arange(degree, 0, -1)
+        bound = 2.0 * float(((c[:degree] / c[degree]) ** powers).max()) if degree else 1.0
+        finite = ends[k][np.isfinite(ends[k])]
+        start = slope.origins[k] if not finite.size else max(finite, key=abs) if degree else finite[0]
+        reach = 2.0 * bound + (1.0 if bound == 0.0 else 0.0) + (abs(start - slope.origins[k]))
+        ends[k, j] = (slope.origins[k] if degree else start) + (-reach if j == 0 else reach)
+    return ends
+
+
+def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Points inside every piece, ascending, the slope there, and the pieces' indices."""
+    s = 0.5 * (1.0 + chebyshev.points(SAMPLES + int(slope.degrees.max())))
+    k = np.arange(len(ends))
+    offset = (ends[:, 1] - ends[:, 0])[:, None] * s
+    H = slope.local(k, ends[:, 0], np.zeros(len(k)), offset)
+    H[slope.is_zero] = 0.0
+    return (ends[:, :1] + offset).ravel(), H.ravel(), np.repeat(k, len(s))
+
+
+def _candidates(slope: Slope, ends: Array, x: Array, sign: Array, piece: NDArray[np.int64]) -> list[tuple[float, float]]:
+    found: list[tuple[float, float]] = []
+    moving = np.flatnonzero(sign)
+    if not moving.size:
+        return [(float(ends[0, 0]), float(ends[-1, 1]))]
+    if sign[moving[0]] > 0:
+        found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
+    for i, j in zip(moving[:-1], moving[1:], strict=True):
+        if sign[i] < 0 < sign[j]:
+            if piece[i] == piece[j]:
+                z = _root(slope, int(piece[i]), x[i], x[j])
+                found.append((z, z))
+            else:
+                found.append((_root(slope, int(piece[i]), x[i], ends[piece[i], 1]), _root(slope, int(piece[j]), ends[piece[j], 0], x[j])))
+    if sign[moving[-1]] < 0:
+        found.append((_root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]), float(ends[-1, 1])))
+    return found
+
+
+def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: int) -> float:
+    return _root(slope, int(piece[i]), ends[piece[i], 0], x[i])
+
+
+def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
+    """Where H of piece k changes sign in [lo, hi]; the end itself when it does not (the change is the jump at the break)."""
+    index = np.array([k])
+    fractions = np.linspace(0.0, 1.0, SECTIONS + 1)
+    origin = float(slope.origins[k])
+    # positions relative to the piece's own origin, so that a root there is met exactly
+    a, b = lo - origin, hi - origin
+    while True:
+        y = a + (b - a) * fractions
+        y[-1] = b
+        H = slope.local(index, np.array([origin]), np.zeros(1), y[None, :])[0]
+        zero = np.flatnonzero(H == 0.0)
+        if zero.size:
+            return origin + float(y[zero[0]])
+        change = np.flatnonzero(np.signbit(H[:-1]) != np.signbit(H[1:]))
+        if not change.size:
+            return origin + float(a if H[0] > 0.0 else b)
+        i = int(change[0])
+        if not (a < y[i] or y[i + 1] < b) or y[i + 1] - y[i] <= 2.0 * np.spacing(max(abs(y[i]), abs(y[i + 1]))):
+            return origin + 0.5 * float(y[i] + y[i + 1])
+        a, b = float(y[i]), float(y[i + 1])
+
+
+def _height(slope: Slope, ends: Array, z: float) -> float:
+    """h(z) - h(left end), by Gauss-Legendre on every piece; only to compare minima."""
+    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + int(slope.degrees.max()))
+    lo, hi = np.minimum(ends[:, 0], z), np.minimum(ends[:, 1], z)
+    length = hi - lo
+    H = slope.local(np.arange(len(lo)), lo, np.zeros(len(lo)), length[:, None] * g)
+    return float((length * (H @ w)).sum())
