@@ -68,7 +68,9 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
 def _refuse_non_finite(x: Array, values: Array) -> None:
     bad = ~np.isfinite(values)
     if bad.any():
-        raise ValueError(f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside its domain; narrow the domain")
+        raise ValueError(
+            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside its domain; narrow the domain"
+        )
 
 
 def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:

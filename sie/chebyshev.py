@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 SHORT = 12  # points up to which a matrix is faster than an FFT
 
+
 @lru_cache(maxsize=64)
 def points(n: int) -> Array:
     """The n Chebyshev points of the first kind, ascending, symmetric to the last bit."""

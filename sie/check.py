@@ -10,7 +10,8 @@ The integrals are composite Gauss-Legendre in the angle φ, graded towards the b
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,12 +83,13 @@ class Certificate:
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
     contact = density.contact
-    x, weight, ends = _rule(contact, slope)
+    rule = _rule(contact, slope)
+    x, weight = rule.x, rule.weight
     p = density(x)
     moved = density(np.nextafter(x, contact.m))
     peak = float(p.max())
     P, r = density.resultant, contact.r
-    residual = _residual(density, slope, x, weight, p, ends) / peak
+    residual = _residual(density, slope, rule, p) / peak
     lowest_gap, _ = _lowest_gap(density, slope)
     return Certificate(
         residual=residual,
@@ -102,8 +104,7 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
-    x, _, _ = _rule(density.contact, slope, levels=6)
-    with_breaks = np.concatenate((x, _inner_breaks(density.contact, slope)))
+    with_breaks = np.concatenate((_rule(density.contact, slope, levels=6).x, _inner_breaks(density.contact, slope)))
     p = density(with_breaks)
     peak = float(p[np.isfinite(p)].max())
     worst = int(np.argmin(p))
@@ -132,27 +133,46 @@ def _inner_breaks(contact: Interval, slope: Slope) -> Array:
     return inner
 
 
-def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> tuple[Array, Array, Array]:
-    """Nodes x, weights of ∫ dx, and some ends of large panels, where no node is near.
+class _Rule(NamedTuple):
+    """Nodes x, weights of ∫ dx, and ends of large panels: points that no node is near."""
 
-    Graded towards the declared breaks; the breaks that a function's resolution added are graded already, and are only cut at.
+    x: Array
+    weight: Array
+    between: Array
+
+
+def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> _Rule:
+    """The composite rule.
+
+    Graded towards the declared breaks, and cut at the breaks that a function's resolution added: these may close in on a kink.
     """
     ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, slope)), [np.pi]))
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     cuts = [_angles(contact, _inner_breaks(contact, resolution))]
     graded = GRADING ** np.arange(levels, 0, -1)
     graded = graded[graded < 0.25]
-    for k, (lo, hi) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for k, (lo, hi) in enumerate(pairwise(ends)):
         left = graded if k > 0 else graded[:0]
         right = 1.0 - graded[::-1] if k < len(ends) - 2 else graded[:0]
         cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 5), right)))
-    edges = np.unique(np.concatenate([*cuts, [np.pi]]))
+    edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
     g, w = chebyshev.gauss_legendre(NODES)
     length = np.diff(edges)
     angle = (edges[:-1, None] + length[:, None] * g).ravel()
     weight = (length[:, None] * w).ravel() * contact.r * np.sin(angle)
     large = edges[1:-1][np.minimum(length[:-1], length[1:]) > LARGE]
-    return _position(contact, angle), weight, _position(contact, large)
+    return _Rule(_position(contact, angle), weight, _position(contact, large))
+
+
+def _balanced(edges: Array) -> Array:
+    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular next door is then far enough."""
+    while True:
+        length = np.diff(edges)
+        shortest = np.minimum(np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf])))
+        long = length > 1.01 * shortest / GRADING
+        if not long.any():
+            return edges
+        edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))
 
 
 def _angles(contact: Interval, x: Array) -> Array:
@@ -168,13 +188,13 @@ def _position(contact: Interval, angle: Array) -> Array:
     return np.where(angle < 0.5 * np.pi, right, left)
 
 
-def _residual(density: SlopeDensity, slope: Slope, x: Array, weight: Array, p: Array, at: Array) -> float:
-    """max |1/π PV∫p/(x - t) - E*/2 H| at the points `at`, by subtracting p there: what is left of the integrand is smooth."""
+def _residual(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> float:
+    """max |1/π PV∫p/(x - t) - E*/2 H| between the nodes, by subtracting p there: what is left of the integrand is smooth."""
     contact = density.contact
-    at = at[:: max(len(at) // POINTS, 1)]
+    at = rule.between[:: max(len(rule.between) // POINTS, 1)]
     values = density(at)
     whole = values * np.log(contact.from_left(at) / contact.from_right(at))
-    integral = ((p - values[:, None]) / (at[:, None] - x)) @ weight + whole
+    integral = ((p - values[:, None]) / (at[:, None] - rule.x)) @ rule.weight + whole
     return float(np.abs(integral / np.pi - density.half_modulus * slope(at)).max())
 
 
@@ -190,6 +210,9 @@ def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
     if not x.size:
         return 0.0, contact.x2
     values = gap(x, density, slope)
-    scale = max(float(np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(initial=0.0)), density.resultant / density.half_modulus * 1e-3)
+    scale = max(
+        float(np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(initial=0.0)),
+        density.resultant / density.half_modulus * 1e-3,
+    )
     worst = int(np.argmin(values))
     return float(values[worst]) / scale, float(x[worst])

@@ -8,7 +8,7 @@ from typing import Any
 
 def real(name: str, value: Any) -> float:
     """`value` as a float; ValueError unless it is one number (nan is not a number)."""
-    if isinstance(value, bool) or isinstance(value, (str, bytes)):
+    if isinstance(value, (bool, str, bytes)):
         raise ValueError(f"{name} = {value!r} is not a number: give a float")
     try:
         number = float(value)

@@ -120,7 +120,7 @@ class SlopeDensity(Density):
     # What a form must know, on 1-d arrays, in units of E*/2 and without the singular ends.
     @abstractmethod
     def _regular(self, x: Array) -> Array:
-        """p inside the contact."""
+        """p inside the contact, x ascending."""
 
     @abstractmethod
     def _beside(self, x: Array) -> tuple[Array, Array]:

@@ -1,6 +1,6 @@
 """Where contact begins and ends.
 
-With G = E*/2, t = m + r sin φ and the integrals of `panels.Moments`, a contact [x1, x2] of a profile with slope H needs
+With G = E*/2, t = m + r sin φ and the integrals of `moments`, a contact [x1, x2] of a profile with slope H needs
 
     K2 = I1 + I0 = ∫H (1 + sin φ) dφ,      K1 = I1 - I0 = -∫H (1 - sin φ) dφ
     P  = G r K2  if the right edge is smooth,      P = G r K1  if the left edge is smooth          (both: I0 = 0)
@@ -28,7 +28,7 @@ import numpy as np
 
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval, interval_about, two_sum
-from .panels import Moments, moments
+from .moments import Moments, moments
 from .slope import Slope
 from .touch import lowest_points
 
@@ -75,7 +75,7 @@ class Search:
         self.evaluations += 1
         if self.axis is None:
             return moments(self.slope, contact, keep_zero=self.keep_zero)
-        half = moments(self.slope, contact, self.axis, self.keep_zero)
+        half = moments(self.slope, contact, self.axis, self.keep_zero)  # the symmetry makes the others zero
         return Moments(0.0, 2.0 * half.I1, 0.0, 2.0 * half.J0, 0.0, 0.0)
 
     def load(self, contact: Interval, k: Moments) -> float:
@@ -253,7 +253,9 @@ class Search:
     def of_half_width(self, r: float) -> tuple[Interval, tuple[bool, bool]]:
         lo, hi = self.slope.domain
         if 2.0 * r > (hi - lo) * (1.0 + 4.0 * EPS):
-            raise LoadError(f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: give at most that, or a normal_load")
+            raise LoadError(
+                f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: give at most that, or a normal_load"
+            )
         if self.axis is not None:
             return interval_about(self.axis, r), (False, False)
         z1, z2 = self.touch()
@@ -289,6 +291,7 @@ def _logarithmic_root(
     guess: float,
     limit: float,
     error: Callable[[float, float], ContactError],
+    *,
     rough: float = ROUGH,
 ) -> float:
     """u in (0, limit) with function(u) = target, to `rough`, by Newton in ln u and ln f inside a bracket.

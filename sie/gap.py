@@ -2,8 +2,8 @@
 
     gap'(x) = H(x) - (2/E*) 1/π ∫p(t)/(x - t) dt,        gap = ∫ gap' from the edge
 
-The slope is exact, and relative to itself at a smooth edge, where gap ~ distance^(3/2). Its integral is Gauss-Legendre in θ, x = m + r cosh θ,
-in which the square root disappears; panels are graded by the breaks inside and cut at the breaks outside the contact.
+The slope is exact, and relative to itself at a smooth edge, where gap ~ distance^(3/2). Its integral is Gauss-Legendre in θ,
+x = m + r cosh θ, in which the square root disappears; panels are graded by the breaks inside and cut at those outside the contact.
 """
 
 from __future__ import annotations
@@ -69,7 +69,9 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> 
 def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
     """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer than LONGEST."""
     inner = slope.breaks[(contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)]
-    near, far = (contact.from_right(inner), contact.from_left(inner)) if side > 0.0 else (contact.from_left(inner), contact.from_right(inner))
+    near, far = (
+        (contact.from_right(inner), contact.from_left(inner)) if side > 0.0 else (contact.from_left(inner), contact.from_right(inner))
+    )
     first = float(min((2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))).min(initial=LONGEST), LONGEST))
     graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
     even = np.arange(LONGEST, theta_max, LONGEST)

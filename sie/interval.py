@@ -80,7 +80,7 @@ class Interval:
             nearest = min((abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1]), default=math.inf)
             if abs(tail) > TAIL_MATTERS * nearest:
                 tails[i] = tail
-        return Interval(self.x1, self.x2, tails[0], tails[1])
+        return Interval(float(self.x1), float(self.x2), float(tails[0]), float(tails[1]))
 
     def __contains__(self, x: float) -> bool:
         return bool(self.from_left(x) >= 0.0 and self.from_right(x) >= 0.0)

@@ -17,8 +17,9 @@ from .adaptive import refined
 from .density import PanelDensity, SlopeDensity, TransformDensity
 from .edges import Edges, Search
 from .errors import ContactError, LoadError
+from .geometry import Geometry
 from .interval import EPS, Interval
-from .panels import CHOP, Geometry, Panels
+from .panels import CHOP, Panels
 from .profile import Profile
 from .scene import Scene
 from .slope import Slope
@@ -74,7 +75,9 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
             lo, hi = fitted
         else:
             return found
-    raise LoadError(f"no window of the slope holds the contact after {MAX_WINDOWS} trials, the last was [{lo:.6g}, {hi:.6g}]: give a domain")
+    raise LoadError(
+        f"no window of the slope holds the contact after {MAX_WINDOWS} trials, the last was [{lo:.6g}, {hi:.6g}]: give a domain"
+    )
 
 
 def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:
@@ -108,7 +111,9 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
         if scene.half_width is not None:
             contact, sharp = search.of_half_width(scene.half_width)
             if all(sharp):
-                raise LoadError(f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any load: give normal_load instead of half_width")
+                raise LoadError(
+                    f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any load: give normal_load instead of half_width"
+                )
             return search.finished(contact, None, tilt, sharp)
         assert scene.normal_load is not None
         contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
@@ -121,7 +126,7 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
 
 
 def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float, at_fixed_width: Slope | None) -> Edges:
-    """The tilt whose pressure has the moment, by Newton inside a bracket; M falls as the tilt grows, dM/d(tilt) = -π/2 G r² at constant P."""
+    """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows, dM/d(tilt) = -π/2 G r² at constant P."""
     low, high, tilt = -np.inf, np.inf, 0.0
     best: Edges | None = None
     step = 0.0
@@ -159,8 +164,8 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float,
     reach = best.normal_load * (best.contact.r + abs(best.contact.m))
     if abs(best.moment - moment) > 1e-9 * reach:
         raise LoadError(
-            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is {best.moment:.6g} at a tilt of {best.tilt:.6g}; "
-            "lower the moment or raise the load",
+            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is {best.moment:.6g} "
+            f"at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
             moment=best.moment,
             tilt=best.tilt,
         )

@@ -1,4 +1,4 @@
-"""The pieces of a slope that lie in the contact, and the exact integrals over them.
+"""The exact integrals over the pieces of a slope: V(z), of which pressure, potential and gap are values.
 
 Everything at β = 0 is one integral, here with the root in front so that it stays finite at the edges:
 
@@ -17,15 +17,15 @@ where one hands over to the other, from the piece's own coefficients.
 from __future__ import annotations
 
 import math
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .interval import EPS, Interval
-from .slope import Slope
+from .geometry import Geometry, quadrature_order
+from .interval import EPS
 
 Array = NDArray[np.float64]
 
@@ -33,211 +33,11 @@ Array = NDArray[np.float64]
 GROWTH = 64.0
 # A break carries a true jump of h' (and a logarithmic infinity of p) when the jump exceeds rounding by this factor.
 JUMP = 256.0 * EPS
-# Beyond this many half-widths from the centre the far field takes out the moment that vanishes.
-FAR_FIELD = 1.5  # widths
+# Beyond this many widths from the centre the far field takes out the moment that vanishes.
+FAR_FIELD = 1.5
 FAR_FIELD_NODES = 22  # and half the degree: reach rounding there
-TINY = float(np.finfo(float).tiny)
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
-
-
-class Moments(NamedTuple):
-    """Integrals over the contact in the angle φ: I0 = ∫H, I1 = ∫H sin φ, C2 = ∫H cos²φ, J0 = ∫H', J1 = ∫H' sin φ."""
-
-    I0: float
-    I1: float
-    C2: float
-    J0: float
-    J1: float
-    positive: float  # the part of I0 from H > 0; I0 - positive is that from H < 0
-
-
-def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
-    """The integrals that fix the edges; with `lower` (the axis of a symmetric contact) of the half right of it, and only I1 and J0."""
-    if slope.few and not keep_zero:
-        return _moments_of_few(slope, contact, lower)
-    return Geometry(slope, contact, lower, keep_zero).moments()
-
-
-def _moments_of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
-    """`Geometry.moments` in plain floats: for a few pieces NumPy's call overhead would be most of the cost of a solve."""
-    I0 = I1 = C2 = J0 = J1 = positive = 0.0
-    sin, cos, sqrt, atan2 = math.sin, math.cos, math.sqrt, math.atan2
-    width = 2.0 * contact.r
-    for lo, hi, origin, c in slope.rows:
-        start, tail = lo, 0.0
-        if lower is not None and lo < lower:
-            start = lower
-        lo_left, lo_right = contact.from_left(start), contact.from_right(start)
-        hi_left, hi_right = contact.from_left(hi), contact.from_right(hi)
-        if hi_left <= 0.0 or lo_right <= 0.0 or hi <= start:
-            continue
-        cut_left, cut_right = lo_left <= 0.0, hi_right <= 0.0
-        if cut_left:
-            start, tail, lo_left, lo_right = contact.x1, contact.tail1, 0.0, width
-        if cut_right:
-            hi_left, hi_right = width, 0.0
-        length = hi_left if cut_left else lo_right if cut_right else hi - start
-        a, b, c_, d = sqrt(lo_left / width), sqrt(lo_right / width), sqrt(hi_left / width), sqrt(hi_right / width)
-        angle = 2.0 * atan2(length / (width * (b * c_ + a * d)), a * c_ + b * d)
-        sign = 1.0 if lo_left + hi_left < width else -1.0
-        from_edge = 2.0 * (atan2(a, b) if sign > 0.0 else atan2(b, a))
-        base = (start - origin) + tail
-        for g, w in _short_rule(slope.degree, angle > 0.5 * math.pi + 0.01):
-            half_step = 0.5 * angle * g
-            middle = from_edge + sign * half_step
-            y = base + width * sin(half_step) * sin(middle)
-            H, dH = c[0], 0.0
-            for v in c[1:]:
-                dH = dH * y + H
-                H = H * y + v
-            at = middle + sign * half_step
-            cos_phi, sin_phi = sin(at), -sign * cos(at)
-            wH, wdH = angle * w * H, angle * w * dH
-            I0 += wH
-            I1 += wH * sin_phi
-            C2 += wH * cos_phi * cos_phi
-            J0 += wdH
-            J1 += wdH * sin_phi
-            if wH > 0.0:
-                positive += wH
-        if not slope.continuous:
-            for y, cut, left, right, leaves in ((base, cut_left, a, b, 1.0), (base + length, cut_right, c_, d, -1.0)):
-                if not cut:
-                    H = c[0]
-                    for v in c[1:]:
-                        H = H * y + v
-                    jump = leaves * H / (width * left * right)
-                    J0 += jump
-                    J1 += jump * (left * left - right * right)
-    return Moments(I0, I1, C2, J0, J1, positive)
-
-
-@lru_cache(maxsize=16)
-def _short_rule(degree: int, wide: bool) -> tuple[tuple[float, float], ...]:
-    """Gauss-Legendre as pairs of floats; a quarter of the circle needs fewer nodes than a half."""
-    g, w = chebyshev.gauss_legendre(quadrature_order(degree) if wide else 9 + degree)
-    return tuple(zip(g.tolist(), w.tolist(), strict=True))
-
-
-class Geometry:
-    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to relative accuracy.
-
-    Only the first and the last piece can be cut by an edge. Building one costs a few microseconds: the search for the edges builds many.
-    """
-
-    def __init__(self, slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> None:
-        """`lower` cuts off all that is left of it (the axis of a symmetric contact)."""
-        b = slope.breaks
-        floor, floor_tail = (contact.x1, contact.tail1) if lower is None else (lower, 0.0)
-        first = max(int(b.searchsorted(floor, side="left" if floor_tail < 0.0 else "right")) - 1, 0)
-        last = min(int(b.searchsorted(contact.x2, side="right" if contact.tail2 > 0.0 else "left")), len(b) - 1)
-        k = np.arange(first, last)
-        if not keep_zero and slope.has_zero:
-            k = k[~slope.is_zero[k]]
-        self.slope, self.contact, self.k = slope, contact, k
-        n = len(k)
-        self.ends = ends = np.empty((2, n))  # of the pieces, lo and hi ...
-        ends[0], ends[1] = b[k], b[k + 1]
-        self.tails = np.zeros((2, n))  # ... and what their doubles miss
-        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's width: cos² and sin² of half the angle
-        # from the right edge. Only the outer two ends can be cut by an edge or by `lower`.
-        width = 2.0 * contact.r
-        distance = np.empty((2, 2, n))
-        distance[0], distance[1] = contact.from_left(ends), contact.from_right(ends)
-        length = ends[1] - ends[0]
-        self.cut_left = self.cut_right = False
-        if n and k[0] == first and ends[0, 0] <= floor:
-            self.cut_left = lower is None
-            ends[0, 0], self.tails[0, 0] = floor, floor_tail
-            distance[:, 0, 0] = (0.0, width) if lower is None else (contact.from_left(lower), contact.from_right(lower))
-            length[0] = distance[0, 1, 0] - distance[0, 0, 0]
-        if n and k[-1] == last - 1 and ends[1, -1] >= contact.x2:
-            self.cut_right = True
-            ends[1, -1], self.tails[1, -1] = contact.x2, contact.tail2
-            distance[:, 1, -1] = (width, 0.0)
-            length[-1] = distance[1, 0, -1]
-        self.length = length
-        distance /= width
-        self.left, self.right = distance
-        self.root_left, self.root_right = np.sqrt(distance)
-        self._all_right = lower is not None
-
-    @cached_property
-    def angles(self) -> tuple[Array, Array | float, Array]:
-        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular length), each (K, 1)."""
-        (a, c), (b, d) = self.root_left, self.root_right
-        angle = 2.0 * np.arctan2(self.length / (2.0 * self.contact.r * (b * c + a * d)), a * c + b * d)
-        if self._all_right:
-            return 2.0 * np.arctan2(b, a)[:, None], -1.0, angle[:, None]
-        left = self.left[0] + self.left[1] < 1.0
-        from_edge = np.arctan2(np.where(left, a, b), np.where(left, b, a))
-        return 2.0 * from_edge[:, None], np.where(left, 1.0, -1.0)[:, None], angle[:, None]
-
-    def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
-        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights, all (K, n), and signs."""
-        g, w = chebyshev.gauss_legendre(n)
-        from_edge, sign, length = self.angles
-        half_step = (0.5 * length) * g
-        middle = from_edge + sign * half_step
-        # t - lo = r (sin φ - sin φ_lo) as a product: no cancellation, however thin the piece
-        offset = (2.0 * self.contact.r) * np.sin(half_step) * np.sin(middle)
-        return offset, middle + sign * half_step, length * w, sign
-
-    def slopes(self, offset: Array) -> Array:
-        """H at lo + offset, (K, n)."""
-        return self.slope.local(self.k, self.ends[0], self.tails[0], offset)
-
-    def moments(self) -> Moments:
-        """The integrals over the pieces, with J0 and J1 exact too: jumps of H at breaks included."""
-        if not len(self.k):
-            return Moments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        slope = self.slope
-        offset, angle, weight, sign = self.nodes(quadrature_order(slope.degree))
-        H = self.slopes(offset)
-        WH = weight * H
-        cos_phi, sin_phi = np.sin(angle), -sign * np.cos(angle)
-        dJ = weight * slope.local_derivative(self.k, self.ends[0], self.tails[0], offset)
-        if slope.functions:
-            dJ = dJ + self._derivative(H - slope.without_functions.local(self.k, self.ends[0], self.tails[0], offset)) / (self.contact.r * cos_phi)
-        J0, J1 = _sum(dJ), float(np.vdot(dJ, sin_phi))
-        if not slope.continuous:
-            jump = self._jumps(H)
-            J0, J1 = J0 + _sum(jump), J1 + float(np.vdot(jump, self.left - self.right))
-        I1 = float(np.vdot(WH, sin_phi))
-        if self._all_right:  # half of a symmetric contact: what the symmetry makes zero is not needed
-            return Moments(0.0, I1, 0.0, J0, 0.0, 0.0)
-        return Moments(_sum(WH), I1, float(np.vdot(WH, cos_phi * cos_phi)), J0, J1, _sum(np.maximum(WH, 0.0)))
-
-    def _derivative(self, values: Array) -> Array:
-        """Weights times dH/dφ of a function, from the quadrature's own interpolant."""
-        n = values.shape[1]
-        out: Array = chebyshev.gauss_legendre(n)[1] * (values @ chebyshev.differentiation(n)[0].T)
-        return out
-
-    def _jumps(self, H: Array) -> Array:
-        """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
-        jump: Array = chebyshev.differentiation(H.shape[1])[1] @ H.T
-        jump[1] *= -1.0
-        if self.cut_left:
-            jump[0, 0] = 0.0
-        if self.cut_right:
-            jump[1, -1] = 0.0
-        return jump / (2.0 * self.contact.r * np.maximum(self.root_left * self.root_right, TINY))
-
-    def chebyshev_slope(self, n: int) -> Array:
-        """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
-        offset = (0.5 * self.length)[:, None] * (1.0 + chebyshev.points(n))
-        return chebyshev.transform(self.slopes(offset))
-
-
-def _sum(a: Array) -> float:
-    return float(np.add.reduce(a, axis=None))
-
-
-def quadrature_order(degree: int) -> int:
-    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact, measured to reach rounding."""
-    return 13 + int(1.15 * degree)
 
 
 class Panels:
@@ -301,12 +101,14 @@ class Panels:
         return serves
 
     @cached_property
-    def _far_rule(self) -> tuple[Array, Array]:
-        """Quadrature that serves beyond the reach: offsets from lo, and weights times H, (K, n)."""
-        s = float(self._reach_in_s.min(initial=GROWTH))
-        s = 2.0 * math.sqrt(0.5 * (s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
-        decay = math.log(s + math.sqrt(s * s - 1.0))
-        return self._rule(math.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2)
+    def _far_rules(self) -> list[tuple[Array, Array]]:
+        """Quadrature that serves beyond each piece's reach: (offsets from lo, weights times H), of as many nodes as the reach asks for."""
+        s = 2.0 * np.sqrt(0.5 * (self._reach_in_s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
+        decay = np.log(s + np.sqrt(s * s - 1.0))
+        needed = np.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2
+        orders = (4 * np.ceil(needed / 4)).astype(int).tolist()
+        rules = {n: self._rule(n) for n in set(orders)}
+        return [(rules[n][0][k], rules[n][1][k]) for k, n in enumerate(orders)]
 
     def _rule(self, n: int) -> tuple[Array, Array]:
         offset, _, weight, _ = self.geometry.nodes(n)
@@ -431,8 +233,14 @@ class Panels:
         return chebyshev.evaluate(self.series[k, : self.lengths[k]], self._s(k, z))
 
     def _s(self, k: int, z: Any) -> Any:
-        g = self.geometry
-        return ((z - g.ends[0, k]) - g.tails[0, k]) / self.half_length[k] - 1.0
+        lo, tail, half_length = self._places[k]
+        offset = (z - lo) - tail if tail else z - lo
+        return offset / half_length - 1.0
+
+    @cached_property
+    def _places(self) -> list[tuple[float, float, float]]:
+        """(lo, its tail, half-length) of every piece as plain floats."""
+        return list(zip(self.geometry.ends[0].tolist(), self.geometry.tails[0].tolist(), self.half_length.tolist(), strict=True))
 
     def _regions(self, z: Any, serves: list[bool] | None = None) -> list[tuple[Any, tuple[Any, ...]]]:
         """For every piece: the indices of z within reach of its closed form, and those beyond (slices of the ascending real ones)."""
@@ -456,6 +264,7 @@ class Panels:
         g = self.geometry
         V = np.zeros_like(root)
         last = len(regions) - 1
+        ends, root_left, root_right = g.ends.tolist(), g.root_left.tolist(), g.root_right.tolist()
         for k, (near, beyond) in enumerate(regions):
             for far in beyond:
                 if z[far].size:
@@ -464,15 +273,15 @@ class Panels:
                 continue
             J0: Any = 0.0
             if not (g.cut_right and k == last):
-                J0 = log_of(g.ends[1, k], g.root_left[1, k], g.root_right[1, k], near)
+                J0 = log_of(ends[1][k], root_left[1][k], root_right[1][k], near)
             if not (g.cut_left and k == 0):
-                J0 = J0 - log_of(g.ends[0, k], g.root_left[0, k], g.root_right[0, k], near)
+                J0 = J0 - log_of(ends[0][k], root_left[0][k], root_right[0][k], near)
             s, n = self._s(k, z[near]), self.lengths[k]
             H = chebyshev.evaluate(self.series[k, :n], s)
             V[near] += H * J0 + root[near] * chebyshev.evaluate_second_kind(self._continuation[k, : n - 1], s)
         return V
 
     def _quadrature(self, k: int, z: Any) -> Any:
-        g = self.geometry
-        offset, WH = self._far_rule
-        return WH[k] @ np.reciprocal(offset[k][:, None] - ((z - g.ends[0, k]) - g.tails[0, k]))
+        offset, WH = self._far_rules[k]
+        lo, tail, _ = self._places[k]
+        return WH @ np.reciprocal(offset[:, None] - ((z - lo) - tail))

@@ -48,7 +48,13 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     convex = profile.convex and "convexity" in economy
     if not convex:
         stages |= {"pressure", "inequalities"}
-    steps = [_resolution(scene), Step("edges", True, _edges(scene), "normal"), _symmetry(scene, economy), _flat_pieces(scene, economy), _tilt(scene)]
+    steps = [
+        _resolution(scene),
+        Step("edges", True, _edges(scene), "normal"),
+        _symmetry(scene, economy),
+        _flat_pieces(scene, economy),
+        _tilt(scene),
+    ]
     if "pressure" in stages:
         why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
@@ -61,7 +67,9 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
     steps += [_coupling(scene), _slip(scene)]
     asked = "certificate" in stages
-    steps.append(Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate"))
+    steps.append(
+        Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate")
+    )
     return Plan(tuple(steps))
 
 
@@ -127,4 +135,8 @@ def _coupling(scene: Scene) -> Step:
 
 
 def _slip(scene: Scene) -> Step:
-    return Step("slip", False, "f = 0: there is no shear traction" if scene.friction == 0.0 else "Q = 0 and no bulk stress: there is no shear traction")
+    return Step(
+        "slip",
+        False,
+        "f = 0: there is no shear traction" if scene.friction == 0.0 else "Q = 0 and no bulk stress: there is no shear traction",
+    )

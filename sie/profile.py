@@ -1,7 +1,7 @@
 """Indenters as values: equal, hashable, picklable, printed as the code that rebuilds them.
 
-A profile is the gap h(x) between the undeformed indenter and the flat surface, growing away from the contact. Each kind states its height and
-its slope H = h' piece by piece (`slope.Slope`); the numerics see only the latter.
+A profile is the gap h(x) between the undeformed indenter and the flat surface, growing away from the contact. Each kind states its height
+and its slope H = h' piece by piece (`slope.Slope`); the numerics see only the latter.
 
     Parabola  h = x²/(2R)          RoundedFlat  h = max(|x| - a, 0)²/(2R)      Flat  h = 0 for |x| <= a, nothing beyond
     Wedge     h = slope |x|        Power        h = coefficient |x|^exponent   Polynomial  h = Σ c_k x^k
@@ -15,12 +15,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
+from .adaptive import integral
 from .expression import Expression
 from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
 
@@ -66,7 +68,7 @@ class Profile(ABC):
 
     @property
     def parity(self) -> Parity:
-        """"even" if h(-x) = h(x)."""
+        """ "even" if h(-x) = h(x)."""
         return "even" if self.axis == 0.0 else "none"
 
     def tilted(self, slope: float) -> Profile:
@@ -270,8 +272,10 @@ class Piecewise(Profile):
         if len(ends) == len(rows) - 1:
             ends = (-INF, *ends, INF)
         if not rows or len(ends) != len(rows) + 1:
-            raise ValueError(f"{len(breaks)} breaks do not bound {len(rows)} pieces: give one break more than pieces, or one less (the inner ones)")
-        for left, right in zip(ends[:-1], ends[1:], strict=True):
+            raise ValueError(
+                f"{len(breaks)} breaks do not bound {len(rows)} pieces: give one break more than pieces, or one less (the inner ones)"
+            )
+        for left, right in pairwise(ends):
             if not left < right:
                 raise ValueError(f"breaks {left:g}, {right:g} do not ascend: sort them and drop duplicates")
         if any(np.isinf(b) for b in ends[1:-1]):
@@ -303,7 +307,7 @@ class Piecewise(Profile):
         return np.where((x < self.ends[0]) | (x > self.ends[-1]), INF, h)
 
     @cached_property
-    def axis(self) -> float | None:  # type: ignore[override]
+    def axis(self) -> float | None:
         mirrored = self.pieces.mirrored()
         same = np.array_equal(mirrored.breaks, self.pieces.breaks) and all(
             row == tuple(-c * (-1.0) ** j for j, c in enumerate(other))
@@ -312,7 +316,7 @@ class Piecewise(Profile):
         return 0.0 if same else None
 
     @cached_property
-    def convex(self) -> bool:  # type: ignore[override]
+    def convex(self) -> bool:
         """Known only for slopes that are linear on each piece; others are checked by their answer."""
         s = self.pieces
         if s.coefficients.shape[1] > 2:
@@ -385,16 +389,25 @@ class FromFunction(Profile):
         self._try_out()
 
     def _try_out(self) -> None:
-        """One call at a few points: shape, finiteness, and the parity if it was declared."""
-        lo, hi = max(self.ends[0], -1.0), min(self.ends[1], 1.0)
-        lo, hi = (self.ends if not lo < hi else (lo, hi)) if all(map(np.isfinite, self.ends)) else ((lo, hi) if lo < hi else (min(hi, lo), max(hi, lo)))
+        """A call at a few points: shape, finiteness, and the parity if it was declared."""
+        lo, hi = self.ends
+        if not np.isfinite(lo + hi):
+            lo, hi = (lo, lo + 1.0) if np.isfinite(lo) else (hi - 1.0, hi) if np.isfinite(hi) else (-1.0, 1.0)
         x = lo + (hi - lo) * np.array([0.13, 0.29, 0.5, 0.61, 0.83])
-        values = np.asarray(self.function(x))
+        with np.errstate(all="ignore"):
+            values = np.asarray(self.function(x))
         if values.shape not in (x.shape, ()) or values.dtype.kind not in "fiu":
-            raise ValueError(f"slope returned shape {values.shape}, type {values.dtype} for an array of shape {x.shape}: it must work on arrays of floats")
+            raise ValueError(
+                f"slope returned shape {values.shape}, type {values.dtype} for floats of shape {x.shape}: it must be vectorised"
+            )
+        if not np.isfinite(values).all():
+            bad = int(np.argmin(np.isfinite(np.broadcast_to(values, x.shape))))
+            raise ValueError(f"slope is {np.ravel(values)[bad % values.size]} at x = {x[bad]:.6g}: it must be finite, narrow the domain")
         if self.symmetric:
             if self.ends[0] != -self.ends[1] or set(self.declared) != {-b for b in self.declared}:
-                raise ValueError(f"parity 'even' with domain {self.ends} and breaks {self.declared}: make them symmetric about 0 or drop the parity")
+                raise ValueError(
+                    f"parity 'even' with domain {self.ends} and breaks {self.declared}: make them symmetric about 0 or drop the parity"
+                )
             if not np.allclose(np.asarray(self.function(-x)), -values, rtol=1e-12, atol=1e-12 * float(np.abs(values).max())):
                 raise ValueError("parity 'even' but slope(-x) is not -slope(x): drop the parity")
 
@@ -411,8 +424,6 @@ class FromFunction(Profile):
         return Slope(flat.breaks, flat.origins, flat.coefficients, flat.degrees, (FunctionTerm(self.function),))
 
     def height(self, x: ArrayLike) -> Array:
-        from .adaptive import integral  # only a picture or a gap asks for heights
-
         zero = min(max(0.0, self.ends[0]), self.ends[1])
         return integral(self.pieces, zero, np.asarray(x, dtype=float))
 

@@ -87,7 +87,9 @@ class Scene:
         for name in ("tangential_load", "bulk_stress"):
             self._set(name, checks.finite(name, getattr(self, name)))
         if self.tangential_load != 0.0 and self.friction == 0.0:
-            raise ValueError(f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0")
+            raise ValueError(
+                f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"
+            )
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)

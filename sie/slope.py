@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,15 @@ Vectorised = Callable[[Array], Any]
 FEW, LOW = 6, 4
 
 
+class Row(NamedTuple):
+    """One piece of a slope as plain floats; coefficients high order first."""
+
+    lo: float
+    hi: float
+    origin: float
+    coefficients: tuple[float, ...]
+
+
 @dataclass(frozen=True)
 class FunctionTerm:
     """t -> sign f(sign (t - shift)): a function of the user's, moved and mirrored with its profile."""
@@ -36,7 +45,8 @@ class FunctionTerm:
 
     def __call__(self, offset: Array) -> Array:
         """Values at t, given offset = t - shift."""
-        values: Array = np.asarray(self.function(self.sign * offset), dtype=float)
+        with np.errstate(all="ignore"):  # who resolves the function refuses what is not finite, with the place
+            values: Array = np.asarray(self.function(self.sign * offset), dtype=float)
         if values.shape != offset.shape:
             values = np.broadcast_to(values, offset.shape)
         return self.sign * values
@@ -107,8 +117,9 @@ class Slope:
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
         """Which pieces are flat: they cost nothing."""
-        zero: NDArray[np.bool_] = ~self.coefficients.any(axis=1)
-        return zero if not self.functions else np.zeros_like(zero)
+        if self.functions:
+            return np.zeros(len(self.origins), dtype=bool)
+        return np.logical_not(self.coefficients.any(axis=1))
 
     @cached_property
     def has_zero(self) -> bool:
@@ -120,11 +131,11 @@ class Slope:
         return int(self.degrees.max())
 
     @cached_property
-    def rows(self) -> tuple[tuple[float, float, float, tuple[float, ...]], ...]:
-        """(lo, hi, origin, coefficients high order first) of the pieces that are not flat, as plain floats."""
+    def rows(self) -> tuple[Row, ...]:
+        """The pieces that are not flat, as plain floats."""
         ends = self.breaks.tolist()
         rows = zip(ends[:-1], ends[1:], self.origins.tolist(), self.coefficients[:, ::-1].tolist(), self.is_zero.tolist(), strict=True)
-        return tuple((lo, hi, origin, tuple(c)) for lo, hi, origin, c, zero in rows if not zero)
+        return tuple(Row(lo, hi, origin, tuple(c)) for lo, hi, origin, c, zero in rows if not zero)
 
     @cached_property
     def break_points(self) -> tuple[float, ...]:
@@ -183,7 +194,8 @@ class Slope:
         breaks = merged[(merged >= lo) & (merged <= hi)]
         mine, theirs = (np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other))
         origins = np.where(
-            other.is_zero[theirs] | (~self.is_zero[mine] & (_distance(self.origins[mine], breaks) <= _distance(other.origins[theirs], breaks))),
+            other.is_zero[theirs]
+            | (~self.is_zero[mine] & (_distance(self.origins[mine], breaks) <= _distance(other.origins[theirs], breaks))),
             self.origins[mine],
             other.origins[theirs],
         )

@@ -172,5 +172,6 @@ def _refuse_uncovered(scene: Scene) -> None:
         )
     if scene.beta != 0.0 and scene.friction != 0.0:
         raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: set friction = 0 for the frictionless contact"
+            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: "
+            "set friction = 0 for the frictionless contact"
         )

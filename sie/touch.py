@@ -6,6 +6,8 @@ can be one. Of several minima the deepest is taken: contact starts there.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,7 +18,8 @@ from .slope import Slope
 Array = NDArray[np.float64]
 
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
-SECTIONS = 32
+MAX_STEPS = 400
+TINY_BRACKET = 1e-30  # of the first bracket: a root at x = 0 has no last digit
 HEIGHT_NODES = 16
 
 
@@ -68,7 +71,7 @@ def _candidates(slope: Slope, ends: Array, x: Array, sign: Array, piece: NDArray
         return [(float(ends[0, 0]), float(ends[-1, 1]))]
     if sign[moving[0]] > 0:
         found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
-    for i, j in zip(moving[:-1], moving[1:], strict=True):
+    for i, j in pairwise(moving):
         if sign[i] < 0 < sign[j]:
             if piece[i] == piece[j]:
                 z = _root(slope, int(piece[i]), x[i], x[j])
@@ -85,26 +88,35 @@ def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: 
 
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
-    """Where H of piece k changes sign in [lo, hi]; the end itself when it does not (the change is the jump at the break)."""
-    index = np.array([k])
-    fractions = np.linspace(0.0, 1.0, SECTIONS + 1)
-    origin = float(slope.origins[k])
-    # positions relative to the piece's own origin, so that a root there is met exactly
-    a, b = lo - origin, hi - origin
-    while True:
-        y = a + (b - a) * fractions
-        y[-1] = b
-        H = slope.local(index, np.array([origin]), np.zeros(1), y[None, :])[0]
-        zero = np.flatnonzero(H == 0.0)
-        if zero.size:
-            return origin + float(y[zero[0]])
-        change = np.flatnonzero(np.signbit(H[:-1]) != np.signbit(H[1:]))
-        if not change.size:
-            return origin + float(a if H[0] > 0.0 else b)
-        i = int(change[0])
-        if not (a < y[i] or y[i + 1] < b) or y[i + 1] - y[i] <= 2.0 * np.spacing(max(abs(y[i]), abs(y[i + 1]))):
-            return origin + 0.5 * float(y[i] + y[i + 1])
-        a, b = float(y[i]), float(y[i + 1])
+    """Where H of piece k changes sign in [lo, hi]; the end itself when it does not (the change is the jump at the break).
+
+    Regula falsi with halved weights (Illinois), and bisection whenever two steps have not halved the bracket.
+    """
+    index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
+
+    def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly
+        return float(slope.local(index, origin, zero, np.array([[y]]))[0, 0])
+
+    a, b = lo - float(origin[0]), hi - float(origin[0])
+    at_a, at_b = H(a), H(b)
+    if at_a >= 0.0 or at_b <= 0.0:
+        return lo if at_a >= 0.0 else hi
+    floor, widths = TINY_BRACKET * (b - a), [np.inf, np.inf]
+    for _ in range(MAX_STEPS):
+        widths.append(b - a)
+        if b - a <= max(4.0 * float(np.spacing(max(abs(a), abs(b)))), floor):
+            break
+        y = (a * at_b - b * at_a) / (at_b - at_a)
+        if not a < y < b or widths[-1] > 0.5 * widths[-3]:
+            y = 0.5 * (a + b)
+        value = H(y)
+        if value == 0.0:
+            return float(origin[0]) + y
+        if value < 0.0:
+            a, at_a, at_b = y, value, 0.5 * at_b
+        else:
+            b, at_b, at_a = y, value, 0.5 * at_a
+    return float(origin[0]) + 0.5 * (a + b)
 
 
 def _height(slope: Slope, ends: Array, z: float) -> float:

@@ -1,0 +1,186 @@
+"""The integrals over a contact that fix its edges.
+
+Gauss-Legendre in the angle φ on every piece, t = m + r sin φ; exact to rounding, derivatives and jumps included. Two forms of the same
+formulas: arrays for many pieces, plain floats for a few, where NumPy's call overhead would be most of the cost of a solve.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import chebyshev
+from .geometry import Geometry, quadrature_order
+from .interval import Interval
+from .slope import Row, Slope
+
+Array = NDArray[np.float64]
+
+TINY = float(np.finfo(float).tiny)
+# Up to this angle of a piece a shorter rule reaches rounding.
+NARROW = 0.5 * math.pi + 0.01
+
+
+class Moments(NamedTuple):
+    """I0 = ∫H dφ, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, J0 = ∫H' dφ, J1 = ∫H' sin φ dφ, and the part of I0 from H > 0."""
+
+    I0: float
+    I1: float
+    C2: float
+    J0: float
+    J1: float
+    positive: float
+
+
+def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
+    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
+    if slope.few and not keep_zero:
+        return _of_few(slope, contact, lower)
+    return _of_many(Geometry(slope, contact, lower, keep_zero))
+
+
+# -- arrays -----------------------------------------------------------------------------------------------------------
+
+
+def _of_many(g: Geometry) -> Moments:
+    if not len(g.k):
+        return Moments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    slope = g.slope
+    offset, angle, weight, sign = g.nodes(quadrature_order(slope.degree))
+    H = g.slopes(offset)
+    WH = weight * H
+    cos_phi, sin_phi = np.sin(angle), -sign * np.cos(angle)
+    dJ = weight * slope.local_derivative(g.k, g.ends[0], g.tails[0], offset)
+    if slope.functions:
+        # ∫H' dφ = ∫ (dH/dφ) / (r cos φ) dφ, with dH/dφ from the quadrature's own interpolant
+        functions = H - slope.without_functions.local(g.k, g.ends[0], g.tails[0], offset)
+        dJ = dJ + _weighted_derivative(functions) / (g.contact.r * cos_phi)
+    J0, J1 = _sum(dJ), float(np.vdot(dJ, sin_phi))
+    if not slope.continuous:
+        jump = _jumps(g, H)
+        J0, J1 = J0 + _sum(jump), J1 + float(np.vdot(jump, g.left - g.right))
+    I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
+    return Moments(_sum(WH), I1, C2, J0, J1, _sum(np.maximum(WH, 0.0)))
+
+
+def _weighted_derivative(values: Array) -> Array:
+    n = values.shape[1]
+    return chebyshev.gauss_legendre(n)[1] * (values @ chebyshev.differentiation(n)[0].T)
+
+
+def _jumps(g: Geometry, H: Array) -> Array:
+    """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
+    jump: Array = chebyshev.differentiation(H.shape[1])[1] @ H.T
+    jump[1] *= -1.0
+    if g.cut_left:
+        jump[0, 0] = 0.0
+    if g.cut_right:
+        jump[1, -1] = 0.0
+    return jump / (2.0 * g.contact.r * np.maximum(g.root_left * g.root_right, TINY))
+
+
+def _sum(a: Array) -> float:
+    return float(np.add.reduce(a, axis=None))
+
+
+# -- plain floats -----------------------------------------------------------------------------------------------------
+
+
+class _Cut(NamedTuple):
+    """One piece in the contact; see `Geometry`: roots of the distances of lo and hi, angles, and which ends are edges."""
+
+    base: float  # lo - origin
+    length: float
+    roots: tuple[float, float, float, float]  # lo from left, lo from right, hi from left, hi from right
+    from_edge: float
+    sign: float
+    angle: float
+    ends_are_edges: tuple[bool, bool]
+
+
+def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
+    total: tuple[float, ...] = (0.0,) * 6
+    for row in slope.rows:
+        cut = _cut(row, contact, lower)
+        if cut is None:
+            continue
+        parts = _integrals(row.coefficients, cut, 2.0 * contact.r, slope.degree)
+        if not slope.continuous:
+            parts = _with_jumps(parts, row.coefficients, cut, 2.0 * contact.r)
+        total = tuple(map(float.__add__, total, parts))
+    return Moments(*total)
+
+
+def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
+    """The piece within the contact (right of `lower`), None if nothing of it is."""
+    width, start, tail = 2.0 * contact.r, row.lo, 0.0
+    if lower is not None and start < lower:
+        start = lower
+    lo_left, lo_right = contact.from_left(start), contact.from_right(start)
+    hi_left, hi_right = contact.from_left(row.hi), contact.from_right(row.hi)
+    if hi_left <= 0.0 or lo_right <= 0.0 or row.hi <= start:
+        return None
+    length = row.hi - start
+    at_left, at_right = lo_left <= 0.0, hi_right <= 0.0
+    if at_left:
+        start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
+    if at_right:
+        hi_left, hi_right, length = width, 0.0, lo_right
+    a, b, c, d = math.sqrt(lo_left / width), math.sqrt(lo_right / width), math.sqrt(hi_left / width), math.sqrt(hi_right / width)
+    angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
+    left = lo_left + hi_left < width
+    from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
+    return _Cut((start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle, (at_left, at_right))
+
+
+def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
+    I0 = I1 = C2 = J0 = J1 = positive = 0.0
+    base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
+    sin, cos = math.sin, math.cos
+    for g, w in _rule(quadrature_order(degree) if angle > NARROW else 5 + degree + int(4.0 * angle)):
+        half_step = 0.5 * angle * g
+        middle = from_edge + sign * half_step
+        y = base + width * sin(half_step) * sin(middle)
+        H, dH = c[0], 0.0
+        for v in c[1:]:
+            dH = dH * y + H
+            H = H * y + v
+        at = middle + sign * half_step
+        cos_phi, sin_phi = sin(at), -sign * cos(at)
+        wH, wdH = angle * w * H, angle * w * dH
+        I0 += wH
+        I1 += wH * sin_phi
+        C2 += wH * cos_phi * cos_phi
+        J0 += wdH
+        J1 += wdH * sin_phi
+        if wH > 0.0:
+            positive += wH
+    return I0, I1, C2, J0, J1, positive
+
+
+def _with_jumps(parts: tuple[float, ...], c: tuple[float, ...], cut: _Cut, width: float) -> tuple[float, ...]:
+    """J0 and J1 with H entering at lo and leaving at hi, over r cos φ there."""
+    I0, I1, C2, J0, J1, positive = parts
+    a, b, c_, d = cut.roots
+    for y, edge, left, right, sign in (
+        (cut.base, cut.ends_are_edges[0], a, b, 1.0),
+        (cut.base + cut.length, cut.ends_are_edges[1], c_, d, -1.0),
+    ):
+        if not edge:
+            H = 0.0
+            for v in c:
+                H = H * y + v
+            jump = sign * H / (width * left * right)
+            J0 += jump
+            J1 += jump * (left * left - right * right)
+    return I0, I1, C2, J0, J1, positive
+
+
+@lru_cache(maxsize=32)
+def _rule(n: int) -> tuple[tuple[float, float], ...]:
+    g, w = chebyshev.gauss_legendre(n)
+    return tuple(zip(g.tolist(), w.tolist(), strict=True))
