@@ -158,7 +158,7 @@ class SlopeDensity(Density):
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
         """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0; real: beside the contact)."""
-        root = np.sqrt(left / right) if not np.iscomplexobj(left) else np.sqrt(left) / np.sqrt(right)
+        root = np.sqrt(left) / np.sqrt(right) if np.iscomplexobj(left) else np.sqrt(np.abs(left / right))
         return 0.5 * (self.k2 * root - self.k1 / root)
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:

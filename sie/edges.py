@@ -36,9 +36,11 @@ from .touch import lowest_points
 ROUGH = 1e-3
 # Polishing stops when a step is below this many units of rounding of the distance it corrects.
 POLISHED = 4.0 * EPS
+SETTLED = 1e-12  # below this fraction of r steps that no longer shrink are rounding
 MAX_STEPS = 200
 # Steps of the logarithmic search are capped at a factor e^20, so that one bad derivative cannot throw it out of range.
 MAX_LOG_STEP = 20.0
+SMALLEST, HUGE = 1e-300, 1e300
 # While the root is not bracketed and the load is wrong by more than the factor OPEN, a step is at least the factor OPEN_STEP.
 OPEN = 0.1
 OPEN_STEP = 4.0
@@ -102,6 +104,8 @@ class Search:
         if self.axis is not None:
             z = next((lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1])
             z = max(z, self.axis)
+            if math.isinf(z):
+                raise LoadError("the profile is flat without end: its contact has no edges; give a profile that rises")
             return 2.0 * self.axis - z, z
         return lowest_points(self.slope)
 
@@ -179,49 +183,52 @@ class Search:
         target = load / self.half_modulus
         if hi <= z2:
             return None  # lowest at its end: all contact has a sharp edge there
-        left = [1.0]  # the last distance of the left edge from z1, a guess for the next
+        # Broken where it changes sign, the slope's positive and negative parts are integrated apart
+        split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
+        guess = self._first_guess(z2, hi, target)
+        last = [guess, guess]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
 
         def contact_at(distance: float) -> tuple[Interval, Moments]:
-            x2, tail = two_sum(z2, distance)
-            return self._left_edge(z1, x2, tail, left)
+            contact, k, left = split._left_edge((z1, z2), distance, last[1] * (distance / last[0]))
+            last[:] = distance, left
+            return contact, k
 
         if math.isfinite(hi):
-            left[0] = hi - z1
-            whole, k = self._left_edge(z1, hi, 0.0, left)
+            whole, k = contact_at(hi - z2)
             if whole.r * (k.I1 + k.I0) <= target:
+                self.evaluations += split.evaluations
                 return None
 
         def excess(distance: float) -> tuple[float, float]:
             contact, k = contact_at(distance)
             return contact.r * (k.I1 + k.I0), distance * (contact.r * (k.J0 + k.J1) + 0.5 * max(k.I0, 0.0))
 
-        guess = self._first_guess(z2, hi, target)
-        left[0] = guess
         distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
         contact, _ = contact_at(distance)
+        self.evaluations += split.evaluations
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
         return self._polished(contact, target, left_sharp), left_sharp
 
-    def _left_edge(self, z1: float, x2: float, tail2: float, left: list[float]) -> tuple[Interval, Moments]:
-        """x1 with I0 = 0 for a given x2, or the end of the indenter where I0 >= 0 even there (a sharp edge)."""
+    def _left_edge(self, z: tuple[float, float], right: float, guess: float) -> tuple[Interval, Moments, float]:
+        """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there (a sharp edge); and z1 - x1."""
         lo = self.slope.domain[0]
+        x2, tail2 = two_sum(z[1], right)
         if math.isfinite(lo):
             contact = Interval(lo, x2, 0.0, tail2)
             k = self.moments(contact)
             if k.I0 >= 0.0:
-                return contact, k
+                return contact, k, max(z[0] - lo, right)
+        found: dict[float, tuple[Interval, Moments]] = {}
 
-        last: list[tuple[Interval, Moments]] = []
-
-        def balance(distance: float) -> tuple[float, float]:
-            x1, tail = two_sum(z1, -distance)
-            contact = Interval(x1, x2, tail, tail2)
+        def balance(left: float) -> tuple[float, float]:
+            """∫ of -H left of z1 over ∫ of H right of z2, which is 1 at the root."""
+            x1, tail1 = two_sum(z[0], -left)
+            contact = Interval(x1, x2, tail1, tail2)
             k = self.moments(contact)
-            last[:] = [(contact, k)]
-            tiny = np.finfo(float).tiny
-            # ∫ of -H left of z1 over ∫ of H right of z2: 1 at the root
-            ratio = (k.positive - k.I0) / max(k.positive, tiny)
-            return max(ratio, tiny), 0.5 * distance * (k.J0 - k.J1) / max(k.positive, tiny)
+            found[left] = contact, k
+            if k.positive <= 0.0:
+                return HUGE, HUGE
+            return min((k.positive - k.I0) / k.positive, HUGE), min(0.5 * left * (k.J0 - k.J1) / k.positive, HUGE)
 
         def error(distance: float, reached: float) -> ContactError:
             return LoadError(
@@ -229,8 +236,9 @@ class Search:
                 "prescribe less tilt or load, or a profile that rises on both sides"
             )
 
-        left[0] = _logarithmic_root(balance, 1.0, min(left[0], z1 - lo), z1 - lo, error, rough=0.1 * ROUGH)
-        return last[0]
+        left = _logarithmic_root(balance, 1.0, min(guess, z[0] - lo), z[0] - lo, error, rough=0.1 * ROUGH)
+        at = left if left in found else next(reversed(found))
+        return *found[at], at
 
     def _polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
         """Newton for both edges at once; the Jacobian is diagonal at the solution."""
@@ -256,9 +264,14 @@ class Search:
             raise LoadError(
                 f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: give at most that, or a normal_load"
             )
+        z1, z2 = self.touch()
+        if 2.0 * r <= z2 - z1:
+            raise LoadError(
+                f"the half-width {r:.6g} does not reach beyond the flat base [{z1:.6g}, {z2:.6g}], which touches as a whole under any load: "
+                "give a larger half_width, or a normal_load"
+            )
         if self.axis is not None:
             return interval_about(self.axis, r), (False, False)
-        z1, z2 = self.touch()
         low, high = max(lo + r, z1 - r), min(hi - r, z2 + r)
         for m, side in ((high, 1), (low, 0)):
             # At the end of the indenter one edge is sharp if the other wants to be there
@@ -269,20 +282,25 @@ class Search:
                     return contact, (False, False)
                 if (k.I0 < 0.0) == bool(side):
                     return contact, (not side, bool(side))
+        return self._centred(r, low, high), (False, False)
+
+    def _centred(self, r: float, low: float, high: float) -> Interval:
+        """The contact of half-width r whose centre, between low and high, balances the slope: I0 = 0."""
         m, tail = 0.5 * (low + high), 0.0
-        previous = np.inf
+        steps, widths = [np.inf], [np.inf, np.inf]
         for _ in range(MAX_STEPS):
             contact = interval_about(m, r).moved(tail, tail)
             k = self.moments(contact)
             low, high = (m, high) if k.I0 < 0.0 else (low, m)
             step = -k.I0 / k.J0 if k.J0 > 0.0 else np.inf
-            if not low <= m + step <= high:
-                step = 0.5 * (low + high) - m
+            if not low <= m + step <= high or (high - low > 0.5 * widths[-2] and abs(step) > 0.5 * steps[-1]):
+                step = 0.5 * (low + high) - m  # Newton creeps where a jump of the slope lies next to an edge
+            widths.append(high - low)
             m, tail = two_sum(m, step + tail)
-            if abs(step) <= POLISHED * r or (abs(step) >= 0.25 * previous and abs(step) < 1e-12 * r):
+            if abs(step) <= POLISHED * r or (abs(step) >= 0.25 * steps[-1] and abs(step) < SETTLED * r):
                 break
-            previous = abs(step)
-        return interval_about(m, r).moved(tail, tail), (False, False)
+            steps.append(abs(step))
+        return interval_about(m, r).moved(tail, tail)
 
 
 def _logarithmic_root(
@@ -314,7 +332,7 @@ def _logarithmic_root(
             high = u
         else:
             low = u
-        if math.isfinite(high) and high - low <= 4.0 * EPS * high:
+        if u <= SMALLEST or (math.isfinite(high) and high - low <= 4.0 * EPS * high):
             break
         far = not OPEN * target < f < target / OPEN
         open_ended = low == 0.0 or not math.isfinite(high)

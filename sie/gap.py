@@ -51,13 +51,17 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> 
     theta = 2.0 * np.arcsinh(np.sqrt(distance / (2.0 * contact.r)))
     cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
     g, w = chebyshev.gauss_legendre(NODES)
+    beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)  # no double is nearer to the edge
 
     def integral(start: Array, length: Array) -> Array:
         if not start.size:
             return np.zeros(0)
         t = start[:, None] + length[:, None] * g
         d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
-        at = (contact.x2 + d) + contact.tail2 if side > 0.0 else (contact.x1 - d) + contact.tail1
+        if side > 0.0:
+            at = np.maximum((contact.x2 + d) + contact.tail2, beyond)
+        else:
+            at = np.minimum((contact.x1 - d) + contact.tail1, beyond)
         values = side * gap_slope(at.ravel(), density, slope).reshape(t.shape) * (contact.r * np.sinh(t))
         return length * (values @ w)
 

@@ -10,6 +10,7 @@ and its slope H = h' piece by piece (`slope.Slope`); the numerics see only the l
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -291,7 +292,7 @@ class Piecewise(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
-        rows = [_about_an_end(row, lo, hi) for row, lo, hi in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True)]
+        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True)]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
     def height(self, x: ArrayLike) -> Array:
@@ -328,20 +329,25 @@ class Piecewise(Profile):
         return bool(rising and (right >= left).all())
 
 
-def _about_an_end(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, tuple[float, ...]]:
-    """(origin, coefficients) about the end of the piece where the slope is smaller, in exact arithmetic: it may be zero there."""
-    best: tuple[float, tuple[float, ...]] = (0.0, row)
-    for end in (lo, hi):
-        if not np.isfinite(end):
-            continue
-        c = [Fraction(v) for v in row]
-        for i in range(len(c) - 1):
-            for j in range(len(c) - 2, i - 1, -1):
-                c[j] += Fraction(end) * c[j + 1]
-        moved = tuple(float(v) for v in c)
-        if best[1] is row or abs(moved[0]) < abs(best[1][0]):
-            best = (end, moved)
-    return best
+def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, tuple[float, ...]]:
+    """(origin, coefficients) about the point where the slope is smallest: an end of the piece, x = 0 or the zero of a straight line.
+
+    In exact arithmetic: what is left of the slope there is what the given coefficients mean, not rounding.
+    """
+    candidates = [0.0, *(end for end in (lo, hi) if math.isfinite(end))]
+    if len(row) == 2 and row[1] != 0.0:
+        candidates.append(min(max(-row[0] / row[1], lo), hi))
+    moved = [(origin, _moved(row, origin)) for origin in dict.fromkeys(candidates) if math.isfinite(origin)]
+    return min(moved, key=lambda pair: abs(pair[1][0]))
+
+
+def _moved(row: tuple[float, ...], origin: float) -> tuple[float, ...]:
+    """Coefficients about the origin, by synthetic division in rational arithmetic."""
+    c = [Fraction(v) for v in row]
+    for i in range(len(c) - 1):
+        for j in range(len(c) - 2, i - 1, -1):
+            c[j] += Fraction(origin) * c[j + 1]
+    return tuple(float(v) for v in c)
 
 
 @dataclass(frozen=True, init=False, repr=False)

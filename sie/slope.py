@@ -175,6 +175,20 @@ class Slope:
         c[:, 0] += tilt
         return replace(self, coefficients=c)
 
+    def split_at(self, x: float) -> Slope:
+        """The same slope with a break at x, which changes nothing but where its pieces end."""
+        k = int(np.searchsorted(self.breaks, x))
+        if not self.breaks[0] < x < self.breaks[-1] or self.breaks[k] == x:
+            return self
+        twice = np.insert(np.arange(len(self.origins)), k, k - 1)
+        return replace(
+            self,
+            breaks=np.insert(self.breaks, k, x),
+            origins=self.origins[twice],
+            coefficients=self.coefficients[twice],
+            degrees=self.degrees[twice],
+        )
+
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         return replace(self, breaks=self.breaks + dx, origins=self.origins + dx, functions=functions)

@@ -32,11 +32,16 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
         raise LoadError("the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt")
     if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
         raise LoadError("the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt")
+    for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
+        if sign[end] == 0 and not np.isfinite(outer):
+            raise LoadError(f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises")
     candidates = _candidates(slope, ends, x, sign, piece)
     if len(candidates) == 1:
-        return candidates[0]
+        z1, z2 = candidates[0]
+        return float(z1), float(z2)
     heights = [_height(slope, ends, z1) for z1, _ in candidates]
-    return candidates[int(np.argmin(heights))]
+    z1, z2 = candidates[int(np.argmin(heights))]
+    return float(z1), float(z2)
 
 
 def _finite_ends(slope: Slope) -> Array:
@@ -73,14 +78,22 @@ def _candidates(slope: Slope, ends: Array, x: Array, sign: Array, piece: NDArray
         found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
     for i, j in pairwise(moving):
         if sign[i] < 0 < sign[j]:
-            if piece[i] == piece[j]:
-                z = _root(slope, int(piece[i]), x[i], x[j])
-                found.append((z, z))
-            else:
-                found.append((_root(slope, int(piece[i]), x[i], ends[piece[i], 1]), _root(slope, int(piece[j]), ends[piece[j], 0], x[j])))
+            found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
     if sign[moving[-1]] < 0:
         found.append((_root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]), float(ends[-1, 1])))
     return found
+
+
+def _change(slope: Slope, ends: Array, before: tuple[float, int], after: tuple[float, int]) -> tuple[float, float]:
+    """Where H stops being negative and starts being positive, between two points (x, piece) with H < 0 < H and no other sign between."""
+    (x, i), (y, j) = before, after
+    if i == j:
+        z = _root(slope, i, x, y)
+        return z, z
+    z1, z2 = _root(slope, i, x, ends[i, 1]), _root(slope, j, ends[j, 0], y)
+    if z1 < ends[i, 1]:
+        return z1, z1
+    return (z2, z2) if z2 > ends[j, 0] else (z1, z2)
 
 
 def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: int) -> float:
