@@ -18,7 +18,7 @@ Units are free: any consistent set works, and nothing depends on scale.
 >>> punch = sie.RoundedFlat(half_flat=1.0, radius=50.0)
 >>> solution = sie.solve(sie.Scene(profile=punch, body=sie.Elastic(young=210e3, poisson=0.3), normal_load=500.0))
 >>> round(float(solution.pressure(0.0)), 3)
-133.553
+131.935
 """
 
 from .density import ZERO, Density

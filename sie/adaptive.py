@@ -42,7 +42,7 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
             c = np.abs(chebyshev.transform(values))
             # a few ulp of x move the value by rounding of its own: no series can do better
             noise = EPS * (np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (hi[open_] - lo[open_]))
-            floor = np.maximum(tol * scale, np.minimum(noise, 1e3 * tol * scale))
+            floor = np.maximum(tol * scale, noise)
             settled = c[:, -TAIL:].max(axis=1) <= floor
             settled |= hi[open_] - lo[open_] <= 4.0 * np.spacing(np.maximum(np.abs(lo[open_]), np.abs(hi[open_])))
             for i in np.flatnonzero(settled):

@@ -28,9 +28,12 @@ Array = NDArray[np.float64]
 
 NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
 GRADING = 0.25
-LEVELS = 26  # GRADING**LEVELS is rounding
-LARGE = 0.02  # of panels in φ, whose ends are far enough from any node to measure the residual there
-POINTS = 24  # at which the residual is measured, about
+MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
+TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
+LEVELS = 26  # GRADING**LEVELS is rounding, for the logarithm under a corner of the profile ...
+KINK_LEVELS = 14  # ... and its square is, for the x ln|x| under a corner of the slope
+COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
+POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
@@ -42,10 +45,12 @@ class Certificate:
     """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
 
     abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
-    error           the estimated relative error of the pressure: the largest of the measured defects
+    implied         the error of the pressure that would leave this residual
+    error           the estimated relative error of the pressure: the largest of these
     """
 
     residual: float
+    implied: float
     force: float
     moment: float
     lowest_pressure: float
@@ -55,7 +60,7 @@ class Certificate:
 
     @property
     def error(self) -> float:
-        return max(self.residual, self.force, self.moment, 2.0 * EPS)
+        return max(self.residual, self.implied, self.force, self.moment, 2.0 * EPS)
 
     @property
     def ok(self) -> bool:
@@ -69,6 +74,7 @@ class Certificate:
     def __str__(self) -> str:
         rows = (
             ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
             ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
             ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
@@ -77,7 +83,7 @@ class Certificate:
             ("estimated relative error of the pressure", f"{self.error:.1e}"),
         )
         verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, 4.0 * self.abscissae):.0e}"
-        return "\n".join([f"{name:<45} {value:>9}" for name, value in rows] + [verdict])
+        return "\n".join([f"{name:<48} {value:>9}" for name, value in rows] + [verdict])
 
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
@@ -85,18 +91,20 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
     rule = _rule(contact, slope)
     x, weight = rule.x, rule.weight
-    p, moved = _finite(density(x)), _finite(density(np.nextafter(x, contact.m)))
+    p = _finite(density(x))
     peak = float(p.max())
     P, r = density.resultant, contact.r
-    residual = _residual(density, slope, rule, p) / peak
+    residual = _residual(density, slope, rule, p)
     lowest_gap, _ = _lowest_gap(density, slope)
+    of_force, of_equation = _rounding(density, slope, rule, p)
     return Certificate(
-        residual=residual,
+        residual=float(np.abs(residual).max()) / peak,
+        implied=_implied(residual, contact, rule.between) / peak,
         force=abs(float(weight @ p) - P) / P,
         moment=abs(float(weight @ (p * (x - contact.m))) + P * contact.m - density.moment) / (P * r),
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=min(lowest_gap, 0.0),
-        abscissae=max(float(np.abs(weight * (moved - p)).sum()) / P, _rounding(density, slope, rule.between) / peak),
+        abscissae=max(of_force / P, of_equation / peak),
         tol=tol,
     )
 
@@ -150,21 +158,25 @@ def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> _Rule:
 
     Graded towards the declared breaks, and cut at the breaks that a function's resolution added: these may close in on a kink.
     """
+    if slope.continuous:
+        levels = min(levels, KINK_LEVELS)
     ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, slope)), [np.pi]))
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     cuts = [_angles(contact, _inner_breaks(contact, resolution))]
     graded = GRADING ** np.arange(levels, 0, -1)
     graded = graded[graded < 0.25]
     for k, (lo, hi) in enumerate(pairwise(ends)):
-        left = graded if k > 0 else graded[:0]
-        right = 1.0 - graded[::-1] if k < len(ends) - 2 else graded[:0]
-        cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 5), right)))
+        left = graded if k > 0 else TOWARDS_EDGE
+        right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
+        cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right)))
     edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
     g, w = chebyshev.gauss_legendre(NODES)
     length = np.diff(edges)
     angle = (edges[:-1, None] + length[:, None] * g).ravel()
     weight = (length[:, None] * w).ravel() * contact.r * np.sin(angle)
-    large = edges[1:-1][np.minimum(length[:-1], length[1:]) > LARGE]
+    size = np.minimum(length[:-1], length[1:])
+    between = np.sort(np.argsort(size)[-POINTS:])
+    large = edges[1:-1][between[size[between] >= COMPARABLE * size.max()]]
     return _Rule(_position(contact, angle), weight, _position(contact, large))
 
 
@@ -192,22 +204,47 @@ def _position(contact: Interval, angle: Array) -> Array:
     return np.where(angle < 0.5 * np.pi, right, left)
 
 
-def _residual(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> float:
-    """max |1/π PV∫p/(x - t) - E*/2 H| between the nodes, by subtracting p there: what is left of the integrand is smooth."""
+def _residual(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> Array:
+    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
     contact = density.contact
-    at = rule.between[:: max(len(rule.between) // POINTS, 1)]
+    at = rule.between
     values = density(at)
     whole = values * np.log(contact.from_left(at) / contact.from_right(at))
     distance = at[:, None] - rule.x
     distance[distance == 0.0] = np.inf  # a contact of a few ulp: the node is the point
     integral = ((p - values[:, None]) / distance) @ rule.weight + whole
-    return float(np.abs(integral / np.pi - density.half_modulus * slope(at)).max())
+    return integral / np.pi - density.half_modulus * slope(at)
 
 
-def _rounding(density: SlopeDensity, slope: Slope, x: Array) -> float:
-    """How much both sides of the integral equation change within one ulp of x, at most."""
-    moved = np.nextafter(x, density.contact.m)
-    return float((np.abs(density(moved) - density(x)) + density.half_modulus * np.abs(slope(moved) - slope(x))).max())
+def _implied(residual: Array, contact: Interval, at: Array) -> float:
+    """The largest error of p that leaves this residual: r = Σ r_n T_n is what sqrt(1 - s²) Σ r_n U_{n-1} leaves, fitted to the points.
+
+    A constant r_0 belongs to edges in the wrong place, where the pressure is wrong by more than r_0.
+    """
+    angle = 2.0 * np.arctan2(np.sqrt(contact.from_right(at)), np.sqrt(contact.from_left(at)))
+    n = np.arange(max(len(at) // 3, 1))
+    r = np.linalg.lstsq(np.cos(np.outer(angle, n)), residual, rcond=None)[0]
+    grid = np.linspace(0.0, np.pi, 65)
+    return float(np.abs(np.sin(np.outer(grid, n)) @ r).max() + MISPLACED * abs(r[0]))
+
+
+def _rounding(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> tuple[float, float]:
+    """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the nodes, as a stress.
+
+    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p itself must not excuse itself.
+    """
+    order = np.argsort(rule.x, kind="stable")
+    x, weight, p = rule.x[order], rule.weight[order], p[order]
+    ulp, apart = np.spacing(np.abs(x)), np.diff(x)
+    steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
+    from_edge = np.maximum(np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0)
+    moved = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
+    moved[1:] = np.maximum(moved[1:], steps)
+    moved[:-1] = np.maximum(moved[:-1], steps)
+    at = rule.between
+    near = np.clip(np.searchsorted(x, at), 1, len(x) - 1) - 1
+    step = np.nextafter(at, density.contact.m)
+    return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(slope(step) - slope(at))).max())
 
 
 def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:

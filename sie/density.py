@@ -29,8 +29,8 @@ from .panels import Panels
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Continuing a Chebyshev series beyond its interval may magnify its rounding by this factor.
-CONTINUATION = 64.0
+# A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
+CONTINUATION = 4.0
 
 
 def in_order(function: Callable[[Array], Any], x: Array) -> Any:

@@ -9,7 +9,7 @@ With G = E*/2, t = m + r sin φ and the integrals of `moments`, a contact [x1, x
 and an edge where P exceeds that value is square-root singular: only the end of the indenter can be. Of a convex profile K1 and K2 grow
 with the contact, each edge has an equation of its own, and along the solution the Jacobian is diagonal:
 
-    d(r K2)/dx2 = r (J0 + J1) + I0/2,        d(r K1)/dx1 = -r (J0 - J1) + I0/2,        dM/d(tilt) = -π/2 G r²  at constant P.
+    d(r K2)/dx2 = r JR + I0/2,        d(r K1)/dx1 = -r JL + I0/2,        dM/d(tilt) = -π/2 G r²  at constant P.
 
 So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where the profile touches first (a power law
 there is a straight line, solved in one step); then both edges are polished together, with steps added to unrounded edges.
@@ -36,11 +36,14 @@ from .touch import lowest_points
 ROUGH = 1e-3
 # Polishing stops when a step is below this many units of rounding of the distance it corrects.
 POLISHED = 4.0 * EPS
+FARTHEST = 0.5  # of r: a longer step in polishing means that the profile is not convex there
 SETTLED = 1e-12  # below this fraction of r steps that no longer shrink are rounding
 MAX_STEPS = 200
 # Steps of the logarithmic search are capped at a factor e^20, so that one bad derivative cannot throw it out of range.
 MAX_LOG_STEP = 20.0
 SMALLEST, HUGE = 1e-300, 1e300
+LEAP = 1e12  # where a load underflows, or falls before it was ever large enough
+UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
 # While the root is not bracketed and the load is wrong by more than the factor OPEN, a step is at least the factor OPEN_STEP.
 OPEN = 0.1
 OPEN_STEP = 4.0
@@ -78,7 +81,8 @@ class Search:
         if self.axis is None:
             return moments(self.slope, contact, keep_zero=self.keep_zero)
         half = moments(self.slope, contact, self.axis, self.keep_zero)  # the symmetry makes the others zero
-        return Moments(0.0, 2.0 * half.I1, 0.0, 2.0 * half.J0, 0.0, 0.0)
+        J0 = half.JR + half.JL
+        return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0)
 
     def load(self, contact: Interval, k: Moments) -> float:
         """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G r K2."""
@@ -128,14 +132,14 @@ class Search:
         def excess(distance: float) -> tuple[float, float]:
             contact = at(distance)
             k = self.moments(contact)
-            return k.I1 * contact.r, distance * contact.r * k.J0
+            return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
         distance = _logarithmic_root(excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load))
         contact = at(distance)
         for _ in range(MAX_STEPS):
             k = self.moments(contact)
-            step = (target - contact.r * k.I1) / (contact.r * k.J0)
+            step = (target - contact.r * k.I1) / (contact.r * k.JR)
             contact = contact.moved(-step, step)
             if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance * 1e-2:
                 break
@@ -189,7 +193,7 @@ class Search:
         last = [guess, guess]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
 
         def contact_at(distance: float) -> tuple[Interval, Moments]:
-            contact, k, left = split._left_edge((z1, z2), distance, last[1] * (distance / last[0]))
+            contact, k, left = split._left_edge((z1, z2), distance, max(last[1] / last[0], UNEVEN) * distance)
             last[:] = distance, left
             return contact, k
 
@@ -201,7 +205,7 @@ class Search:
 
         def excess(distance: float) -> tuple[float, float]:
             contact, k = contact_at(distance)
-            return contact.r * (k.I1 + k.I0), distance * (contact.r * (k.J0 + k.J1) + 0.5 * max(k.I0, 0.0))
+            return contact.r * (k.I1 + k.I0), distance * (contact.r * k.JR + 0.5 * max(k.I0, 0.0))
 
         distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
         contact, _ = contact_at(distance)
@@ -228,7 +232,7 @@ class Search:
             found[left] = contact, k
             if k.positive <= 0.0:
                 return HUGE, HUGE
-            return min((k.positive - k.I0) / k.positive, HUGE), min(0.5 * left * (k.J0 - k.J1) / k.positive, HUGE)
+            return min(k.negative / k.positive, HUGE), min(0.5 * left * k.JL / k.positive, HUGE)
 
         def error(distance: float, reached: float) -> ContactError:
             return LoadError(
@@ -246,10 +250,16 @@ class Search:
         for _ in range(MAX_STEPS):
             k = self.moments(contact)
             r = contact.r
-            step2 = (target - r * (k.I1 + k.I0)) / (r * (k.J0 + k.J1) + (0.5 * k.I0 if left_sharp else 0.0))
-            step1 = 0.0 if left_sharp else (r * (k.I1 - k.I0) - target) / (r * (k.J0 - k.J1))
+            rise2 = r * k.JR + (0.5 * k.I0 if left_sharp else 0.0)
+            rise1 = r * k.JL
+            if rise2 <= 0.0 or (rise1 <= 0.0 and not left_sharp):
+                break  # not convex here: the inequalities will tell
+            step2 = (target - r * (k.I1 + k.I0)) / rise2
+            step1 = 0.0 if left_sharp else (r * (k.I1 - k.I0) - target) / rise1
+            size = max(abs(step1), abs(step2)) / r
+            if size > FARTHEST:
+                break
             contact = contact.moved(step1, step2)
-            size = max(abs(step1), abs(step2)) / contact.r
             # Rim by rim the steps end at rounding of the moments, not of r: stop when they no longer shrink
             if size >= 0.25 * previous or size == 0.0:
                 break
@@ -267,8 +277,8 @@ class Search:
         z1, z2 = self.touch()
         if 2.0 * r <= z2 - z1:
             raise LoadError(
-                f"the half-width {r:.6g} does not reach beyond the flat base [{z1:.6g}, {z2:.6g}], which touches as a whole under any load: "
-                "give a larger half_width, or a normal_load"
+                f"the half-width {r:.6g} does not reach beyond the flat base [{z1:.6g}, {z2:.6g}], "
+                "which touches as a whole under any load: give a larger half_width, or a normal_load"
             )
         if self.axis is not None:
             return interval_about(self.axis, r), (False, False)
@@ -292,7 +302,8 @@ class Search:
             contact = interval_about(m, r).moved(tail, tail)
             k = self.moments(contact)
             low, high = (m, high) if k.I0 < 0.0 else (low, m)
-            step = -k.I0 / k.J0 if k.J0 > 0.0 else np.inf
+            J0 = 0.5 * (k.JR + k.JL)
+            step = -k.I0 / J0 if J0 > 0.0 else np.inf
             if not low <= m + step <= high or (high - low > 0.5 * widths[-2] and abs(step) > 0.5 * steps[-1]):
                 step = 0.5 * (low + high) - m  # Newton creeps where a jump of the slope lies next to an edge
             widths.append(high - low)
@@ -328,10 +339,10 @@ def _logarithmic_root(
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
             return min(u * math.exp(step), limit)
-        if f >= target or not rising:
-            high = u
-        else:
+        if f < target and (rising or (f == 0.0 and slope >= 0.0)):  # zero: it underflows
             low = u
+        else:
+            high = u
         if u <= SMALLEST or (math.isfinite(high) and high - low <= 4.0 * EPS * high):
             break
         far = not OPEN * target < f < target / OPEN
@@ -352,5 +363,5 @@ def _logarithmic_root(
 def _between(low: float, high: float, u: float) -> float:
     """A point inside the bracket: the geometric mean, or a large step where one end is still open."""
     if not math.isfinite(high):
-        return u * 8.0
+        return u * LEAP
     return float(np.sqrt(low) * np.sqrt(high)) if low > 0.0 else high / 8.0

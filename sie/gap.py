@@ -58,10 +58,8 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> 
             return np.zeros(0)
         t = start[:, None] + length[:, None] * g
         d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
-        if side > 0.0:
-            at = np.maximum((contact.x2 + d) + contact.tail2, beyond)
-        else:
-            at = np.minimum((contact.x1 - d) + contact.tail1, beyond)
+        right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1
+        at = np.maximum(right, beyond) if side > 0.0 else np.minimum(left, beyond)
         values = side * gap_slope(at.ravel(), density, slope).reshape(t.shape) * (contact.r * np.sinh(t))
         return length * (values @ w)
 

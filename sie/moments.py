@@ -20,20 +20,23 @@ from .slope import Row, Slope
 
 Array = NDArray[np.float64]
 
-TINY = float(np.finfo(float).tiny)
 # Up to this angle of a piece a shorter rule reaches rounding.
 NARROW = 0.5 * math.pi + 0.01
 
 
 class Moments(NamedTuple):
-    """I0 = ∫H dφ, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, J0 = ∫H' dφ, J1 = ∫H' sin φ dφ, and the part of I0 from H > 0."""
+    """I0 = ∫H dφ = positive - negative, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, JR = ∫H' (1 + sin φ) dφ, JL = ∫H' (1 - sin φ) dφ.
+
+    JR and JL apart, because where a contact is lopsided one of them is a tiny part of ∫H' dφ.
+    """
 
     I0: float
     I1: float
     C2: float
-    J0: float
-    J1: float
+    JR: float
+    JL: float
     positive: float
+    negative: float
 
 
 def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
@@ -48,23 +51,31 @@ def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_ze
 
 def _of_many(g: Geometry) -> Moments:
     if not len(g.k):
-        return Moments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        return Moments(*(0.0,) * 7)
+    with np.errstate(over="ignore", invalid="ignore"):  # a search may try a contact of 1e-300: what overflows is not rising
+        return _summed(g)
+
+
+def _summed(g: Geometry) -> Moments:
     slope = g.slope
     offset, angle, weight, sign = g.nodes(quadrature_order(slope.degree))
     H = g.slopes(offset)
     WH = weight * H
-    cos_phi, sin_phi = np.sin(angle), -sign * np.cos(angle)
+    near = 2.0 * np.sin(0.5 * angle) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+    cos_phi, sin_phi = np.sin(angle), sign * (near - 1.0)
+    left = np.asarray(sign > 0.0)
+    plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
     dJ = weight * slope.local_derivative(g.k, g.ends[0], g.tails[0], offset)
     if slope.functions:
         # ∫H' dφ = ∫ (dH/dφ) / (r cos φ) dφ, with dH/dφ from the quadrature's own interpolant
         functions = H - slope.without_functions.local(g.k, g.ends[0], g.tails[0], offset)
         dJ = dJ + _weighted_derivative(functions) / (g.contact.r * cos_phi)
-    J0, J1 = _sum(dJ), float(np.vdot(dJ, sin_phi))
+    JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
     if not slope.continuous:
         jump = _jumps(g, H)
-        J0, J1 = J0 + _sum(jump), J1 + float(np.vdot(jump, g.left - g.right))
+        JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
     I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
-    return Moments(_sum(WH), I1, C2, J0, J1, _sum(np.maximum(WH, 0.0)))
+    return Moments(_sum(WH), I1, C2, JR, JL, _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0)))
 
 
 def _weighted_derivative(values: Array) -> Array:
@@ -76,11 +87,12 @@ def _jumps(g: Geometry, H: Array) -> Array:
     """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
     jump: Array = chebyshev.differentiation(H.shape[1])[1] @ H.T
     jump[1] *= -1.0
+    half_cos = g.root_left * g.root_right
     if g.cut_left:
-        jump[0, 0] = 0.0
+        jump[0, 0], half_cos[0, 0] = 0.0, 1.0
     if g.cut_right:
-        jump[1, -1] = 0.0
-    return jump / (2.0 * g.contact.r * np.maximum(g.root_left * g.root_right, TINY))
+        jump[1, -1], half_cos[1, -1] = 0.0, 1.0
+    return jump / (2.0 * g.contact.r * half_cos)
 
 
 def _sum(a: Array) -> float:
@@ -103,7 +115,7 @@ class _Cut(NamedTuple):
 
 
 def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
-    total: tuple[float, ...] = (0.0,) * 6
+    total: tuple[float, ...] = (0.0,) * 7
     for row in slope.rows:
         cut = _cut(row, contact, lower)
         if cut is None:
@@ -138,9 +150,9 @@ def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
 
 
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
-    I0 = I1 = C2 = J0 = J1 = positive = 0.0
+    I0 = I1 = C2 = JR = JL = positive = negative = 0.0
     base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
-    sin, cos = math.sin, math.cos
+    sin = math.sin
     for g, w in _rule(quadrature_order(degree) if angle > NARROW else 5 + degree + int(4.0 * angle)):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
@@ -150,21 +162,24 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             dH = dH * y + H
             H = H * y + v
         at = middle + sign * half_step
-        cos_phi, sin_phi = sin(at), -sign * cos(at)
+        near = 2.0 * sin(0.5 * at) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        cos_phi, sin_phi = sin(at), sign * (near - 1.0)
         wH, wdH = angle * w * H, angle * w * dH
         I0 += wH
         I1 += wH * sin_phi
         C2 += wH * cos_phi * cos_phi
-        J0 += wdH
-        J1 += wdH * sin_phi
+        JR += wdH * (near if sign > 0.0 else 2.0 - near)
+        JL += wdH * (2.0 - near if sign > 0.0 else near)
         if wH > 0.0:
             positive += wH
-    return I0, I1, C2, J0, J1, positive
+        else:
+            negative -= wH
+    return I0, I1, C2, JR, JL, positive, negative
 
 
 def _with_jumps(parts: tuple[float, ...], c: tuple[float, ...], cut: _Cut, width: float) -> tuple[float, ...]:
-    """J0 and J1 with H entering at lo and leaving at hi, over r cos φ there."""
-    I0, I1, C2, J0, J1, positive = parts
+    """JR and JL with H entering at lo and leaving at hi, over r cos φ there."""
+    I0, I1, C2, JR, JL, positive, negative = parts
     a, b, c_, d = cut.roots
     for y, edge, left, right, sign in (
         (cut.base, cut.ends_are_edges[0], a, b, 1.0),
@@ -175,9 +190,9 @@ def _with_jumps(parts: tuple[float, ...], c: tuple[float, ...], cut: _Cut, width
             for v in c:
                 H = H * y + v
             jump = sign * H / (width * left * right)
-            J0 += jump
-            J1 += jump * (left * left - right * right)
-    return I0, I1, C2, J0, J1, positive
+            JR += jump * 2.0 * left * left
+            JL += jump * 2.0 * right * right
+    return I0, I1, C2, JR, JL, positive, negative
 
 
 @lru_cache(maxsize=32)

@@ -20,7 +20,6 @@ from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, Interval
 from .panels import CHOP, Panels
-from .profile import Profile
 from .scene import Scene
 from .slope import Slope
 
@@ -31,9 +30,11 @@ ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity"})
 WINDOW = 1.6
 FITTED = 1.25  # ... to the contact times this.
 WINDOW_GROWTH = 8.0
-MAX_WINDOWS = 120
+MOST_GROWN, MOST_SHRUNK = 12, 120
+GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
 # One Chebyshev series for the whole contact is tried up to this many points before the slope is cut into pieces.
 LARGEST_TRANSFORM = 257
+WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
 
 
@@ -51,33 +52,36 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
     profile = scene.profile
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
-    lo, hi = _first_window(profile)
+    lo, hi = _first_window(scene)
     ends = profile.domain
-    found: Normal | None = None
-    for _ in range(MAX_WINDOWS):
+    carried = 0.0  # the largest load that the last window carried
+    grown, shrunk, settled = 0, 0, False
+    while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
             found = _searched(scene, refined(profile.pieces, lo, hi, _resolution(tol)), economy)
-        except LoadError:
-            if not any(open_ends):
-                raise
+        except LoadError as error:
+            before, carried = carried, float(error.reached.get("load", 0.0))
+            if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
+                raise  # a wider window changes nothing
+            grown += 1
             lo, hi = _grown(lo, hi, ends)
             continue
-        x1, x2 = found.edges.contact.x1, found.edges.contact.x2
-        touches = (open_ends[0] and found.edges.sharp[0]) or (open_ends[1] and found.edges.sharp[1])
-        if touches:
+        contact, sharp = found.edges.contact, found.edges.sharp
+        if any(is_sharp and is_open for is_sharp, is_open in zip(sharp, open_ends, strict=True)):
+            if grown >= MOST_GROWN:
+                given = f"load {scene.normal_load:.6g}" if scene.normal_load else f"half-width {scene.half_width:.6g}"
+                raise LoadError(f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope rises too little, give a domain")
+            grown, settled = grown + 1, shrunk > 0
             lo, hi = _grown(lo, hi, ends)
-        elif hi - lo > WINDOW * (x2 - x1):
-            margin = 0.5 * (FITTED - 1.0) * (x2 - x1)
-            fitted = max(x1 - margin, ends[0]), min(x2 + margin, ends[1])
-            if fitted == (lo, hi):
-                return found
-            lo, hi = fitted
-        else:
+            continue
+        margin = 0.5 * (FITTED - 1.0) * (contact.x2 - contact.x1)
+        fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
+        # A window that had to grow again after it was fitted belongs to a profile that is not convex: it stays
+        if hi - lo <= WINDOW * (contact.x2 - contact.x1) or fitted == (lo, hi) or settled or shrunk >= MOST_SHRUNK:
             return found
-    raise LoadError(
-        f"no window of the slope holds the contact after {MAX_WINDOWS} trials, the last was [{lo:.6g}, {hi:.6g}]: give a domain"
-    )
+        shrunk += 1
+        lo, hi = fitted
 
 
 def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:
@@ -119,10 +123,20 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
         contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
         return search.finished(contact, scene.normal_load, tilt, sharp)
 
+    if scene.moment is not None and scene.normal_load is not None:
+        _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
         return Normal(edges_at(scene.tilt), slope, axis is not None and scene.tilt == 0.0)
     edges = _tilt_of_moment(edges_at, scene.moment, G, slope if scene.half_width is not None else None)
     return Normal(edges, slope, axis is not None and edges.tilt == 0.0)
+
+
+def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> None:
+    if not domain[0] < moment / load < domain[1]:
+        raise LoadError(
+            f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
+            f"not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to below the load times that length"
+        )
 
 
 def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float, at_fixed_width: Slope | None) -> Edges:
@@ -152,7 +166,7 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float,
         falls = 0.5 * np.pi * G * r * r
         if at_fixed_width is not None:
             k = Search(at_fixed_width.tilted(tilt), G).moments(edges.contact)
-            falls += edges.contact.m * np.pi * G * r * k.J1 / k.J0
+            falls += edges.contact.m * np.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
         step = excess / falls if falls > 0.0 else np.inf
         new = tilt + step
         if not low < new < high:
@@ -193,13 +207,26 @@ def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
     return None
 
 
-def _first_window(profile: Profile) -> tuple[float, float]:
-    """The domain where it is finite; otherwise a window about the breaks, or about the nearest point to x = 0."""
+def _first_window(scene: Scene) -> tuple[float, float]:
+    """The domain where it is finite; otherwise some way around the break nearest to x = 0, as far as the load or half-width asks for.
+
+    A contact of half-width w under slopes of the size H(w) carries about G w H(w).
+    """
+    profile = scene.profile
     lo, hi = profile.domain
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
-    size = 8.0 * max((abs(b) for b in (*profile.breaks, lo, hi) if np.isfinite(b)), default=0.0) or 1.0
-    return max(lo, -size), min(hi, size)
+    centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)
+    if scene.half_width is not None:
+        size = scene.half_width
+    else:
+        assert scene.normal_load is not None
+        sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
+        with np.errstate(invalid="ignore", over="ignore"):
+            H = np.abs(profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi))).reshape(2, -1).max(axis=0)
+            enough = np.flatnonzero(~(0.5 * scene.Estar * WINDOW_SIZES * H < scene.normal_load))
+        size = float(WINDOW_SIZES[enough[0]]) if enough.size else 1.0
+    return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)
 
 
 def _grown(lo: float, hi: float, ends: tuple[float, float]) -> tuple[float, float]:

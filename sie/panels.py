@@ -127,7 +127,9 @@ class Panels:
                 at[lo] = at.get(lo, 0.0) + float(entering[k])
             if not (g.cut_right and k == len(self.series) - 1):
                 at[hi] = at.get(hi, 0.0) - float(leaving[k])
-        return [(e, float(np.copysign(np.inf, jump))) for e, jump in at.items() if abs(jump) > JUMP * self.scale]
+        # of coefficients given about x = 0, rounding grows with the distance from there
+        steepest = float((np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length).max(initial=0.0))
+        return [(e, float(np.copysign(np.inf, jump))) for e, jump in at.items() if abs(jump) > JUMP * max(self.scale, abs(e) * steepest)]
 
     # -- V, for 1-d arrays; real ones must ascend ----------------------------------------------------------------------
 

@@ -237,8 +237,14 @@ def polynomial_slope(breaks: Sequence[float], origins: Sequence[float], coeffici
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
-    """How far each origin lies outside its piece (0 inside)."""
-    return np.maximum(np.maximum(breaks[:-1] - origins, origins - breaks[1:]), 0.0)
+    """How far each origin is from its piece: 0 inside a bounded one, from the end of a half-bounded one, from x = 0 on an endless one.
+
+    Contact is near the finite breaks; a far origin makes large coefficients that cancel there.
+    """
+    lo, hi = breaks[:-1], breaks[1:]
+    outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
+    one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
+    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, np.where(np.isinf(one_end), np.abs(origins), one_end))
 
 
 def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import fields, replace
 from functools import cached_property
 from typing import Any
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .check import Certificate, certificate, verify_inequalities
 from .density import ZERO, Density, SlopeDensity
-from .errors import ContactError
+from .errors import ContactError, LoadError
 from .gap import gap
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
@@ -23,6 +24,8 @@ Array = NDArray[np.float64]
 
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment"})
+# Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
+LIGHTER = (0.1, 1e-3)
 _STAGES = ("normal", "pressure", "inequalities", "certificate")
 
 
@@ -48,13 +51,33 @@ class Solution:
     @cached_property
     def normal(self) -> Normal:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
-        found = normal_contact(self.scene, self.tol, self.economy)
-        if not (self.scene.profile.convex and "convexity" in self.economy):
-            density = pressure(found, self.scene, self.tol, self.economy)
-            verify_inequalities(density, self.scene.profile.pieces.tilted(found.edges.tilt))
-            self.__dict__["pressure"] = density
+        try:
+            found = normal_contact(self.scene, self.tol, self.economy)
+        except LoadError:
+            self._look_for_a_second_patch()
+            raise
+        if self._may_not_be_convex:
+            self.__dict__["pressure"] = self._verified(self.scene, found)
             self.__dict__["inequalities"] = True
         return found
+
+    @property
+    def _may_not_be_convex(self) -> bool:
+        return not (self.scene.profile.convex and "convexity" in self.economy)
+
+    def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
+        density = pressure(found, scene, self.tol, self.economy)
+        verify_inequalities(density, scene.profile.pieces.tilted(found.edges.tilt))
+        return density
+
+    def _look_for_a_second_patch(self) -> None:
+        """Where no single patch carries the load, a lighter one may show why: raises InequalityError if it does."""
+        if not self._may_not_be_convex or self.scene.normal_load is None:
+            return
+        for fraction in LIGHTER:
+            scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
+            with suppress(LoadError):
+                self._verified(scene, normal_contact(scene, self.tol, self.economy))
 
     @cached_property
     def pressure(self) -> SlopeDensity:

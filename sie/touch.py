@@ -18,9 +18,9 @@ from .slope import Slope
 Array = NDArray[np.float64]
 
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
-MAX_STEPS = 400
-TINY_BRACKET = 1e-30  # of the first bracket: a root at x = 0 has no last digit
+MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
 HEIGHT_NODES = 16
+BEYOND = 1e-3
 
 
 def lowest_points(slope: Slope) -> tuple[float, float]:
@@ -53,9 +53,11 @@ def _finite_ends(slope: Slope) -> Array:
         powers = 1.0 / np.arange(degree, 0, -1)
         bound = 2.0 * float(((c[:degree] / c[degree]) ** powers).max()) if degree else 1.0
         finite = ends[k][np.isfinite(ends[k])]
-        start = slope.origins[k] if not finite.size else max(finite, key=abs) if degree else finite[0]
-        reach = 2.0 * bound + (1.0 if bound == 0.0 else 0.0) + (abs(start - slope.origins[k]))
-        ends[k, j] = (slope.origins[k] if degree else start) + (-reach if j == 0 else reach)
+        origin = slope.origins[k]
+        start = origin if not finite.size else finite[0]
+        # Some way beyond the last root, also where that root is next to the other end
+        reach = (2.0 * bound + abs(start - origin) + BEYOND * max(abs(start), abs(origin))) or 1.0
+        ends[k, j] = origin + (-reach if j == 0 else reach)
     return ends
 
 
@@ -114,10 +116,10 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     at_a, at_b = H(a), H(b)
     if at_a >= 0.0 or at_b <= 0.0:
         return lo if at_a >= 0.0 else hi
-    floor, widths = TINY_BRACKET * (b - a), [np.inf, np.inf]
+    widths = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         widths.append(b - a)
-        if b - a <= max(4.0 * float(np.spacing(max(abs(a), abs(b)))), floor):
+        if b - a <= 4.0 * float(np.spacing(max(abs(a), abs(b)))):
             break
         y = (a * at_b - b * at_a) / (at_b - at_a)
         if not a < y < b or widths[-1] > 0.5 * widths[-3]:
