@@ -1,0 +1,19 @@
+"""How hard hypothesis tries: "default" in minutes for the whole of the tests, "deep" for a long run by hand.
+
+HYPOTHESIS_PROFILE=deep pytest tests       or       pytest --hypothesis-profile=deep tests
+
+In continuous integration (CI is set) the examples are the same in every run.
+"""
+
+import os
+
+from hypothesis import HealthCheck, Phase, settings
+
+COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "derandomize": bool(os.environ.get("CI"))}
+
+# Shrinking a contact can take minutes; the example found is small enough to read
+QUICK = (Phase.explicit, Phase.reuse, Phase.generate)
+
+settings.register_profile("default", max_examples=30, phases=QUICK, **COMMON)
+settings.register_profile("deep", max_examples=2000, **COMMON)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
