@@ -1,0 +1,246 @@
+"""The command line.
+
+    sie solve scene.toml [--want ...] [--plot FILE] [--csv FILE] [--json [FILE]] [--points N] [--tol T]
+    sie plan scene.toml [--want ...]          what would be computed, what would be skipped, and why
+    sie example [NAME]                        a commented scene file to start from; without NAME, the list of them
+
+`python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output (--csv, --json).
+
+Exit codes: 0 solved; 1 solved, but the certificate is not met; 2 refused, with one sentence on standard error and no file touched;
+130 interrupted; 141 nobody reads the output any more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import NoReturn
+
+from . import __version__, export, scenefile
+from .errors import ContactError
+from .plan import WANTS, plan
+from .scenefile import SceneFile
+from .solution import Solution, solve
+
+CERTIFIED, NOT_CERTIFIED, REFUSED, INTERRUPTED, UNREAD = 0, 1, 2, 130, 141
+COMMANDS = ("solve", "plan", "example")
+OPTIONS = ("--want", "--plot", "--csv", "--json", "--points", "--tol", "--help", "--version")
+STANDARD = "-"
+MOST_POINTS = 10**6
+# For a terminal without block elements.
+PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; returns the exit code, and raises nothing for bad input."""
+    try:
+        arguments = _arguments(sys.argv[1:] if argv is None else argv)
+        status: int = arguments.run(arguments)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except SystemExit as done:  # --help and --version
+        return int(done.code or 0)
+    except BrokenPipeError:
+        _forget_output()
+        return UNREAD
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (ValueError, ContactError, OSError) as problem:
+        _forget_output()
+        print("sie:", " ".join(_sentence(problem).split()), file=sys.stderr)
+        return REFUSED
+    return status
+
+
+# -- commands ----------------------------------------------------------------------------------------------------------
+
+
+def _solve(arguments: argparse.Namespace) -> int:
+    """Everything is checked, then everything is computed, then the files are written."""
+    outputs = _outputs(arguments)
+    file = _scene(arguments)
+    solution = solve(file.scene, tol=arguments.tol)
+    contents = {path: _content(kind, path, solution, file, arguments.points) for kind, path in outputs.items()}
+    shown = contents.pop(Path(STANDARD), None)
+    text = shown.decode() if shown is not None else _report(solution, file, contents)
+    certified = "check" not in file.want or solution.check().ok
+    export.write_files(contents)
+    _print(text)
+    if not certified:
+        print(f"sie: the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check", file=sys.stderr)
+    return CERTIFIED if certified else NOT_CERTIFIED
+
+
+def _plan(arguments: argparse.Namespace) -> int:
+    file = _scene(arguments)
+    solve(file.scene)  # computes nothing, but refuses what is not covered
+    _print(f"{plan(file.scene, file.want)}\n")
+    return CERTIFIED
+
+
+def _example(arguments: argparse.Namespace) -> int:
+    if arguments.name is not None:
+        _print(scenefile.example(arguments.name))
+        return CERTIFIED
+    titles = scenefile.examples()
+    width = max(map(len, titles))
+    lines = [f"{name:<{width}}  {title}" for name, title in titles.items()]
+    _print("\n".join([*lines, "", "sie example NAME > scene.toml", ""]))
+    return CERTIFIED
+
+
+# -- what is asked for, each with the sentence that refuses it ---------------------------------------------------------
+
+
+def _scene(arguments: argparse.Namespace) -> SceneFile:
+    """The scene file, with --want in place of what the file wants."""
+    want = scenefile.wants("--want", [name for word in arguments.want or () for name in word.split(",") if name])
+    if arguments.scene is None:
+        raise ValueError(f"give the scene file first: sie {arguments.command} scene.toml; `sie example` lists some to start from")
+    standard = arguments.scene == STANDARD
+    file = scenefile.parse(sys.stdin.buffer.read(), "standard input") if standard else scenefile.read(arguments.scene)
+    return replace(file, want=want or export.wanted(file))
+
+
+def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+    """Where each kind of output goes. Raises ValueError unless all of them can be written."""
+    given = ((kind, getattr(arguments, kind)) for kind in ("plot", "csv", "json"))
+    outputs = {kind: Path(name) for kind, name in given if name is not None}
+    if "plot" in outputs:
+        _check_picture(outputs["plot"])
+    taken = {Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
+    for kind, path in outputs.items():
+        place = path.resolve()
+        if place in taken and path == Path(STANDARD):
+            raise ValueError("--csv and --json cannot both go to standard output: give one of them a file")
+        if place in taken:
+            raise ValueError(f"--{kind} {path} would overwrite {taken[place]}: give another name")
+        taken[place] = f"what --{kind} writes"
+        if path != Path(STANDARD):
+            export.writable(path)
+    return outputs
+
+
+def _check_picture(path: Path) -> None:
+    known = _pictures().suffixes()
+    if path.suffix[1:].lower() not in known:
+        raise ValueError(f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: use .{", .".join(known)}')
+
+
+def _pictures() -> ModuleType:
+    """The module `plot`; nothing else needs Matplotlib."""
+    try:
+        from . import plot  # noqa: PLC0415
+    except ImportError:
+        raise ValueError('--plot needs Matplotlib: pip install "plane-contact[plot]"') from None
+    return plot
+
+
+# -- what is given back ------------------------------------------------------------------------------------------------
+
+
+def _content(kind: str, path: Path, solution: Solution, file: SceneFile, points: int) -> bytes:
+    if kind == "csv":
+        return export.csv_text(solution, file, points).encode()
+    if kind == "json":
+        return export.json_text(solution, file, points).encode()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes
+        figure = _pictures().picture(solution, file.units, file.title)
+        data: bytes = _pictures().picture_bytes(figure, path.suffix[1:].lower())
+    return data
+
+
+def _report(solution: Solution, file: SceneFile, written: Iterable[Path]) -> str:
+    paragraphs = [export.summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
+    return "\n\n".join(p for p in paragraphs if p) + "\n"
+
+
+def _print(text: str) -> None:
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        text = text.translate(PLAIN).encode(encoding, "replace").decode(encoding)
+    print(text, end="")
+
+
+def _sentence(problem: Exception) -> str:
+    if isinstance(problem, OSError) and problem.strerror:
+        return f"{problem.filename or 'output'}: {problem.strerror}"
+    return str(problem)
+
+
+def _forget_output() -> None:
+    """Lets go of an output that cannot be written to (a closed pipe, a full disk): Python would complain about it when it ends."""
+    try:
+        sys.stdout.flush()
+    except (OSError, ValueError, AttributeError):
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+# -- the parser --------------------------------------------------------------------------------------------------------
+
+
+class _Parser(argparse.ArgumentParser):
+    """argparse, but a mistake is a ValueError instead of a usage message and an exit."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message}; `{self.prog} --help` explains")
+
+
+def _arguments(argv: Sequence[str]) -> argparse.Namespace:
+    if argv and not argv[0].startswith("-") and argv[0] not in COMMANDS:
+        near = scenefile.nearest(argv[0], COMMANDS)
+        remedy = f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
+        raise ValueError(f'there is no command "{argv[0]}": {remedy}')
+    found, unknown = _parser().parse_known_args(argv)
+    if unknown:
+        near = scenefile.nearest(unknown[0], OPTIONS)
+        remedy = f"did you mean {near}?" if near else f"`sie {found.command} --help` explains"
+        raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
+    return found
+
+
+def _parser() -> argparse.ArgumentParser:
+    about = "Plane elastic contact: edges, pressure and gap, with a certificate of their accuracy."
+    parser = _Parser(prog="sie", description=about, allow_abbrev=False)
+    parser.add_argument("--version", action="version", version=f"sie {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="{solve,plan,example}")
+    solving = commands.add_parser("solve", help="solve a scene and print, draw or write the answer", allow_abbrev=False)
+    planning = commands.add_parser("plan", help="what would be computed, what would be skipped, and why", allow_abbrev=False)
+    showing = commands.add_parser("example", help="print a commented scene file to start from", allow_abbrev=False)
+    for command in (solving, planning):
+        command.add_argument("scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input")
+        command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} (all)")
+    solving.add_argument("--plot", metavar="FILE", help="draw pressure and gap: .png, .pdf, .svg ... (needs Matplotlib)")
+    solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap")
+    solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
+    solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
+    solving.add_argument("--tol", metavar="T", type=float, default=1e-13, help="relative accuracy to certify (%(default)s)")
+    showing.add_argument("name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list")
+    for command, run in ((solving, _solve), (planning, _plan), (showing, _example)):
+        command.set_defaults(run=run)
+    return parser
+
+
+def _points(text: str) -> int:
+    try:
+        points = int(text)
+    except ValueError:
+        points = 0
+    if not 2 <= points <= MOST_POINTS:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 2 to {MOST_POINTS}")
+    return points
+
+
+if __name__ == "__main__":
+    sys.exit(main())

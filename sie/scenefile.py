@@ -1,0 +1,377 @@
+"""Scene files: a contact problem as TOML text, read into a `Scene` with the labels of its units.
+
+    title = "..."                     optional, as is  want = ["edges", "check"], what `sie solve` answers without --want
+    indenter = "rigid"                optional; the other way is a table [indenter]
+
+    [units]      length = "mm"  force = "N/mm"  stress = "MPa"      labels only: nothing is converted, any consistent set works
+    [profile]    kind and its parameters; mirrored, tilted, shifted, applied in this order
+    [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
+    [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
+    [indenter]   the same; without it the indenter is made of the body's material
+    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]
+    [load]       normal_load | half_width, tilt | moment, friction, tangential_load, bulk_stress
+
+`sie example` lists commented files to start from. Whatever does not fit is refused in one sentence, a `SceneFileError`, that names the
+file, the table, the value and the remedy; a name that is not known is answered with the nearest that is.
+
+>>> found = parse('''
+... profile = { kind = "parabola", radius = 100.0 }
+... pair = { modulus = 80e3 }
+... load = { normal_load = 50.0 }
+... ''')
+>>> found.scene.profile, found.units.length
+(Parabola(radius=100.0), 'mm')
+"""
+
+from __future__ import annotations
+
+import codecs
+import difflib
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from .material import RIGID, Body, Elastic
+from .plan import WANTS
+from .profile import Profile, profile_kinds
+from .scene import Scene
+
+
+class SceneFileError(ValueError):
+    """A scene file that cannot be read, or that does not make a contact problem."""
+
+
+@dataclass(frozen=True)
+class Units:
+    """Labels of the units. They must be consistent, force = stress × length; nothing is converted."""
+
+    length: str = "mm"
+    force: str = "N/mm"
+    stress: str = "MPa"
+
+    @property
+    def moment(self) -> str:
+        """The unit of ∫p x dx: N/mm times mm is N.
+
+        >>> Units().moment, Units(force="kN").moment
+        ('N', 'kN mm')
+        """
+        per_length = "/" + self.length
+        return self.force.removesuffix(per_length) if self.force.endswith(per_length) else f"{self.force} {self.length}"
+
+
+UNITS = Units()
+
+
+@dataclass(frozen=True)
+class SceneFile:
+    """What a scene file holds; `want` is empty where the file leaves it to the asker."""
+
+    scene: Scene
+    title: str = ""
+    units: Units = UNITS
+    want: tuple[str, ...] = ()
+
+
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+
+def read(path: str | Path) -> SceneFile:
+    """The scene in a TOML file. Raises SceneFileError if there is none."""
+    path = Path(path)
+    if path.is_dir():
+        raise SceneFileError(f"{path} is a directory: give a scene file, like scene.toml")
+    try:
+        return parse(path.read_bytes(), path.name)
+    except FileNotFoundError:
+        raise SceneFileError(f"{path} does not exist: write one with  sie example rounded-flat > {path.name}") from None
+    except OSError as problem:
+        raise SceneFileError(f"{path} cannot be read ({problem.strerror}): give a readable scene file") from None
+
+
+def parse(text: str | bytes, name: str = "scene") -> SceneFile:
+    """The scene in a TOML text; `name` is what messages call it. Raises SceneFileError."""
+    try:
+        table = tomllib.loads(text if isinstance(text, str) else _decoded(text, name))
+    except tomllib.TOMLDecodeError as problem:
+        raise SceneFileError(f"{name} is not TOML: {problem}; `sie example` prints files that are") from None
+    except RecursionError:
+        raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
+    try:
+        return _scene_file(table)
+    except ValueError as problem:
+        raise SceneFileError(f"{name}: {problem}") from None
+
+
+def _decoded(data: bytes, name: str) -> str:
+    # Windows PowerShell's `>` writes UTF-16, editors there may write a byte-order mark before UTF-8.
+    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as problem:
+        raise SceneFileError(f"{name} is not UTF-8 text (byte {problem.start}): save it as UTF-8") from None
+
+
+# -- examples ----------------------------------------------------------------------------------------------------------
+
+
+def example(kind: str) -> str:
+    """The commented example of a profile kind, as TOML text. Raises ValueError, with the nearest name, for one that is not known."""
+    if kind not in profile_kinds():
+        raise ValueError(f'there is no example "{kind}": {_suggestion(kind, profile_kinds())}')
+    return (resources.files(__package__) / "examples" / f"{kind}.toml").read_text(encoding="utf-8")
+
+
+def examples() -> dict[str, str]:
+    """The name of each example and its title."""
+    return {kind: parse(example(kind), f"{kind}.toml").title for kind in profile_kinds()}
+
+
+# -- values, each with the sentence that refuses it --------------------------------------------------------------------
+
+Reader = Callable[[str, Any], Any]
+
+
+def _number(where: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"{where} = {_shown(value)} is not a number: write a plain number, without quotes or units")
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{where} = {_shown(value)} is beyond the floating-point range: choose other units") from None
+
+
+def _text(where: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f'{where} = {_shown(value)} is not text: put it in quotes, "..."')
+    if not value.isprintable():
+        raise ValueError(f"{where} = {_shown(value)} is not one line of plain text: leave out line ends and control characters")
+    return value
+
+
+def _flag(where: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise ValueError(f"{where} = {_shown(value)} is neither true nor false: write one of them, without quotes")
+    return value
+
+
+def _list(where: str, value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise ValueError(f"{where} = {_shown(value)} is not a list: put it in square brackets")
+    return value
+
+
+def _numbers(where: str, value: Any) -> tuple[float, ...]:
+    return tuple(_number(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
+
+
+def _rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    return tuple(_numbers(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
+
+
+def _texts(where: str, value: Any) -> tuple[str, ...]:
+    return tuple(_text(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
+
+
+def _table(where: str, value: Any) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value
+    if isinstance(value, list):
+        raise ValueError(f"[{where}] is a list: write the header [{where}] once, in single brackets")
+    raise ValueError(f"{where} = {_shown(value)} is not a table: write the header [{where}] and its keys below it")
+
+
+def _shown(value: Any) -> str:
+    """A value as TOML writes it, shortened."""
+    text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
+    text = " ".join(text.split())
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+# -- what each table may hold ------------------------------------------------------------------------------------------
+
+_BODY: dict[str, Reader] = {"young": _number, "poisson": _number, "plane": _text, "rigid": _flag}
+_LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "bulk_stress")
+_TABLES: dict[str, dict[str, Reader]] = {
+    "units": {"length": _text, "force": _text, "stress": _text},
+    "body": _BODY,
+    "indenter": _BODY,
+    "pair": {"modulus": _number, "dundurs": _number, "poisson": _number},
+    "load": dict.fromkeys(_LOAD_KEYS, _number),
+}
+_TOP: tuple[str, ...] = ("title", "want", "profile", *_TABLES)
+_MODIFIERS: dict[str, Reader] = {"mirrored": _flag, "tilted": _number, "shifted": _number}
+# Parameters of each profile kind; the optional ones are those of "function" but for its slope.
+_PARAMETERS: dict[str, dict[str, Reader]] = {
+    "parabola": {"radius": _number},
+    "rounded-flat": {"half_flat": _number, "radius": _number},
+    "flat": {"half_width": _number},
+    "wedge": {"slope": _number},
+    "power": {"exponent": _number, "coefficient": _number},
+    "polynomial": {"coefficients": _numbers},
+    "piecewise": {"breaks": _numbers, "pieces": _rows},
+    "function": {"slope": _text, "breaks": _numbers, "domain": _numbers, "parity": _text},
+}
+_OPTIONAL = {"function": {"breaks", "domain", "parity"}}
+
+
+# -- from tables to a scene --------------------------------------------------------------------------------------------
+
+
+def _scene_file(top: dict[str, Any]) -> SceneFile:
+    for key in top:
+        if key not in _TOP:
+            raise ValueError(f'there is no key or table "{key}": {_remedy(key, _TOP, "")}')
+    for name, content in (("profile", 'kind = "parabola" or another'), ("load", "normal_load or half_width")):
+        if name not in top:
+            raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+    return SceneFile(
+        scene=Scene(profile=_profile(top["profile"]), **_bodies(top), **_taken("load", top["load"])),
+        title=_text("title", top.get("title", "")),
+        units=Units(**_taken("units", top.get("units", {}))),
+        want=wants("want", _texts("want", top.get("want", []))),
+    )
+
+
+def _taken(name: str, value: Any) -> dict[str, Any]:
+    """The values of the table [name], none unknown, each of its type."""
+    return _values(f"[{name}]", _table(name, value), _TABLES[name])
+
+
+def _values(where: str, table: Mapping[str, Any], readers: Mapping[str, Reader], kind: str = "") -> dict[str, Any]:
+    for key in table:
+        if key not in readers:
+            raise ValueError(f'{where}{kind} has no key "{key}": {_remedy(key, readers, where)}')
+    return {key: readers[key](f"{where} {key}", value) for key, value in table.items()}
+
+
+def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None:
+    missing = [name for name in names if name not in values]
+    if missing:
+        raise ValueError(f"{where} lacks {' and '.join(missing)}: give {' and '.join(f'{name} = ...' for name in missing)}")
+
+
+def _profile(value: Any) -> Profile:
+    first = dict(_table("profile", value))
+    plus = first.pop("plus", [])
+    if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
+        raise ValueError("profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term")
+    total = _term("[profile]", first)
+    for k, term in enumerate(plus, start=1):
+        total = total + _term("[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term)
+    return total
+
+
+def _term(where: str, table: dict[str, Any]) -> Profile:
+    """One term of the profile: its kind, then mirrored, tilted, shifted."""
+    kinds = profile_kinds()
+    if "kind" not in table:
+        meant = next((key for key in table if nearest(key, ["kind"])), "")
+        raise ValueError(
+            f'{where} has no key "{meant}": did you mean "kind"?' if meant else f"{where} lacks kind: give kind = {_choices(kinds)}"
+        )
+    kind = _text(f"{where} kind", table["kind"])
+    if kind not in kinds:
+        raise ValueError(f'{where} kind = "{kind}" is not known: {_suggestion(kind, kinds)}')
+    readers = _PARAMETERS[kind]
+    values = _values(where, table, {"kind": _text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"')
+    _required(f'{where} of kind "{kind}"', values, (name for name in readers if name not in _OPTIONAL.get(kind, ())))
+    with _Naming(where):
+        profile: Profile = kinds[kind](**{name: v for name, v in values.items() if name in readers})
+        profile = profile.mirrored() if values.get("mirrored") else profile
+        return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+
+
+def _bodies(top: dict[str, Any]) -> dict[str, Any]:
+    """The scene's body and indenter, or modulus, dundurs and poisson."""
+    if "pair" in top:
+        for name in ("body", "indenter"):
+            if name in top:
+                raise ValueError(f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out")
+        values = _taken("pair", top["pair"])
+        _required("[pair]", values, ["modulus"])
+        return values
+    if "body" not in top:
+        raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
+    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top}
+
+
+def _body(name: str, value: Any) -> Body:
+    if isinstance(value, str):
+        if value != "rigid":
+            raise ValueError(f'{name} = "{value}" is not known: write {name} = "rigid", or a table [{name}] with young and poisson')
+        return RIGID
+    values = _taken(name, value)
+    if values.pop("rigid", False):
+        if values:
+            raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")
+        return RIGID
+    _required(f"[{name}]", values, ("young", "poisson"))
+    with _Naming(f"[{name}]"):
+        return Elastic(**values)
+
+
+class _Naming:
+    """Puts the table in front of what a value's own check says."""
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: object) -> None:
+        if isinstance(problem, ValueError):
+            raise ValueError(f"{self.where} {problem}") from None
+        # A formula is evaluated here for the first time: what Python finds wrong with it is the file's fault.
+        if isinstance(problem, (ArithmeticError, RecursionError, TypeError)):
+            raise ValueError(f"{self.where} slope cannot be evaluated ({problem}): simplify the formula") from None
+
+
+# -- names that are not known ------------------------------------------------------------------------------------------
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The known name that `name` was most likely meant to be, "" if none is near.
+
+    >>> nearest("normal_laod", ["normal_load", "tangential_load"])
+    'normal_load'
+    """
+    by_letters = {k.lower().replace("_", "-"): k for k in known}
+    found = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
+    return by_letters[found[0]] if found else ""
+
+
+def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
+    """The names, if all of them can be asked for; ValueError, with the nearest that can, if not."""
+    for name in names:
+        if name not in WANTS:
+            raise ValueError(f'{where} "{name}" is not known: {_suggestion(name, WANTS)}')
+    return tuple(names)
+
+
+def _suggestion(name: str, known: Iterable[str]) -> str:
+    near = nearest(name, known)
+    return f'did you mean "{near}"?' if near else f"choose {_choices(known)}"
+
+
+def _remedy(key: str, known: Iterable[str], here: str) -> str:
+    """Where a stray key belongs: near a known one, or in another table, which is what happens when a header is forgotten."""
+    known = tuple(known)
+    if not nearest(key, known):
+        if here and key in ("title", "want", *_TABLES):
+            return "it stands at the top of the file, before the first [table]"
+        if here and key == "plus":
+            return "terms are not nested, write one [[profile.plus]] after the other"
+        homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
+        homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _MODIFIERS)) else []
+        if homes:
+            return f"it belongs in {' or '.join(homes)}"
+    return _suggestion(key, known)
+
+
+def _choices(names: Iterable[str]) -> str:
+    quoted = [f'"{name}"' for name in names]
+    return f"{', '.join(quoted[:-1])} or {quoted[-1]}" if len(quoted) > 1 else quoted[0]

@@ -1,0 +1,392 @@
+"""The command line: what it prints and writes is what the library computes, and what it refuses leaves no trace."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sie
+from sie import __main__ as command
+from sie import export, scenefile
+from sie.__main__ import main
+from sie.check import Certificate
+from sie.plan import WANTS
+from sie.profile import profile_kinds
+
+KINDS = list(profile_kinds())
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    """The name of a scene file in the current directory."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.toml").write_text(scenefile.example("rounded-flat"))
+    return "scene.toml"
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """The solutions that the command line asks for."""
+    asked = []
+
+    def solve(*args, **kwargs):
+        asked.append(sie.solve(*args, **kwargs))
+        return asked[-1]
+
+    monkeypatch.setattr(command, "solve", solve)
+    return asked
+
+
+def example(kind, tmp_path):
+    path = tmp_path / f"{kind}.toml"
+    path.write_text(scenefile.example(kind))
+    return str(path)
+
+
+def run(*argv, **options):
+    return subprocess.run([sys.executable, "-m", "sie", *argv], capture_output=True, text=True, encoding="utf-8", check=False, **options)
+
+
+def sentence(capsys):
+    """What standard error got: one line; and nothing on standard output."""
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("sie: ") and err.count("\n") == 1 and err.endswith("\n")
+    return err
+
+
+def strict(text):
+    """JSON without the NaN and Infinity that Python would accept."""
+    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
+
+
+# -- solve -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_example_is_solved_and_certified_from_the_command_line(kind, tmp_path, capsys):
+    assert main(["solve", example(kind, tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert "\ncertified to " in out and "█" in out and err == ""
+
+
+def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
+    main(["solve", scene])
+    out = capsys.readouterr().out
+    solution = sie.solve(scenefile.read(scene).scene)
+    assert f"x1 = {solution.edges[0]:.6g} mm, smooth" in out
+    assert "normal load     500 N/mm" in out
+    assert f"peak pressure   {export.peak(solution)[0]:.6g} MPa at x = " in out
+    assert str(solution.check()) in out
+
+
+def test_the_text_picture_is_the_pressure_column_by_column(scene):
+    solution = sie.solve(scenefile.read(scene).scene)
+    rows = [line.split("│")[1] for line in export.text_picture(solution, scenefile.UNITS).splitlines() if "│" in line]
+    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(export.COLUMNS)]) / 8.0 / export.ROWS
+    x = np.linspace(*solution.edges, 2 * export.COLUMNS + 1)[1::2]
+    assert np.abs(heights * export.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
+    assert (heights == heights[::-1]).all()
+
+
+def test_sharp_edges_and_infinite_peaks_are_told(tmp_path, capsys):
+    main(["solve", example("flat", tmp_path)])
+    out = capsys.readouterr().out
+    assert "x1 = -5 mm, sharp" in out and "peak pressure   infinite at x = -5 and 5" in out and "↑" in out
+
+
+def test_an_answer_without_a_good_certificate_is_printed_and_told_by_the_exit_code(scene, capsys, monkeypatch):
+    monkeypatch.setattr(Certificate, "ok", False)
+    assert main(["solve", scene]) == 1
+    out, err = capsys.readouterr()
+    assert "NOT certified" in out and err.startswith("sie: the certificate is not met") and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("want", WANTS)
+def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
+    main(["solve", scene, "--want", want])
+    out = capsys.readouterr().out
+    marks = {"edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "check": "integral equation"}
+    assert {name for name, mark in marks.items() if mark in out} == {want}
+
+
+def test_wanting_the_edges_of_a_convex_profile_computes_no_pressure(scene, solved, capsys):
+    main(["solve", scene, "--want", "edges"])
+    assert "normal" in vars(solved[0]) and "pressure" not in vars(solved[0])
+    main(["solve", scene, "--want", "edges", "--json"])
+    assert "pressure" not in vars(solved[1])
+    main(["solve", scene, "--want", "edges,gap"])
+    assert "pressure" in vars(solved[2]) and "certificate" not in vars(solved[2])
+
+
+def test_a_file_s_own_want_holds_unless_the_command_line_wants_otherwise(scene, tmp_path, capsys):
+    text = (tmp_path / scene).read_text()
+    (tmp_path / scene).write_text('want = ["edges"]\n' + text)
+    main(["solve", scene])
+    assert "peak pressure" not in capsys.readouterr().out
+    main(["solve", scene, "--want", "pressure"])
+    assert "peak pressure" in capsys.readouterr().out
+
+
+# -- JSON and CSV ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path, capsys):
+    path = example(kind, tmp_path)
+    assert main(["solve", path, "--json"]) == 0
+    found = strict(capsys.readouterr().out)
+    solution = sie.solve(scenefile.read(path).scene)
+    assert tuple(found["edges"]) == solution.edges and tuple(found["sharp"]) == solution.sharp
+    for name in ("half_width", "centre", "normal_load", "moment", "tilt"):
+        assert found[name] == getattr(solution, name)
+    pressure, gap = found["pressure"], found["gap"]
+    np.testing.assert_array_equal(np.array(pressure["p"], dtype=float), solution.pressure(np.array(pressure["x"])))
+    np.testing.assert_array_equal(np.array(gap["gap"], dtype=float), solution.gap(np.array(gap["x"])))
+    assert float(pressure["peak"]["p"]) == max(map(float, [*pressure["p"], pressure["peak"]["p"]]))
+    assert found["check"] == solution.check().as_dict() and found["check"]["ok"] is True
+    assert sie.solve(eval(found["scene"], vars(sie) | {"inf": float("inf")})).edges == solution.edges
+
+
+def test_an_infinite_pressure_is_a_string_that_reads_as_a_number(tmp_path, capsys):
+    main(["solve", example("flat", tmp_path), "--json"])
+    p = strict(capsys.readouterr().out)["pressure"]["p"]
+    assert p[0] == p[-1] == "Infinity" and float(p[0]) == float("inf")
+
+
+def test_json_holds_only_what_is_wanted(scene, capsys):
+    main(["solve", scene, "--want", "check", "--json"])
+    found = strict(capsys.readouterr().out)
+    assert "check" in found and "pressure" not in found and "gap" not in found
+
+
+def test_json_in_a_file_is_what_would_be_printed(scene, tmp_path, capsys):
+    main(["solve", scene, "--json"])
+    printed = capsys.readouterr().out
+    main(["solve", scene, "--json", "out.json"])
+    assert (tmp_path / "out.json").read_text() == printed
+    assert "wrote out.json" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
+    path, out = example(kind, tmp_path), tmp_path / "out.csv"
+    main(["solve", path, "--csv", str(out), "--points", "50"])
+    file = scenefile.read(path)
+    solution = sie.solve(file.scene)
+    text = out.read_text(encoding="utf-8").splitlines()
+    assert [line.startswith("#") for line in text[:5]] == [True] * 4 + [False]
+    assert file.title in text[0] and "mm" in text[2] and "MPa" in text[2]
+    rows = list(csv.DictReader(text[4:]))
+    x, p, gap = (np.array([float(row[name]) for row in rows]) for name in ("x", "p", "gap"))
+    np.testing.assert_array_equal(x, np.loadtxt(out, delimiter=",", skiprows=5)[:, 0])
+    np.testing.assert_array_equal(p, solution.pressure(x))
+    np.testing.assert_array_equal(gap, solution.gap(x))
+    assert (np.diff(x) > 0).all()
+    assert {*solution.edges, *(b for b in file.scene.profile.breaks if x[0] < b < x[-1])} <= set(x.tolist())
+
+
+def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():
+    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0))
+    x = export.inside(solution, 100)
+    assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
+    assert len(x) == pytest.approx(100, abs=10)
+
+
+def test_one_output_may_be_standard_output_and_is_then_alone_there(scene, capsys):
+    main(["solve", scene, "--csv", "-"])
+    assert capsys.readouterr().out.startswith("# Fretting pad")
+
+
+# -- plan and example --------------------------------------------------------------------------------------------------
+
+
+def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
+    assert main(["plan", scene, "--want", "edges"]) == 0
+    out = capsys.readouterr().out
+    assert out.strip() == str(sie.plan(scenefile.read(scene).scene, ["edges"]))
+    assert "skip  pressure      not asked for" in out and "run   edges " in out
+    assert all(not {"normal", "pressure"} & set(vars(solution)) for solution in solved)
+
+
+def test_a_plan_of_what_cannot_be_solved_is_refused_like_its_solution(scene, tmp_path, capsys):
+    (tmp_path / scene).write_text(scenefile.example("rounded-flat") + "friction = 0.5\ntangential_load = 1.0\n")
+    if main(["solve", scene]) == 0:
+        pytest.skip("tangential loads are covered")
+    said = sentence(capsys)
+    assert main(["plan", scene]) == 2
+    assert sentence(capsys) == said
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_example_is_printed_as_it_is(kind, capsys):
+    assert main(["example", kind]) == 0
+    assert capsys.readouterr().out == scenefile.example(kind)
+
+
+def test_examples_are_listed_with_a_line_each(capsys):
+    assert main(["example"]) == 0
+    listed = capsys.readouterr().out.splitlines()[: len(KINDS)]
+    assert [line.split()[0] for line in listed] == KINDS and all(len(line.split()) > 2 for line in listed)
+
+
+# -- refusals ----------------------------------------------------------------------------------------------------------
+
+BAD = {
+    "no command": ([], "arguments are required"),
+    "unknown command": (["slove", "scene.toml"], "did you mean solve?"),
+    "a file for a command": (["scene.toml"], "like sie solve scene.toml"),
+    "no scene": (["solve"], "give the scene file first"),
+    "an option that swallows the scene": (["solve", "--want", "scene.toml"], '"scene.toml" is not known'),
+    "no such scene": (["solve", "none.toml"], "does not exist"),
+    "directory": (["solve", "."], "is a directory"),
+    "unknown option": (["solve", "scene.toml", "--polt", "out.png"], "did you mean --plot?"),
+    "unknown want": (["solve", "scene.toml", "--want", "edgse"], 'did you mean "edges"?'),
+    "unknown want of a plan": (["plan", "scene.toml", "--want", "presure"], 'did you mean "pressure"?'),
+    "unknown example": (["example", "wegde"], 'did you mean "wedge"?'),
+    "points": (["solve", "scene.toml", "--points", "many"], "many is not a whole number"),
+    "too many points": (["solve", "scene.toml", "--points", "1000000000"], "from 2 to"),
+    "tolerance": (["solve", "scene.toml", "--tol", "0"], "tol = 0 is not positive"),
+    "no suffix": (["solve", "scene.toml", "--plot", "picture"], ".png"),
+    "unknown suffix": (["solve", "scene.toml", "--plot", "out.xyz"], ".svg"),
+    "output is a directory": (["solve", "scene.toml", "--csv", "."], "is a directory"),
+    "output in no directory": (["solve", "scene.toml", "--json", "none/out.json"], "no directory"),
+    "output over the scene": (["solve", "scene.toml", "--csv", "scene.toml"], "would overwrite the scene file"),
+    "two outputs in one place": (["solve", "scene.toml", "--csv", "out", "--json", "./out"], "would overwrite what --csv writes"),
+    "two outputs to the terminal": (["solve", "scene.toml", "--csv", "-", "--json"], "cannot both go to standard output"),
+}
+
+
+@pytest.mark.parametrize(("argv", "said"), BAD.values(), ids=BAD)
+def test_a_bad_request_is_one_sentence_and_exit_code_2(argv, said, scene, capsys):
+    assert main(argv) == 2
+    assert said in sentence(capsys)
+
+
+BAD_SCENES = {
+    "not TOML": "[load\n",
+    "unknown key": scenefile.example("wedge") + "normal_laod = 1.0\n",
+    "value": scenefile.example("wedge").replace("slope = 0.05", "slope = -0.05"),
+    "load that no single contact carries": scenefile.example("flat").replace("moment = 60.0", "moment = 600.0"),
+    "profile that lifts off": scenefile.example("polynomial").replace("0.010, 0.004, 0.001", "-0.010, 0.0, 0.001"),
+}
+
+
+@pytest.mark.parametrize("text", BAD_SCENES.values(), ids=BAD_SCENES)
+def test_a_refused_scene_leaves_the_outputs_of_the_last_one_alone(text, scene, tmp_path, capsys):
+    (tmp_path / scene).write_text(text)
+    outputs = [tmp_path / name for name in ("out.csv", "out.json", "out.png")]
+    for path in outputs:
+        path.write_text("as it was")
+    assert main(["solve", scene, "--csv", "out.csv", "--json", "out.json", "--plot", "out.png"]) == 2
+    sentence(capsys)
+    assert [path.read_text() for path in outputs] == ["as it was"] * 3
+    assert len(list(tmp_path.iterdir())) == 4
+
+
+def test_a_disk_that_fills_up_leaves_every_file_as_it_was(scene, tmp_path, capsys, monkeypatch):
+    (tmp_path / "out.csv").write_text("as it was")
+    write = export._write_part
+
+    def full(part, data, like):
+        write(part, data[:100], like)
+        if like.suffix == ".json":
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(export, "_write_part", full)
+    assert main(["solve", scene, "--csv", "out.csv", "--json", "out.json"]) == 2
+    assert "No space left on device" in sentence(capsys)
+    assert (tmp_path / "out.csv").read_text() == "as it was"
+    assert {path.name for path in tmp_path.iterdir()} == {"scene.toml", "out.csv"}
+
+
+def test_a_written_file_keeps_its_permissions_and_a_link_stays_a_link(scene, tmp_path):
+    (tmp_path / "real.csv").write_text("")
+    (tmp_path / "real.csv").chmod(0o640)
+    (tmp_path / "link.csv").symlink_to("real.csv")
+    assert main(["solve", scene, "--csv", "link.csv"]) == 0
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "real.csv").stat().st_mode & 0o777 == 0o640 and (tmp_path / "real.csv").read_text().startswith("#")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no device files")
+def test_a_device_is_written_to_and_not_replaced(scene):
+    assert main(["solve", scene, "--csv", "/dev/null"]) == 0
+    assert Path("/dev/null").is_char_device()
+
+
+def test_an_interruption_is_exit_code_130(scene, monkeypatch, capsys):
+    def interrupted(*args, **kwargs):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "solve", interrupted)
+    assert main(["solve", scene]) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+# -- as a program ------------------------------------------------------------------------------------------------------
+
+
+def test_the_program_solves_a_scene_and_refuses_one(scene):
+    good = run("solve", scene, "--want", "edges", "check")
+    assert (good.returncode, good.stderr) == (0, "") and "\ncertified to " in good.stdout
+    bad = run("solve", "none.toml")
+    assert (bad.returncode, bad.stdout) == (2, "") and bad.stderr.count("\n") == 1 and "Traceback" not in bad.stderr
+
+
+def test_a_scene_may_come_from_standard_input():
+    found = run("solve", "-", "--want", "edges", input=scenefile.example("wedge"))
+    assert (found.returncode, found.stderr) == (0, "") and "half-width      1 mm" in found.stdout
+
+
+def test_version_and_help_are_printed(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"sie {sie.__version__}\n"
+    assert main(["solve", "--help"]) == 0
+    assert "--plot FILE" in capsys.readouterr().out
+
+
+def test_a_terminal_without_block_elements_gets_a_plainer_picture(scene, monkeypatch):
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    monkeypatch.setenv("PYTHONUTF8", "0")
+    found = run("solve", scene)
+    assert (found.returncode, found.stderr) == (0, "") and found.stdout.isascii() and "|###" in found.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise")
+def test_a_reader_that_leaves_early_is_no_error(scene):
+    read, write = os.pipe()
+    os.close(read)
+    found = subprocess.run([sys.executable, "-m", "sie", "solve", scene], stdout=write, stderr=subprocess.PIPE, check=False)
+    os.close(write)
+    assert (found.returncode, found.stderr) == (141, b"")
+
+
+WITHOUT_MATPLOTLIB = """
+import sys
+sys.modules["matplotlib"] = None
+from sie.__main__ import main
+from sie.check import Certificate
+assert main(["solve", "scene.toml", "--csv", "out.csv"]) == 0
+assert not {"scipy", "mpmath"} & {name.split(".")[0] for name in sys.modules}
+sys.exit(main(["solve", "scene.toml", "--plot", "out.png"]))
+"""
+
+
+def test_without_matplotlib_all_but_the_picture_works(scene, tmp_path):
+    found = subprocess.run([sys.executable, "-c", WITHOUT_MATPLOTLIB], capture_output=True, text=True, encoding="utf-8", check=False)
+    assert found.returncode == 2
+    assert found.stderr == 'sie: --plot needs Matplotlib: pip install "plane-contact[plot]"\n'
+    assert (tmp_path / "out.csv").exists() and not (tmp_path / "out.png").exists()
+
+
+def test_a_picture_is_written(scene, tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    assert main(["solve", scene, "--plot", "out.PNG"]) == 0
+    assert (tmp_path / "out.PNG").read_bytes().startswith(b"\x89PNG")
+    assert capsys.readouterr().out.endswith("wrote out.PNG\n")
