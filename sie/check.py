@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
 GRADING = 0.25
+WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
 LEVELS = 26  # GRADING**LEVELS is rounding, for the logarithm under a corner of the profile ...
@@ -38,6 +39,7 @@ POINTS = 48  # at which the residual is measured: between the longest panels, wh
 TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
 SCAN = 40
+SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 
 
 @dataclass(frozen=True)
@@ -116,7 +118,7 @@ def _finite(p: Array) -> Array:
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
-    with_breaks = np.concatenate((_rule(density.contact, slope, levels=6).x, _inner_breaks(density.contact, slope)))
+    with_breaks = np.concatenate((_scan(density.contact, slope), _inner_breaks(density.contact, slope)))
     p = density(with_breaks)
     peak = float(p[np.isfinite(p)].max())
     worst = int(np.argmin(p))
@@ -139,6 +141,15 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         )
 
 
+def _scan(contact: Interval, slope: Slope) -> Array:
+    """Points inside every piece in the contact, evenly in the angle: many where there are few pieces."""
+    resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
+    ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, resolution)), [np.pi]))
+    n = max(SCANNED // (len(ends) - 1), 3)
+    fractions = (np.arange(n) + 0.5) / n
+    return _position(contact, (ends[:-1, None] + np.diff(ends)[:, None] * fractions).ravel())
+
+
 def _inner_breaks(contact: Interval, slope: Slope) -> Array:
     b = slope.breaks
     inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
@@ -153,13 +164,12 @@ class _Rule(NamedTuple):
     between: Array
 
 
-def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> _Rule:
+def _rule(contact: Interval, slope: Slope) -> _Rule:
     """The composite rule.
 
     Graded towards the declared breaks, and cut at the breaks that a function's resolution added: these may close in on a kink.
     """
-    if slope.continuous:
-        levels = min(levels, KINK_LEVELS)
+    levels = KINK_LEVELS if slope.continuous else LEVELS
     ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, slope)), [np.pi]))
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     cuts = [_angles(contact, _inner_breaks(contact, resolution))]
@@ -175,8 +185,10 @@ def _rule(contact: Interval, slope: Slope, levels: int = LEVELS) -> _Rule:
     angle = (edges[:-1, None] + length[:, None] * g).ravel()
     weight = (length[:, None] * w).ravel() * contact.r * np.sin(angle)
     size = np.minimum(length[:-1], length[1:])
-    between = np.sort(np.argsort(size)[-POINTS:])
-    large = edges[1:-1][between[size[between] >= COMPARABLE * size.max()]]
+    # One in each of POINTS parts of the contact: the end of the largest panels there
+    part = np.minimum((edges[1:-1] * (POINTS / np.pi)).astype(int), POINTS - 1)
+    best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
+    large = edges[1:-1][sorted(best.values())]
     return _Rule(_position(contact, angle), weight, _position(contact, large))
 
 
@@ -223,7 +235,7 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
     """
     angle = 2.0 * np.arctan2(np.sqrt(contact.from_right(at)), np.sqrt(contact.from_left(at)))
     n = np.arange(max(len(at) // 3, 1))
-    r = np.linalg.lstsq(np.cos(np.outer(angle, n)), residual, rcond=None)[0]
+    r = np.linalg.lstsq(np.cos(np.outer(angle, n)), residual, rcond=WELL_POSED)[0]
     grid = np.linspace(0.0, np.pi, 65)
     return float(np.abs(np.sin(np.outer(grid, n)) @ r).max() + MISPLACED * abs(r[0]))
 
