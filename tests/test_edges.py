@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 import strategies
-from cases import CASES, SHARP_CASES, Case, exact, solved
 from hypothesis import given
-from reference import mp
 
 import sie
+from validation.cases import CASES, SHARP_CASES, Case, exact, solved
+from validation.reference import mp
 
 PROMISE = 1e-13
 

@@ -3,14 +3,14 @@
 import laws
 import numpy as np
 import pytest
-import reference
 import strategies
-from cases import CASES, Case, exact, points, solved
 from hypothesis import given
 from hypothesis import strategies as st
-from reference import mp
 
 import sie
+from validation import reference
+from validation.cases import CASES, Case, exact, points, solved
+from validation.reference import mp
 
 PROMISE = 1e-13  # of the peak
 

@@ -3,13 +3,13 @@
 import laws
 import numpy as np
 import pytest
-import reference
 from hypothesis import example, given
-from reference import mp
 from strategies import between, log_between
 
 import sie
 from analytic import rounded_flat
+from validation import reference
+from validation.reference import mp
 
 PROMISE = 1e-13
 

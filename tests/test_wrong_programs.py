@@ -8,11 +8,11 @@ import laws
 import numpy as np
 import pytest
 import strategies
-from cases import BUMP, CASES, SINH, Case, solved
 from hypothesis import given
 
 import sie
 from sie.normal import normal_contact, pressure
+from validation.cases import BUMP, CASES, SINH, Case, solved
 
 
 class Wrong:

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-import reference
-from reference import Pieces, mp, polynomials, smooth
 
 import sie
+
+from . import reference
+from .reference import Pieces, mp, polynomials, smooth
 
 INF = float("inf")
 

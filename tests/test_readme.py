@@ -1,0 +1,41 @@
+"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture and table are there."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+SNIPPETS = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+
+
+def test_the_three_snippets_run_one_after_the_other(capsys):
+    assert len(SNIPPETS) == 3
+    names: dict[str, object] = {}
+    for snippet in SNIPPETS:
+        exec(compile(snippet, "README.md", "exec"), names)
+    assert "\ncertified to 1e-13" in capsys.readouterr().out
+
+
+def test_the_commands_install_extras_that_exist():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = re.findall(r'pip install -e "\.\[(\w+)\]"', README)
+    assert extras == ["plot", "test"]
+    assert set(extras) <= set(project["optional-dependencies"])
+    assert "sie" in project["scripts"]
+
+
+def test_every_picture_is_in_the_repository():
+    for name in re.findall(r"!\[.*?\]\((.*?)\)", README):
+        assert (ROOT / name).stat().st_size < 200_000
+
+
+@pytest.mark.parametrize("package", ["sie"])
+def test_the_architecture_names_every_file(package):
+    architecture = README.split("## Architecture")[1]
+    small = {"errors", "checks", "__init__"}
+    for path in (ROOT / package).glob("*.py"):
+        if path.stem not in small:
+            assert re.search(rf"\b{path.stem}\b", architecture), f"{path.stem} is not in the README's architecture"
