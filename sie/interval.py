@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +29,7 @@ def two_sum(a: float, b: float) -> tuple[float, float]:
     return s, (a - (s - c)) + (b - c)
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(NamedTuple):
     """The contact [x1 + tail1, x2 + tail2]."""
 
     x1: float
@@ -81,9 +79,6 @@ class Interval:
             if abs(tail) > TAIL_MATTERS * nearest:
                 tails[i] = tail
         return Interval(float(self.x1), float(self.x2), float(tails[0]), float(tails[1]))
-
-    def __contains__(self, x: float) -> bool:
-        return bool(self.from_left(x) >= 0.0 and self.from_right(x) >= 0.0)
 
 
 def interval_about(centre: float, half_width: float) -> Interval:

@@ -26,13 +26,12 @@ from numpy.typing import NDArray
 from . import chebyshev
 from .geometry import Geometry, quadrature_order
 from .interval import EPS
+from .slope import JUMP
 
 Array = NDArray[np.float64]
 
 # The closed form may lose this factor against the piece's own size before quadrature takes over.
 GROWTH = 64.0
-# A break carries a true jump of h' (and a logarithmic infinity of p) when the jump exceeds rounding by this factor.
-JUMP = 256.0 * EPS
 # Beyond this many widths from the centre the far field takes out the moment that vanishes.
 FAR_FIELD = 1.5
 FAR_FIELD_NODES = 22  # and half the degree: reach rounding there
@@ -81,7 +80,7 @@ class Panels:
     def reach(self) -> Array:
         """Bernstein parameter ρ of every piece up to which the closed form keeps its digits: Σ|c_n| ρ^n <= GROWTH max|c|."""
         if self.degree <= 1:
-            return np.full(len(self.series), GROWTH - 1.0)
+            return np.full(len(self.series), 2.0 * GROWTH)  # a straight line loses half of ρ
         c = np.abs(self.series)
         c[:, 1] = np.maximum(c[:, 1], c.max(axis=1))  # even a constant loses like ρ: two logarithms that nearly cancel
         return chebyshev.reach(c, GROWTH)

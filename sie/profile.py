@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .adaptive import integral
 from .expression import Expression
-from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
+from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 Parity = Literal["even", "none"]
@@ -323,10 +323,9 @@ class Piecewise(Profile):
         if s.coefficients.shape[1] > 2:
             return False
         rising = s.coefficients[:, 1:].min(initial=0.0) >= 0.0
-        inner = s.breaks[1:-1]
-        left = s.local(np.arange(len(inner)), inner, 0.0 * inner, np.zeros((len(inner), 1)))
-        right = s.local(np.arange(1, len(inner) + 1), inner, 0.0 * inner, np.zeros((len(inner), 1)))
-        return bool(rising and (right >= left).all())
+        left, right = s.at_breaks
+        rounding = JUMP * max(map(abs, left + right), default=0.0)
+        return bool(rising) and all(b >= a - rounding for a, b in zip(left, right, strict=True))
 
 
 def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, tuple[float, ...]]:

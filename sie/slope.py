@@ -18,12 +18,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .interval import EPS
+
 Array = NDArray[np.float64]
 Vectorised = Callable[[Array], Any]
 
 
 # Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
 FEW, LOW = 6, 4
+
+
+# A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump exceeds rounding by this factor.
+JUMP = 256.0 * EPS
 
 
 class Row(NamedTuple):
@@ -153,16 +159,24 @@ class Slope:
 
     @cached_property
     def continuous(self) -> bool:
-        """Whether H is known to have no jumps at its breaks (a function may have them at declared ones)."""
+        """Whether H is known to have no jumps at its breaks, but for rounding (a function may have them at declared ones)."""
         if self.functions:
             return False
+        left, right = self.at_breaks
+        rounding = JUMP * max(map(abs, left + right), default=0.0)
+        return all(abs(a - b) <= rounding for a, b in zip(left, right, strict=True))
+
+    @cached_property
+    def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The polynomials' H from the left and from the right of every inner break."""
+        inner = self.breaks[1:-1]
         if self.few:
-            left = {hi: _horner(c, hi - origin) for _, hi, origin, c in self.rows}
-            right = {lo: _horner(c, lo - origin) for lo, _, origin, c in self.rows}
-            return all(left.get(b, 0.0) == right.get(b, 0.0) for b in self.breaks[1:-1].tolist())
-        k, inner = np.arange(len(self.origins)), self.breaks[1:-1]
-        ends = [self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1))) for j in (k[:-1], k[1:])]
-        return bool((ends[0] == ends[1]).all())
+            before = {row.hi: row for row in self.rows}
+            after = {row.lo: row for row in self.rows}
+            return tuple(_value(before, b) for b in inner.tolist()), tuple(_value(after, b) for b in inner.tolist())
+        k = np.arange(len(self.origins))
+        left, right = (self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0] for j in (k[:-1], k[1:]))
+        return tuple(left.tolist()), tuple(right.tolist())
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -219,10 +233,12 @@ class Slope:
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
 
 
-def _horner(high_first: tuple[float, ...], y: float) -> float:
+def _value(rows: dict[float, Row], at: float) -> float:
+    """H at an end of the row that ends there, 0 if the piece is flat."""
     value = 0.0
-    for c in high_first:
-        value = value * y + c
+    if at in rows:
+        for c in rows[at].coefficients:
+            value = value * (at - rows[at].origin) + c
     return value
 
 
