@@ -23,9 +23,10 @@ Units are free: any consistent set works, and nothing depends on scale.
 
 from .density import ZERO, Density
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
 from .plan import Plan, plan
-from .profile import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, Profile, RoundedFlat, Wedge
+from .profile import Profile
 from .scene import Scene
 from .solution import Solution, solve
 

@@ -91,7 +91,7 @@ class Geometry:
 
     def chebyshev_slope(self, n: int) -> Array:
         """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
-        if n == 2 and not self.slope.functions:
+        if n == 2 == self.slope.coefficients.shape[1] and not self.slope.functions:
             half = 0.5 * self.length
             return np.stack((self.slopes(half[:, None])[:, 0], half * self.slope.coefficients[self.k, 1]), axis=1)
         offset = (0.5 * self.length)[:, None] * (1.0 + chebyshev.points(n))

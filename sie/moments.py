@@ -129,6 +129,8 @@ def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
 
 def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
     """The piece within the contact (right of `lower`), None if nothing of it is."""
+    if lower is not None and row.hi <= lower:
+        return None
     width, start, tail = 2.0 * contact.r, row.lo, 0.0
     if lower is not None and start < lower:
         start = lower

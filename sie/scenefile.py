@@ -34,9 +34,10 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from .indenters import profile_kinds
 from .material import RIGID, Body, Elastic
 from .plan import WANTS
-from .profile import Profile, profile_kinds
+from .profile import Profile
 from .scene import Scene
 
 

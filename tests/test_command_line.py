@@ -15,8 +15,8 @@ from sie import __main__ as command
 from sie import export, scenefile
 from sie.__main__ import main
 from sie.check import Certificate
+from sie.indenters import profile_kinds
 from sie.plan import WANTS
-from sie.profile import profile_kinds
 
 KINDS = list(profile_kinds())
 

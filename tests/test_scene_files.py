@@ -7,7 +7,7 @@ import pytest
 
 import sie
 from sie import scenefile
-from sie.profile import profile_kinds
+from sie.indenters import profile_kinds
 from sie.scenefile import SceneFileError, example, parse, read
 
 KINDS = list(profile_kinds())
