@@ -32,8 +32,8 @@ from .moments import Moments, moments
 from .slope import Slope
 from .touch import lowest_points
 
-# The logarithmic search hands over to polishing at this relative error of the load: Newton then squares it.
-ROUGH = 1e-3
+# The logarithmic search ends at this relative error of the load, after one more step: Newton squares it then and twice in polishing.
+ROUGH = 1e-2
 # Polishing stops when a step is below this many units of rounding of the distance it corrects.
 POLISHED = 4.0 * EPS
 FARTHEST = 0.5  # of r: a longer step in polishing means that the profile is not convex there
@@ -141,7 +141,7 @@ class Search:
             k = self.moments(contact)
             step = (target - contact.r * k.I1) / (contact.r * k.JR)
             contact = contact.moved(-step, step)
-            if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance * 1e-2:
+            if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance:
                 break
         return contact, (False, False)
 

@@ -105,7 +105,7 @@ class Panels:
         s = 2.0 * np.sqrt(0.5 * (self._reach_in_s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
         decay = np.log(s + np.sqrt(s * s - 1.0))
         needed = np.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2
-        orders = (4 * np.ceil(needed / 4)).astype(int).tolist()
+        orders = (2 * np.ceil(needed / 2)).astype(int).tolist()
         rules = {n: self._rule(n) for n in set(orders)}
         return [(rules[n][0][k], rules[n][1][k]) for k, n in enumerate(orders)]
 

@@ -60,7 +60,7 @@ def _runge(x):
 parabolas = st.builds(sie.Parabola, radius=log_between(0.1, 10))
 rounded_flats = st.builds(sie.RoundedFlat, half_flat=log_between(0.01, 2), radius=log_between(0.1, 10))
 wedges = st.builds(sie.Wedge, slope=log_between(0.1, 2))
-exponents = st.one_of(between(1.25, 6.0), st.sampled_from([1, 1.5, 2, 2.5, 3, 4, 8]))
+exponents = st.one_of(between(1.5, 6.0), st.sampled_from([1, 1.5, 2, 2.5, 3, 4, 8]))
 powers = st.builds(sie.Power, exponent=exponents, coefficient=log_between(0.1, 10))
 polynomials = st.builds(
     lambda c1, c2, c3, c4: sie.Polynomial((0.0, c1, c2, c3 * np.sqrt(c2 * c4), c4)),
