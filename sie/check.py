@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
 GRADING = 0.25
+EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
@@ -67,7 +68,7 @@ class Certificate:
     @property
     def ok(self) -> bool:
         """Every defect within tol, but for what rounding of the abscissae explains."""
-        allowed = self.tol + 4.0 * self.abscissae
+        allowed = self.tol + EXPLAINED * self.abscissae
         return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
@@ -84,7 +85,7 @@ class Certificate:
             ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
             ("estimated relative error of the pressure", f"{self.error:.1e}"),
         )
-        verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, 4.0 * self.abscissae):.0e}"
+        verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
         return "\n".join([f"{name:<48} {value:>9}" for name, value in rows] + [verdict])
 
 
