@@ -23,6 +23,9 @@ TAIL = 3  # the last coefficients that must have decayed
 # Points on no grid, where a settled series must agree with the function: what lies between the points is seen there, if not always.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
 MISSED = 1e3
+NEIGHBOURS, CLOSE = 12, 1e-6
+NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
+ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 MAX_PIECES = 20_000
 
 
@@ -32,11 +35,12 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
     open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
+    noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
     done: list[tuple[float, float, int]] = []
     scale = 0.0
     while len(open_):
         for n in SIZES:
-            degrees, scale = _degrees(function, open_, n, tol, scale)
+            degrees, scale = _degrees(function, open_, n, (tol, noise), scale)
             settled = degrees >= 0
             done += zip(open_[settled, 0], open_[settled, 1], degrees[settled], strict=True)
             open_ = open_[~settled]
@@ -54,8 +58,13 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array([p[2] for p in done], dtype=np.int64)
 
 
-def _degrees(function: Callable[[Array], Array], pieces: Array, n: int, tol: float, scale: float) -> tuple[NDArray[np.int64], float]:
-    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far."""
+def _degrees(
+    function: Callable[[Array], Array], pieces: Array, n: int, tolerances: tuple[float, float], scale: float
+) -> tuple[NDArray[np.int64], float]:
+    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far.
+
+    `tolerances`: relative to that value, and absolute.
+    """
     lo, hi = pieces.T
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
     s = np.concatenate((chebyshev.points(n), PROBES))
@@ -64,14 +73,27 @@ def _degrees(function: Callable[[Array], Array], pieces: Array, n: int, tol: flo
     _refuse_non_finite(x, values)
     scale = max(scale, float(np.abs(values).max()))
     c = chebyshev.transform(values[:, :n])
-    # a few ulp of x move the value by rounding of its own: no series can do better
-    noise = EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half)
-    floor = np.maximum(tol * scale, noise)
+    enough = max(tolerances[0] * scale, min(tolerances[1], ROUGHEST * scale))
+    # a few ulp of x move the value by rounding: no series can do better
+    floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half))
     missed = np.abs(c @ chebyshev.polynomials(n, PROBES) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     settled |= 2.0 * half <= 4.0 * np.spacing(np.abs(pieces).max(axis=1))
-    lengths = [chebyshev.chopped_length(row, 0.5 * tol * scale) - 1 if ok else -1 for row, ok in zip(c, settled, strict=True)]
+    lengths = [chebyshev.chopped_length(row, 0.5 * enough) - 1 if ok else -1 for row, ok in zip(c, settled, strict=True)]
     return np.array(lengths, dtype=np.int64), scale
+
+
+def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
+    """How rough the function's values are on [lo, hi] by rounding of its own, like exp(x) - 1 near 0: no series can do better.
+
+    What is left of its values at NEIGHBOURS points very close together after a parabola through them, the median of several places.
+    """
+    middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
+    s = chebyshev.points(NEIGHBOURS)
+    values = function(middle[:, None] + CLOSE * (hi - lo) * s)
+    _refuse_non_finite(middle[:, None] + 0.0 * s, values)
+    left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
+    return float(np.median(np.abs(left).max(axis=1)))
 
 
 def _refuse_non_finite(x: Array, values: Array) -> None:

@@ -9,6 +9,7 @@ The integrals are composite Gauss-Legendre in the angle φ, graded towards the b
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -31,6 +32,7 @@ GRADING = 0.25
 EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
+FEW_BREAKS = 40
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
 LEVELS = 26  # GRADING**LEVELS is rounding, for the logarithm under a corner of the profile ...
 KINK_LEVELS = 14  # ... and its square is, for the x ln|x| under a corner of the slope
@@ -39,6 +41,7 @@ POINTS = 48  # at which the residual is measured: between the longest panels, wh
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
+STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 
@@ -63,7 +66,8 @@ class Certificate:
 
     @property
     def error(self) -> float:
-        return max(self.residual, self.implied, self.force, self.moment, 2.0 * EPS)
+        defects = (self.residual, self.implied, self.force, self.moment)
+        return max(2.0 * EPS, *(float("inf") if math.isnan(d) else d for d in defects))
 
     @property
     def ok(self) -> bool:
@@ -91,6 +95,11 @@ class Certificate:
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
+        return _measured(density, slope, tol)
+
+
+def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
     rule = _rule(contact, slope)
     x, weight = rule.x, rule.weight
@@ -168,12 +177,15 @@ class _Rule(NamedTuple):
 def _rule(contact: Interval, slope: Slope) -> _Rule:
     """The composite rule.
 
-    Graded towards the declared breaks, and cut at the breaks that a function's resolution added: these may close in on a kink.
+    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink.
     """
     levels = KINK_LEVELS if slope.continuous else LEVELS
-    ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, slope)), [np.pi]))
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
-    cuts = [_angles(contact, _inner_breaks(contact, resolution))]
+    cut = _angles(contact, _inner_breaks(contact, resolution))
+    # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
+    towards = cut if len(cut) <= FEW_BREAKS else _angles(contact, _inner_breaks(contact, slope))
+    ends = np.concatenate(([0.0], towards, [np.pi]))
+    cuts = [cut]
     graded = GRADING ** np.arange(levels, 0, -1)
     graded = graded[graded < 0.25]
     for k, (lo, hi) in enumerate(pairwise(ends)):
@@ -269,6 +281,12 @@ def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
     outer = slope.breaks[np.isfinite(slope.breaks)]
     x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
     x = x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
+    # A function may overflow out there; where it is that steep the gap is open
+    steep = ~(np.abs(slope(x)) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))
+    beyond = np.abs(x - contact.m)
+    for right in (True, False):
+        side = (x > contact.m) == right
+        x, beyond, steep = (v[~side | (beyond < beyond[side & steep].min(initial=np.inf))] for v in (x, beyond, steep))
     if not x.size:
         return 0.0, contact.x2
     values = gap(x, density, slope)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import chebyshev
-from .adaptive import refined
+from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
 from .density import PanelDensity, SlopeDensity, TransformDensity
 from .edges import Edges, Search
 from .errors import ContactError, LoadError
@@ -197,12 +197,13 @@ def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
         return None
     if not slope.functions:
         return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0]
+    noise = NOISE * rounding_noise(slope.inside, contact.x1, contact.x2)
     n = 17
     while n <= LARGEST_TRANSFORM:
         c = k.chebyshev_slope(n)[0]
         scale = float(np.abs(c).max())
-        if np.abs(c[-3:]).max() <= tol * scale:
-            return c[: max(chebyshev.chopped_length(c, CHOP * scale), 2)]
+        if np.abs(c[-3:]).max() <= max(tol * scale, min(noise, ROUGHEST * scale)):
+            return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
         n = 2 * n - 1
     return None
 

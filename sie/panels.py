@@ -35,6 +35,8 @@ GROWTH = 64.0
 # Beyond this many widths from the centre the far field takes out the moment that vanishes.
 FAR_FIELD = 1.5
 FAR_FIELD_NODES = 22  # and half the degree: reach rounding there
+# Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
+SEEN_JUMP = 1e-9
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
 
@@ -126,9 +128,10 @@ class Panels:
                 at[lo] = at.get(lo, 0.0) + float(entering[k])
             if not (g.cut_right and k == len(self.series) - 1):
                 at[hi] = at.get(hi, 0.0) - float(leaving[k])
+        least = SEEN_JUMP if g.slope.functions else JUMP
         # of coefficients given about x = 0, rounding grows with the distance from there
         steepest = float((np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length).max(initial=0.0))
-        return [(e, float(np.copysign(np.inf, jump))) for e, jump in at.items() if abs(jump) > JUMP * max(self.scale, abs(e) * steepest)]
+        return [(e, float(np.copysign(np.inf, jump))) for e, jump in at.items() if abs(jump) > least * max(self.scale, abs(e) * steepest)]
 
     # -- V, for 1-d arrays; real ones must ascend ----------------------------------------------------------------------
 
