@@ -281,12 +281,11 @@ def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
     outer = slope.breaks[np.isfinite(slope.breaks)]
     x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
     x = x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
-    # A function may overflow out there; where it is that steep the gap is open
-    steep = ~(np.abs(slope(x)) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))
-    beyond = np.abs(x - contact.m)
-    for right in (True, False):
-        side = (x > contact.m) == right
-        x, beyond, steep = (v[~side | (beyond < beyond[side & steep].min(initial=np.inf))] for v in (x, beyond, steep))
+    # A function may overflow out there; from where it opens that steeply on, the gap is not looked at
+    outward = np.sign(x - contact.m)
+    opens = ~(outward * slope(x) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))
+    left, right = (np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0))
+    x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
         return 0.0, contact.x2
     values = gap(x, density, slope)

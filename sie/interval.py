@@ -67,9 +67,6 @@ class Interval(NamedTuple):
     def mirrored(self) -> Interval:
         return Interval(-self.x2, -self.x1, -self.tail2, -self.tail1)
 
-    def shifted(self, dx: float) -> Interval:
-        return self.moved(dx, dx)
-
     def rounded(self, breaks: tuple[float, ...]) -> Interval:
         """The same with the tails dropped where no distance to a break notices: what is printed is then what is used."""
         tails = [0.0, 0.0]

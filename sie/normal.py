@@ -6,6 +6,7 @@ resolved first, on a window that is fitted to the contact: relative accuracy is 
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
@@ -36,14 +37,15 @@ GROWS = 1.5  # a window so much wider must carry so much more, or no wider one w
 LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
+HUGE = 1e300  # stands for an open end of the bracket
+MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact: its edges, the slope that was searched (without tilt), how the search was done."""
+    """The found contact, and whether its symmetry halved the search."""
 
     edges: Edges
-    slope: Slope
     symmetric: bool
 
 
@@ -126,9 +128,9 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
     if scene.moment is not None and scene.normal_load is not None:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
-        return Normal(edges_at(scene.tilt), slope, axis is not None and scene.tilt == 0.0)
+        return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0)
     edges = _tilt_of_moment(edges_at, scene.moment, G, slope if scene.half_width is not None else None)
-    return Normal(edges, slope, axis is not None and edges.tilt == 0.0)
+    return Normal(edges, axis is not None and edges.tilt == 0.0)
 
 
 def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> None:
@@ -140,43 +142,28 @@ def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> 
 
 
 def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float, at_fixed_width: Slope | None) -> Edges:
-    """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows, dM/d(tilt) = -π/2 G r² at constant P."""
-    low, high, tilt = -np.inf, np.inf, 0.0
-    best: Edges | None = None
-    step = 0.0
+    """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
+    low, high, tilt = -math.inf, math.inf, 0.0
+    best = edges_at(tilt)
+    edges = best
     for _ in range(MAX_TILTS):
-        try:
-            edges = edges_at(tilt)
-        except ContactError:
-            if best is None:
-                raise
-            # beyond what the profile can be tilted by: come back half the way
-            low, high = (low, tilt) if tilt > best.tilt else (tilt, high)
-            tilt = 0.5 * (tilt + best.tilt)
-            if abs(tilt - best.tilt) <= 4.0 * EPS * abs(best.tilt):
-                break
-            continue
         excess = edges.moment - moment
-        r = edges.contact.r
-        if best is None or abs(excess) <= abs(best.moment - moment):
+        if abs(excess) <= abs(best.moment - moment):
             best = edges
         low, high = (max(low, tilt), high) if excess > 0.0 else (low, min(high, tilt))
-        if abs(excess) <= 2.0 * EPS * (edges.normal_load * (r + abs(edges.contact.m))):
+        if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
-        falls = 0.5 * np.pi * G * r * r
-        if at_fixed_width is not None:
-            k = Search(at_fixed_width.tilted(tilt), G).moments(edges.contact)
-            falls += edges.contact.m * np.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
-        step = excess / falls if falls > 0.0 else np.inf
-        new = tilt + step
+        falls = _fall_of_moment(edges, G, at_fixed_width)
+        new = tilt + excess / falls if falls > 0.0 else math.inf
         if not low < new < high:
-            new = 0.5 * (low + high) if np.isfinite(low + high) else tilt
-        if new == tilt or (np.isfinite(low + high) and high - low <= 4.0 * EPS * max(abs(low), abs(high))):
+            new = 0.5 * (low + high) if math.isfinite(low + high) else tilt
+        if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
             break
-        tilt = new
-    assert best is not None
-    reach = best.normal_load * (best.contact.r + abs(best.contact.m))
-    if abs(best.moment - moment) > 1e-9 * reach:
+        tilt, tried = _carried(edges_at, new, best.tilt)
+        if tried is None:
+            break
+        edges = tried
+    if abs(best.moment - moment) > MISSED * _reach(best):
         raise LoadError(
             f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is {best.moment:.6g} "
             f"at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
@@ -184,6 +171,31 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float,
             tilt=best.tilt,
         )
     return best
+
+
+def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float) -> tuple[float, Edges | None]:
+    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much."""
+    while abs(tilt - known) > 4.0 * EPS * abs(known):
+        try:
+            return tilt, edges_at(tilt)
+        except ContactError:
+            tilt = 0.5 * (tilt + known)
+    return tilt, None
+
+
+def _fall_of_moment(edges: Edges, G: float, at_fixed_width: Slope | None) -> float:
+    """-dM/d(tilt): π/2 G r² at constant load; at constant half-width the load changes too, dm/d(tilt) = -π/J0, dP/dm = G r J1."""
+    r = edges.contact.r
+    falls = 0.5 * math.pi * G * r * r
+    if at_fixed_width is not None:
+        k = Search(at_fixed_width.tilted(edges.tilt), G).moments(edges.contact)
+        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
+    return falls
+
+
+def _reach(edges: Edges) -> float:
+    """The moment of the load at the farther edge: what rounding of M is relative to."""
+    return edges.normal_load * (edges.contact.r + abs(edges.contact.m))
 
 
 def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
