@@ -21,6 +21,7 @@ SAMPLES = 24  # per piece, besides its degree; a sign change between two samples
 MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
 HEIGHT_NODES = 16
 BEYOND = 1e-3
+ROUNDING = 8.0  # ulp
 
 
 def lowest_points(slope: Slope) -> tuple[float, float]:
@@ -93,9 +94,11 @@ def _change(slope: Slope, ends: Array, before: tuple[float, int], after: tuple[f
         z = _root(slope, i, x, y)
         return z, z
     z1, z2 = _root(slope, i, x, ends[i, 1]), _root(slope, j, ends[j, 0], y)
-    if z1 < ends[i, 1]:
+    # A root within rounding of its piece's end is that end: a flat base may begin there
+    end, start = float(ends[i, 1]), float(ends[j, 0])
+    if z1 < end - ROUNDING * float(np.spacing(abs(end))):
         return z1, z1
-    return (z2, z2) if z2 > ends[j, 0] else (z1, z2)
+    return (z2, z2) if z2 > start + ROUNDING * float(np.spacing(abs(start))) else (end, start)
 
 
 def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: int) -> float:

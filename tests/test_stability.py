@@ -196,3 +196,16 @@ def test_a_jump_that_was_not_declared_is_found_and_certified():
     declared = sie.solve(sie.Scene(profile=sie.Wedge(0.2) + sie.Parabola(1.0), modulus=1.0, half_width=0.2))
     assert solution.pressure(0.1) == pytest.approx(declared.pressure(0.1), rel=PROMISE)
     assert solution.check().ok
+
+
+@pytest.mark.parametrize(
+    ("a", "R", "P"), [(0.18884973661618804, 326.52823338249493, 5.2028278159659794e-06), (0.3, 7.0, 1e-3), (0.7, 0.3, 1e-8)]
+)
+def test_a_flat_base_whose_ends_are_roundings_of_its_corners_carries_load(a, R, P):
+    """h' at the corners is a few 1e-17, of either sign: the base is flat all the same."""
+    solution = sie.solve(
+        sie.Scene(profile=sie.Piecewise((-a, 2 * a), ((a / R, 1 / R), (0.0,), (-4 * a / R, 2 / R))), modulus=1.0, normal_load=P)
+    )
+    assert solution.edges[0] < -a
+    assert solution.edges[1] > 2 * a
+    assert solution.check().ok
