@@ -22,6 +22,7 @@ Units are free: any consistent set works, and nothing depends on scale.
 """
 
 from .density import ZERO, Density
+from .equation import CauchyEquation
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
@@ -35,6 +36,7 @@ __version__ = "0.1.0"
 __all__ = [
     "RIGID",
     "ZERO",
+    "CauchyEquation",
     "ContactError",
     "Density",
     "Elastic",

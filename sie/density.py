@@ -44,6 +44,11 @@ def in_order(function: Callable[[Array], Any], x: Array) -> Any:
     return tuple(v[back] for v in values) if isinstance(values, tuple) else values[back]
 
 
+def refuse_side(side: int) -> None:
+    if side not in (-1, 0, 1):
+        raise ValueError(f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side")
+
+
 class Density(ABC):
     """A traction p(x) on the surface, in units of stress; x and z in units of length.
 
@@ -182,8 +187,7 @@ class SlopeDensity(Density):
         return (self.half_modulus * out).reshape(x.shape)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        if side not in (-1, 0, 1):
-            raise ValueError(f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side")
+        refuse_side(side)
         z = np.asarray(z, dtype=complex)
         flat = z.ravel()
         F = np.empty(flat.shape, dtype=complex)

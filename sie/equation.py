@@ -1,0 +1,206 @@
+"""Cauchy singular integral equations as values: `CauchyEquation`, refused unless it is well posed; `collocation` solves it.
+
+Muskhelishvili, Singular Integral Equations (1953), §§ 107-115, for exponents and index.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import checks, jacobi
+from .collocation import Condition, Function, Problem, System, attempt, consistent, solve
+from .grading import maps
+from .interval import EPS
+from .jacobi import Weight
+from .jacobi_density import JacobiDensity
+
+Array = NDArray[Any]
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class CauchyEquation:
+    """a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j free_j(x).
+
+    interval   (x1, x2), or several of them, ascending and apart
+    g          the right-hand side: a function of an array x, or a number; real or complex
+    a, b       constants, real or complex, b ≠ 0 and a² + b² ≠ 0
+    k          regular kernel k(x, t), called with arrays of one shape; None for none
+    ends       "singular" or "bounded"; or a pair for the left and right end; or such a pair for each interval
+    total      given ∫φ dx: a number (of all intervals together), or one for each interval, None where it is not given
+    moment     given ∫φ x dx about x = 0, in the same way
+    free       functions (or numbers) whose multiples d_j are unknown too; as many more side conditions are needed
+
+    The side conditions must be as many as the index (the sum over the intervals of +1, 0, -1 for two, one, no singular ends) plus the
+    number of free functions. Without any and with index -1 the right-hand side must be consistent, and it is checked.
+
+    Raises ValueError, with what the index asks for, when the question is not well posed. The half-plane's conventions, with
+    1/(x - t) in place of 1/(t - x), are b = -1.
+
+    A slit |x| < 1 under unit pressure, by its dislocation density: φ = x / sqrt(1 - x²), stress intensity 1/sqrt(2) at each end.
+
+    >>> import sie
+    >>> crack = sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0)
+    >>> solution = crack.solve()
+    >>> round(float(solution(0.6)), 12), solution.n
+    (0.75, (4,))
+    """
+
+    interval: Any
+    g: Function
+    _: KW_ONLY
+    a: complex = 0.0
+    b: complex = 1.0
+    k: Callable[[Array, Array], Any] | None = None
+    ends: Any = "singular"
+    total: Any = None
+    moment: Any = None
+    free: Sequence[Function] = ()
+
+    def __post_init__(self) -> None:
+        for name, value in (("interval", self._intervals()), ("a", _constant("a", self.a)), ("b", _constant("b", self.b))):
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "free", tuple(self.free))
+        for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
+            if not callable(function):
+                _constant(name, function)
+        if self.k is not None and not callable(self.k):
+            raise ValueError(f"k = {self.k!r} is not a function: give k(x, t), or None for no kernel")
+        self._refuse_degenerate()
+        object.__setattr__(self, "ends", self._ends())
+        for name in ("total", "moment"):
+            object.__setattr__(self, name, self._given(name))
+        self._refuse_miscounted()
+
+    # -- what is asked ------------------------------------------------------------------------------------------------
+
+    def _intervals(self) -> tuple[Interval, ...]:
+        try:
+            ends = np.array(self.interval, dtype=float)
+            ends = ends.reshape(-1, 2) if ends.ndim in (1, 2) and ends.shape[-1] == 2 else ends[:0]
+        except (TypeError, ValueError):
+            ends = np.zeros((0, 2))
+        if not len(ends):
+            raise ValueError(f"interval = {self.interval!r}: give a pair (x1, x2), or several such pairs")
+        out = tuple((float(x1), float(x2)) for x1, x2 in ends)
+        for x1, x2 in out:
+            if not (np.isfinite(x1) and np.isfinite(x2) and x1 < x2):
+                raise ValueError(f"interval ({x1:g}, {x2:g}): give finite ends with x1 < x2")
+        for before, after in pairwise(out):
+            if not before[1] < after[0]:
+                raise ValueError(f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right")
+        return out
+
+    def _refuse_degenerate(self) -> None:
+        if self.b == 0.0:
+            raise ValueError("b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do")
+        if abs(self.a * self.a + self.b * self.b) <= 4.0 * EPS * abs(self.b) ** 2:
+            raise ValueError(f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type")
+
+    def _ends(self) -> tuple[tuple[str, str], ...]:
+        ends, n = self.ends, len(self.interval)
+        if isinstance(ends, str):
+            ends = ((ends, ends),) * n
+        elif len(ends) == 2 and all(isinstance(e, str) for e in ends):
+            ends = (tuple(ends),) * n
+        ends = tuple(tuple(pair) if not isinstance(pair, str) else (pair, pair) for pair in ends)
+        if len(ends) != n:
+            raise ValueError(f"ends are given for {len(ends)} intervals, but there are {n}: give one pair for each, or one for all")
+        for pair in ends:
+            for e in pair:
+                if e not in ("singular", "bounded") or len(pair) != 2:
+                    raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
+        return ends
+
+    def _given(self, name: str) -> tuple[Any, ...] | complex | None:
+        value = getattr(self, name)
+        if value is None or np.ndim(value) == 0:
+            return None if value is None else _constant(name, value)
+        values = tuple(None if v is None else _constant(name, v) for v in value)
+        if len(values) != len(self.interval):
+            raise ValueError(f"{name} is given for {len(values)} intervals, but there are {len(self.interval)}: None where it is not given")
+        return values
+
+    def _refuse_miscounted(self) -> None:
+        needed, given = self.index + len(self.free), len(self._conditions)
+        if given == needed or (needed < 0 and given == 0):
+            return
+        free = f" and {len(self.free)} free function(s)" if self.free else ""
+        raise ValueError(
+            f"index {self.index}{free} asks for {max(needed, 0)} side condition(s), but {given} given: give as many of total and "
+            "moment, or make other ends bounded or singular, or free a constant of g"
+        )
+
+    @cached_property
+    def weights(self) -> tuple[Weight, ...]:
+        """The weight (1-s)^alpha (1+s)^beta of each interval, with its index."""
+        found = [jacobi.weight_of(complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded")) for e in self.ends]
+        for weight, pair in zip(found, self.ends, strict=True):
+            if weight is None:
+                raise ValueError(f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are imaginary: make both ends bounded")
+        return tuple(w for w in found if w is not None)
+
+    @property
+    def index(self) -> int:
+        """How many side conditions the solution needs before constants are freed: the sum over the intervals."""
+        return sum(weight.kappa for weight in self.weights)
+
+    @property
+    def exponents(self) -> tuple[tuple[Any, Any], ...]:
+        """Of the distance from the left and the right end of each interval."""
+        return tuple((weight.beta, weight.alpha) for weight in self.weights)
+
+    @cached_property
+    def _conditions(self) -> tuple[Condition, ...]:
+        found = []
+        for power, name in enumerate(("total", "moment")):
+            value = getattr(self, name)
+            if isinstance(value, tuple):
+                found += [Condition(power, (i,), v) for i, v in enumerate(value) if v is not None]
+            elif value is not None:
+                found.append(Condition(power, tuple(range(len(self.interval))), value))
+        return tuple(found)
+
+    # -- answers ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def problem(self) -> Problem:
+        return Problem(maps(self.interval), self.weights, self.a, self.b, self.g, self.k, self._conditions, tuple(self.free))
+
+    def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
+        """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.
+
+        k is called once for each size that is tried, usually one or two. Raises ContactError, with the best `reached["density"]`, when
+        tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
+        """
+        tol = checks.positive("tol", tol)
+        if n is not None:
+            return consistent(attempt(self.problem, (_size(n),) * len(self.interval)))
+        return solve(self.problem, tol)
+
+    def system(self, n: int) -> tuple[Array, Array]:
+        """The square system for n nodes on each interval, (matrix, right-hand side), as it is solved where no transform serves."""
+        system = System(self.problem, (_size(n),) * len(self.interval))
+        return system.matrix(), system.rhs
+
+
+def _constant(name: str, value: Any) -> complex:
+    """A finite number: a float where it is real."""
+    if isinstance(value, (complex, np.complexfloating)):
+        checks.finite(f"{name}.real", value.real)
+        checks.finite(f"{name}.imag", value.imag)
+        return complex(value) if value.imag else float(value.real)
+    return checks.finite(name, value)
+
+
+def _size(n: Any) -> int:
+    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 2:
+        raise ValueError(f"n = {n!r} is not a number of nodes: give an integer >= 2")
+    return int(n)

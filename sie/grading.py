@@ -1,0 +1,128 @@
+"""Maps of [-1, 1] on an interval: affine, or graded logarithmically towards neighbours that are close.
+
+A density next to a gap of width δ is a function of distance/δ, and a polynomial in x would need sqrt(length/δ) terms. With the ends A and B
+of the neighbours on the left and right (or, where there is none that close, a length away)
+
+    v = ln((x - A)/(B - x)),      u = hσ + const,      x'(v) / (x(u) - x(v)) = 1/2 coth((u - v)/2) + 1/2 tanh(v/2)
+
+any power of B - x is entire in v: the number of terms grows like ln(length/δ) only. The Cauchy kernel stays a Cauchy kernel, plus
+1/2 coth(y/2) - 1/y, which is smooth; the neighbours lie on Im v = ±π, so that no integral over them is nearly singular.
+
+Points are known by their distances from both ends: `right` = 1 - s and `left` = 1 + s on [-1, 1], `to_right` = x2 - x and
+`to_left` = x - x1 on the interval. Complex ones are taken too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+# A neighbour further than this times the interval's length is not graded for.
+FAR = 0.6
+# Below this |y| the smooth part of coth is its Taylor series.
+SMALL = 0.3
+SMOOTH = (1 / 12, -1 / 720, 1 / 30240, -1 / 1209600, 1 / 47900160, -691 / 1307674368000, 1 / 74724249600)
+
+
+@dataclass(frozen=True)
+class Affine:
+    """x = m + r s."""
+
+    x1: float
+    x2: float
+
+    @property
+    def r(self) -> float:
+        return 0.5 * (self.x2 - self.x1)
+
+    def distances(self, right: Array, left: Array) -> tuple[Array, Array, Array]:
+        """(x2 - x, x - x1, dx/ds) at points of [-1, 1]."""
+        return self.r * right, self.r * left, np.full_like(right, self.r)
+
+    def inverse(self, to_right: Array, to_left: Array) -> tuple[Array, Array, Array]:
+        """(1 - s, 1 + s, dx/ds) at points of the plane."""
+        return to_right / self.r, to_left / self.r, np.full_like(to_right, self.r)
+
+    def smooth(self, sigma: Array, right: Array, left: Array) -> Array | None:
+        """x'(s)/(x(σ) - x(s)) - 1/(σ - s), shape s by σ; None where it is zero."""
+        return None
+
+
+@dataclass(frozen=True)
+class Graded:
+    """x = (A + B e^v)/(1 + e^v), with A = x1 - before and B = x2 + behind; v and s differ by an affine map."""
+
+    x1: float
+    x2: float
+    before: float
+    behind: float
+
+    @cached_property
+    def length(self) -> float:
+        return self.x2 - self.x1
+
+    @cached_property
+    def _v1(self) -> float:
+        return float(np.log(self.before / (self.length + self.behind)))
+
+    @cached_property
+    def h(self) -> float:
+        """Half the length in v."""
+        return 0.5 * float(np.log1p(self.length / self.behind) + np.log1p(self.length / self.before))
+
+    @cached_property
+    def _width(self) -> float:
+        return self.before + self.length + self.behind
+
+    def distances(self, right: Array, left: Array) -> tuple[Array, Array, Array]:
+        cosh = np.cosh(0.5 * (self._v1 + self.h * left))
+        to_right = np.sinh(0.5 * self.h * right) * np.sqrt((self.length + self.before) * self.behind) / cosh
+        to_left = np.sinh(0.5 * self.h * left) * np.sqrt((self.length + self.behind) * self.before) / cosh
+        return to_right, to_left, 0.25 * self.h * self._width / (cosh * cosh)
+
+    def inverse(self, to_right: Array, to_left: Array) -> tuple[Array, Array, Array]:
+        from_A, from_B = to_left + self.before, to_right + self.behind
+        right = np.log1p(to_right / self.behind) + np.log1p(to_right / from_A)
+        left = np.log1p(to_left / self.before) + np.log1p(to_left / from_B)
+        return right / self.h, left / self.h, self.h * from_A * from_B / self._width
+
+    def smooth(self, sigma: Array, right: Array, left: Array) -> Array:
+        s = 0.5 * (left - right)
+        half_v = 0.5 * (self._v1 + self.h * left)
+        out: Array = self.h * (smooth_coth(self.h * (sigma - s[:, None])) + 0.5 * np.tanh(half_v)[:, None])
+        return out
+
+
+Map = Affine | Graded
+
+
+def smooth_coth(y: Array) -> Array:
+    """1/2 coth(y/2) - 1/y, real or complex."""
+    near = np.abs(y) < SMALL
+    safe = np.where(near, 1.0, y)
+    out = 0.5 / np.tanh(0.5 * safe) - 1.0 / safe
+    if near.any():
+        small = y[near]
+        out[near] = small * np.polynomial.polynomial.polyval(small * small, SMOOTH)
+    return out
+
+
+def maps(intervals: tuple[tuple[float, float], ...]) -> tuple[Map, ...]:
+    """One map for each of the intervals, which ascend."""
+    infinite = float("inf")
+    gaps = [infinite, *(after[0] - before[1] for before, after in pairwise(intervals)), infinite]
+    return tuple(_map(*ends, before, behind) for ends, before, behind in zip(intervals, gaps[:-1], gaps[1:], strict=True))
+
+
+def _map(x1: float, x2: float, before: float, behind: float) -> Map:
+    length = x2 - x1
+    if min(before, behind) >= FAR * length:
+        return Affine(x1, x2)
+    return Graded(x1, x2, min(before, length), min(behind, length))

@@ -1,0 +1,225 @@
+"""The density that solves a Cauchy equation: on each interval a Jacobi series times its weight, exact everywhere in the plane.
+
+    φ(x) dx/ds = w(s) Σ c_n p_n(s),        x(s) affine or graded (`grading`)
+
+On a graded interval the Cauchy kernel is that of s plus a smooth one; where z comes near, the first is a closed form and the second
+plain Gauss quadrature, and further out all is Gauss quadrature.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import jacobi
+from .density import Density, refuse_side
+from .grading import Affine, Map
+from .interval import EPS
+from .jacobi import Weight
+
+Array = NDArray[Any]
+
+# Points of the plane evaluated at once: nodes times points are held.
+CHUNK = 4096
+# Imaginary part of v (`grading`) from which plain quadrature serves: the kernel's other poles are then as far from the near region.
+HALFWAY = 0.5 * math.pi
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """The density on one interval."""
+
+    map: Map
+    weight: Weight
+    coefficients: Array
+
+    # -- value --------------------------------------------------------------------------------------------------------
+
+    def value(self, to_right: Array, to_left: Array) -> Array:
+        """φ at points inside, by their distances from the ends; infinite at a singular end, with the sign of its coefficient."""
+        right, left, stretch = self.map.inverse(to_right, to_left)
+        psi = jacobi.evaluate(self.weight, self.coefficients, 0.5 * (left - right))
+        safe = self.weight(np.where(right > 0.0, right, 1.0), np.where(left > 0.0, left, 1.0))
+        out: Array = safe * psi / stretch
+        for distance, exponent in ((right, self.weight.alpha), (left, self.weight.beta)):
+            end = distance <= 0.0
+            if end.any():
+                out[end] = 0.0 if exponent.real > 0.0 else np.where(psi[end] == 0.0, 0.0, np.inf * np.sign(psi[end].real))
+        return out
+
+    @cached_property
+    def intensities(self) -> tuple[Any, Any]:
+        """lim φ(x) / (distance)^exponent at the left and the right end."""
+        out, w = [], self.weight
+        for right, left, exponent, other in ((2.0, 0.0, w.beta, w.alpha), (0.0, 2.0, w.alpha, w.beta)):
+            _, _, stretch = self.map.distances(np.array([right]), np.array([left]))
+            psi = jacobi.evaluate(self.weight, self.coefficients, np.array([0.5 * (left - right)]))
+            out.append((psi * 2.0**other * stretch ** (-exponent - 1.0))[0].item())
+        return out[0], out[1]
+
+    # -- sums -----------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def nodes(self) -> tuple[Array, Array, Array]:
+        """(s, x - x1, weights times values): ∫ f φ dx = Σ f at these nodes."""
+        n = self._quadrature_size
+        s, A = jacobi.analysis(self.weight, n)
+        _, to_left, _ = self.map.distances(1.0 - s, 1.0 + s)
+        return s, to_left, A[:, : len(self.coefficients)] @ self.coefficients
+
+    @property
+    def _quadrature_size(self) -> int:
+        n = len(self.coefficients)
+        if isinstance(self.map, Affine):
+            return n + 1
+        height = HALFWAY / self.map.h
+        return (n + math.ceil(math.log(1.0 / EPS) / math.asinh(height))) // 2 + 4
+
+    @cached_property
+    def resultant(self) -> Any:
+        return (self.coefficients[0] / jacobi.recurrence(self.weight, 1).first).item()
+
+    @cached_property
+    def moment(self) -> Any:
+        """∫ φ x dx about x = 0."""
+        _, to_left, values = self.nodes
+        return self.map.x1 * self.resultant + (to_left @ values).item()
+
+    # -- Cauchy integrals -----------------------------------------------------------------------------------------------
+
+    def hilbert_inside(self, to_right: Array, to_left: Array, value: Array) -> Array:
+        """1/π PV∫ φ/(x - t) dt inside; `value` is φ there."""
+        right, left, stretch = self.map.inverse(to_right, to_left)
+        out = jacobi.hilbert(self.weight, self.coefficients, 0.5 * (left - right), value * stretch)
+        return (out - self._smooth(right, left)) / stretch
+
+    def cauchy_outside(self, z: Array) -> Array:
+        """1/π ∫ φ/(z - t) dt off the interval."""
+        to_left, to_right = z - self.map.x1, self.map.x2 - z
+        if isinstance(self.map, Affine):
+            right, left = -to_right / self.map.r, to_left / self.map.r
+            return jacobi.cauchy(self.weight, self.coefficients, 0.5 * (left + right), right, left) / self.map.r
+        near = self._near(to_right, to_left)
+        out = np.empty(z.shape, dtype=complex)
+        if near.any():
+            right, left, stretch = self.map.inverse(to_right[near], to_left[near])
+            part = jacobi.cauchy(self.weight, self.coefficients, 0.5 * (left - right), -right, left)
+            out[near] = (part - self._smooth(right, left)) / stretch
+        if not near.all():
+            s, _, values = self.nodes
+            from_right, from_left, _ = self.map.distances(1.0 - s, 1.0 + s)
+            far = ~near
+            # From the nearer end, so that nothing cancels in a gap
+            closer = np.abs(to_right[far]) < np.abs(to_left[far])
+            distance = np.where(closer[:, None], from_right - to_right[far][:, None], to_left[far][:, None] - from_left)
+            out[far] = (1.0 / distance) @ values / np.pi
+        return out
+
+    def _near(self, to_right: Array, to_left: Array) -> Array:
+        """Points whose s lies in the ellipse through HALFWAY, where plain quadrature does not serve."""
+        assert not isinstance(self.map, Affine)
+        poles = (to_right + self.map.behind == 0.0) | (to_left + self.map.before == 0.0)
+        at = np.where(poles, 0.5 * self.map.length, to_left)
+        right, left, _ = self.map.inverse(np.where(poles, 0.5 * self.map.length, to_right), at)
+        s = 0.5 * (left - right)
+        height = HALFWAY / self.map.h
+        near: Array = np.abs(s + np.sqrt(-right) * np.sqrt(left)) < height + math.sqrt(1.0 + height * height)
+        return near & ~poles
+
+    def _smooth(self, right: Array, left: Array) -> Array:
+        """1/π ∫ of the smooth part of the kernel."""
+        s, _, values = self.nodes
+        kernel = self.map.smooth(s, right, left)
+        if kernel is None:
+            return np.zeros_like(right)
+        out: Array = kernel @ values / np.pi
+        return out
+
+
+@dataclass(frozen=True, eq=False)
+class JacobiDensity(Density):
+    """The solution φ of a `CauchyEquation`, real or complex, on one interval or several; 0 outside of them.
+
+    parts           one `Part` for each interval: .resultant, .moment, .intensities, .weight (exponents), .coefficients, .value
+    intensities     for each interval the coefficients K of φ ~ K (distance)^exponent at its left and right end
+    constants       the multiples that were found of the equation's free functions
+    n               the number of nodes on each interval that the solver chose
+    error           estimated relative error: what the last coefficients and the residual leave open
+    residual        largest residual of the equation at points that were not used to solve it, over the largest term there
+    """
+
+    parts: tuple[Part, ...]
+    constants: tuple[Any, ...] = ()
+    n: tuple[int, ...] = ()
+    error: float = math.nan
+    residual: float = math.nan
+    resultant: Any = field(init=False)
+    moment: Any = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "resultant", sum(part.resultant for part in self.parts))
+        object.__setattr__(self, "moment", sum(part.moment for part in self.parts))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """From the first end to the last."""
+        return self.parts[0].map.x1, self.parts[-1].map.x2
+
+    @property
+    def intervals(self) -> tuple[tuple[float, float], ...]:
+        return tuple((part.map.x1, part.map.x2) for part in self.parts)
+
+    @property
+    def intensities(self) -> tuple[tuple[Any, Any], ...]:
+        return tuple(part.intensities for part in self.parts)
+
+    @property
+    def _kind(self) -> Any:
+        return np.result_type(*(part.coefficients for part in self.parts), *(part.weight.kind for part in self.parts))
+
+    def __call__(self, x: ArrayLike) -> Array:
+        """φ(x), same shape as x; infinite at a singular end."""
+        x = np.asarray(x, dtype=float)
+        out = np.zeros(x.shape, dtype=self._kind)
+        for part in self.parts:
+            to_right, to_left = part.map.x2 - x, x - part.map.x1
+            inside = (to_right >= 0.0) & (to_left >= 0.0)
+            if inside.any():
+                out[inside] = part.value(to_right[inside], to_left[inside])
+        return out
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        F = self.cauchy(np.asarray(x, dtype=float), side=0)
+        return F if np.issubdtype(self._kind, np.complexfloating) else F.real
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Array:
+        refuse_side(side)
+        z = np.asarray(z, dtype=complex)
+        flat = z.ravel()
+        out = np.zeros(flat.shape, dtype=complex)
+        for part in self.parts:
+            for start in range(0, len(flat), CHUNK):
+                at = slice(start, start + CHUNK)
+                out[at] += _cauchy(part, flat[at], side)
+        return out.reshape(z.shape)
+
+
+def _cauchy(part: Part, z: Array, side: int) -> Array:
+    out = np.empty(z.shape, dtype=complex)
+    to_right, to_left = part.map.x2 - z.real, z.real - part.map.x1
+    on = (z.imag == 0.0) & (to_right >= 0.0) & (to_left >= 0.0)
+    if on.any():
+        value = part.value(to_right[on], to_left[on])
+        out[on] = part.hilbert_inside(to_right[on], to_left[on], value)
+        if side and np.iscomplexobj(value):
+            out[on] -= 1j * side * value
+        elif side:
+            out.imag[on] -= side * value  # a product with 1j would make nan of an infinite value
+    if not on.all():
+        out[~on] = part.cauchy_outside(z[~on])
+    return out
