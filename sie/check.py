@@ -23,6 +23,7 @@ from .density import SlopeDensity
 from .errors import InequalityError
 from .gap import gap
 from .interval import EPS, Interval
+from .sliding import edge_rule
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -101,7 +102,7 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
-    rule = _rule(contact, slope)
+    rule = _rule(contact, slope, density.epsilon)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
     peak = float(p.max())
@@ -167,18 +168,46 @@ def _inner_breaks(contact: Interval, slope: Slope) -> Array:
 
 
 class _Rule(NamedTuple):
-    """Nodes x, weights of ∫ dx, and ends of large panels: points that no node is near."""
+    """Nodes x, weights of ∫ dx, and ends of large panels, which no node is near; `inner` nodes, in `ends`, are not next to an edge."""
 
     x: Array
     weight: Array
     between: Array
+    inner: slice
+    ends: Interval
 
 
-def _rule(contact: Interval, slope: Slope) -> _Rule:
+def _rule(contact: Interval, slope: Slope, epsilon: float = 0.0) -> _Rule:
     """The composite rule.
 
-    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink.
+    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
+    edges take the powers ψ^(±2ε) of sliding into their weights.
     """
+    edges = _panels(contact, slope)
+    g, w = chebyshev.gauss_legendre(NODES)
+    length = np.diff(edges)
+    angle = edges[:-1, None] + length[:, None] * g
+    weight = length[:, None] * w
+    if epsilon:
+        for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
+            g, w = edge_rule(NODES, power)
+            angle[k] = abs(start - length[k] * g)
+            weight[k] = length[k] * w / g**power
+    angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
+    size = np.minimum(length[:-1], length[1:])
+    # One in each of POINTS parts of the contact: the end of the largest panels there
+    part = np.minimum((edges[1:-1] * (POINTS / np.pi)).astype(int), POINTS - 1)
+    best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
+    chosen = sorted(best.values())
+    if not epsilon:
+        return _Rule(_position(contact, angle), weight, _position(contact, edges[1:-1][chosen]), slice(None), contact)
+    large = edges[1:-1][[i for i in chosen if 0 < i < len(edges) - 3]]
+    x2, x1 = _position(contact, edges[[1, -2]]).tolist()
+    return _Rule(_position(contact, angle), weight, _position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
+
+
+def _panels(contact: Interval, slope: Slope) -> Array:
+    """The ends of the panels, as angles from the right edge."""
     levels = KINK_LEVELS if slope.continuous else LEVELS
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     cut = _angles(contact, _inner_breaks(contact, resolution))
@@ -192,17 +221,7 @@ def _rule(contact: Interval, slope: Slope) -> _Rule:
         left = graded if k > 0 else TOWARDS_EDGE
         right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
         cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right)))
-    edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
-    g, w = chebyshev.gauss_legendre(NODES)
-    length = np.diff(edges)
-    angle = (edges[:-1, None] + length[:, None] * g).ravel()
-    weight = (length[:, None] * w).ravel() * contact.r * np.sin(angle)
-    size = np.minimum(length[:-1], length[1:])
-    # One in each of POINTS parts of the contact: the end of the largest panels there
-    part = np.minimum((edges[1:-1] * (POINTS / np.pi)).astype(int), POINTS - 1)
-    best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
-    large = edges[1:-1][sorted(best.values())]
-    return _Rule(_position(contact, angle), weight, _position(contact, large))
+    return _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
 
 
 def _balanced(edges: Array) -> Array:
@@ -231,14 +250,15 @@ def _position(contact: Interval, angle: Array) -> Array:
 
 def _residual(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> Array:
     """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
-    contact = density.contact
-    at = rule.between
+    at, inner = rule.between, rule.inner
     values = density(at)
-    whole = values * np.log(contact.from_left(at) / contact.from_right(at))
+    whole = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
     distance = at[:, None] - rule.x
     distance[distance == 0.0] = np.inf  # a contact of a few ulp: the node is the point
-    integral = ((p - values[:, None]) / distance) @ rule.weight + whole
-    return integral / np.pi - density.half_modulus * slope(at)
+    integrand = np.broadcast_to(p, distance.shape).copy()
+    integrand[:, inner] -= values[:, None]
+    integral = (integrand / distance) @ rule.weight + whole
+    return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * slope(at)
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:

@@ -103,6 +103,35 @@ ZERO = Zero()
 
 
 @dataclass(frozen=True, eq=False)
+class Scaled(Density):
+    """factor times a density: the shear traction of full sliding is f times the pressure."""
+
+    density: Density
+    factor: float
+
+    @property
+    def resultant(self) -> float:  # type: ignore[override]
+        return self.factor * self.density.resultant
+
+    @property
+    def moment(self) -> float:  # type: ignore[override]
+        return self.factor * self.density.moment
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return self.density.interval
+
+    def __call__(self, x: ArrayLike) -> Array:
+        return self.factor * self.density(x)
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self.factor * self.density.cauchy(z, side)
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        return self.factor * self.density.hilbert(x)
+
+
+@dataclass(frozen=True, eq=False)
 class SlopeDensity(Density):
     """The density that answers the slope H on `contact`; `half_modulus` = E*/2; k1, k2 its singular ends (0: smooth), as stresses."""
 
@@ -116,6 +145,11 @@ class SlopeDensity(Density):
     @property
     def interval(self) -> tuple[float, float]:
         return self.contact.x1, self.contact.x2
+
+    @property
+    def epsilon(self) -> float:
+        """The edges' exponents are 1/2 ± epsilon."""
+        return 0.0
 
     @property
     @abstractmethod
@@ -158,8 +192,13 @@ class SlopeDensity(Density):
         if self.k1 or self.k2:
             for k, near, far in ((self.k1, left, right), (self.k2, right, left)):
                 edge = near == 0.0
-                p += np.where(edge, np.inf if k else 0.0, 0.5 * k * np.sqrt(far / np.where(edge, 1.0, near)))
+                ratio = far / np.where(edge, 1.0, near)
+                p += np.where(edge, np.inf if k else 0.0, 0.5 * k * self._edge(ratio, on_left=near is left))
         return p
+
+    def _edge(self, ratio: Array, on_left: bool) -> Array:
+        """How a singular end goes with the ratio of the distances from the other end and from it."""
+        return np.sqrt(ratio)
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
         """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0; real: beside the contact)."""
@@ -179,12 +218,15 @@ class SlopeDensity(Density):
         out = np.empty(flat.shape)
         left, right = self.contact.from_left(flat), self.contact.from_right(flat)
         inside = (left >= 0.0) & (right >= 0.0)
-        out[inside] = self._slope(flat[inside])
+        out[inside] = self._hilbert_inside(flat[inside])
         for side in (left < 0.0, right < 0.0):
             if side.any():
                 G, continued = self.gap_excess(flat[side])
-                out[side] = continued - G
-        return (self.half_modulus * out).reshape(x.shape)
+                out[side] = self.half_modulus * (continued - G)
+        return out.reshape(x.shape)
+
+    def _hilbert_inside(self, x: Array) -> Array:
+        return self.half_modulus * self._slope(x)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)

@@ -29,6 +29,7 @@ import numpy as np
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval, interval_about, two_sum
 from .moments import Moments, moments
+from .sliding import sliding_moments
 from .slope import Slope
 from .touch import lowest_points
 
@@ -72,12 +73,15 @@ class Search:
     half_modulus: float
     axis: float | None = None  # of a symmetric profile: half the unknowns and half the pieces
     keep_zero: bool = False
+    epsilon: float = 0.0  # of the edges' exponents in full sliding (`sliding`); half_modulus is then E*/2 cos πε
     evaluations: int = field(default=0)
 
     # -- evaluation ---------------------------------------------------------------------------------------------------
 
     def moments(self, contact: Interval) -> Moments:
         self.evaluations += 1
+        if self.epsilon:
+            return sliding_moments(self.slope, contact, self.epsilon, self.keep_zero)
         if self.axis is None:
             return moments(self.slope, contact, keep_zero=self.keep_zero)
         half = moments(self.slope, contact, self.axis, self.keep_zero)  # the symmetry makes the others zero
@@ -96,10 +100,26 @@ class Search:
         k = self.moments(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
+        if self.epsilon:
+            return self._finished_sliding(contact, P, tilt, sharp, k)
         g0 = G * I0 / np.pi
         C = (P / r - G * k.I1) / np.pi if any(sharp) else 0.0
         k1, k2 = (max(C + g0, 0.0) if sharp[0] else 0.0), (max(C - g0, 0.0) if sharp[1] else 0.0)
         return Edges(contact, P, contact.m * P - G * r * r * k.C2, tilt, sharp, k1, k2, I0, self.evaluations)
+
+    def _finished_sliding(self, contact: Interval, P: float, tilt: float, sharp: tuple[bool, bool], k: Moments) -> Edges:
+        """From F(z) ~ P/(πz) + M/(πz²) far away, with X(z) of `sliding` expanded there; M about the centre first."""
+        G, r, e, cos = self.half_modulus, contact.r, self.epsilon, math.cos(math.pi * self.epsilon)
+        I0 = k.I0 if any(sharp) else 0.0
+        difference = 2.0 * G * cos * I0 / np.pi  # k1 - k2
+        if all(sharp):
+            weighted = 2.0 * cos / (np.pi * r) * (P - G * r * (k.I1 + 2.0 * e * I0))  # (1 - 2ε) k1 + (1 + 2ε) k2
+            k1 = 0.5 * (weighted + (1.0 + 2.0 * e) * difference)
+            k1, k2 = max(k1, 0.0), max(k1 - difference, 0.0)
+        else:
+            k1, k2 = (max(difference, 0.0) if sharp[0] else 0.0), (max(-difference, 0.0) if sharp[1] else 0.0)
+        M = -G * r * r * k.C2 + np.pi * r * r / (4.0 * cos) * (k2 * (1.0 + 2.0 * e) ** 2 - k1 * (1.0 - 2.0 * e) ** 2)
+        return Edges(contact, P, contact.m * P + M, tilt, sharp, k1, k2, I0, self.evaluations)
 
     # -- where the profile touches first --------------------------------------------------------------------------------
 
@@ -171,7 +191,7 @@ class Search:
         """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the indenter."""
         right = self._right_edge(load)
         if right is None:
-            flipped = replace(self, slope=self.slope.mirrored(), evaluations=0)
+            flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, evaluations=0)
             left = flipped._right_edge(load)
             self.evaluations += flipped.evaluations
             if left is None:
@@ -205,7 +225,7 @@ class Search:
 
         def excess(distance: float) -> tuple[float, float]:
             contact, k = contact_at(distance)
-            return contact.r * (k.I1 + k.I0), distance * (contact.r * k.JR + 0.5 * max(k.I0, 0.0))
+            return contact.r * (k.I1 + k.I0), distance * (contact.r * k.JR + (0.5 - self.epsilon) * max(k.I0, 0.0))
 
         distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
         contact, _ = contact_at(distance)
@@ -250,7 +270,7 @@ class Search:
         for _ in range(MAX_STEPS):
             k = self.moments(contact)
             r = contact.r
-            rise2 = r * k.JR + (0.5 * k.I0 if left_sharp else 0.0)
+            rise2 = r * k.JR + ((0.5 - self.epsilon) * k.I0 if left_sharp else 0.0)
             rise1 = r * k.JL
             if rise2 <= 0.0 or (rise1 <= 0.0 and not left_sharp):
                 break  # not convex here: the inequalities will tell

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from .geometry import Geometry
 from .interval import EPS, Interval
 from .panels import CHOP, Panels
 from .scene import Scene
+from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
@@ -92,6 +93,10 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     contact, G = edges.contact, 0.5 * scene.Estar
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
     declared = scene.profile.pieces.tilted(edges.tilt)
+    if scene.epsilon:
+        slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
+        geometry = SlidingGeometry(slope, contact, scene.epsilon, keep_zero="zero panels" not in economy)
+        return SlidingDensity(*common, SlidingPanels(geometry, edges.I0))
     if "transform" in economy:
         series = _series(declared, contact, _resolution(tol))
         if series is not None:
@@ -109,11 +114,12 @@ def _resolution(tol: float) -> float:
 def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
     """The edges for a slope that is resolved; the tilt is searched for if the moment is what is given."""
     axis = scene.profile.axis if "symmetry" in economy else None
-    G, keep_zero = 0.5 * scene.Estar, "zero panels" not in economy
+    epsilon, keep_zero = scene.epsilon, "zero panels" not in economy
+    G = 0.5 * scene.Estar * math.cos(math.pi * epsilon)
 
     def edges_at(tilt: float) -> Edges:
-        symmetric = axis if tilt == 0.0 else None
-        search = Search(slope.tilted(tilt), G, symmetric, keep_zero)
+        symmetric = axis if tilt == 0.0 and epsilon == 0.0 else None
+        search = Search(slope.tilted(tilt), G, symmetric, keep_zero, epsilon)
         if scene.half_width is not None:
             contact, sharp = search.of_half_width(scene.half_width)
             if all(sharp):
@@ -128,9 +134,9 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
     if scene.moment is not None and scene.normal_load is not None:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
-        return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0)
-    edges = _tilt_of_moment(edges_at, scene.moment, G, slope if scene.half_width is not None else None)
-    return Normal(edges, axis is not None and edges.tilt == 0.0)
+        return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
+    edges = _tilt_of_moment(edges_at, scene.moment, Search(slope, G, epsilon=epsilon), scene.half_width is not None)
+    return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
 def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> None:
@@ -141,7 +147,7 @@ def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> 
         )
 
 
-def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float, at_fixed_width: Slope | None) -> Edges:
+def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, search: Search, at_fixed_width: bool) -> Edges:
     """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
     low, high, tilt = -math.inf, math.inf, 0.0
     best = edges_at(tilt)
@@ -153,7 +159,7 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, G: float,
         low, high = (max(low, tilt), high) if excess > 0.0 else (low, min(high, tilt))
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
-        falls = _fall_of_moment(edges, G, at_fixed_width)
+        falls = _fall_of_moment(edges, search, at_fixed_width)
         new = tilt + excess / falls if falls > 0.0 else math.inf
         if not low < new < high:
             new = 0.5 * (low + high) if math.isfinite(low + high) else tilt
@@ -183,12 +189,12 @@ def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float) -> t
     return tilt, None
 
 
-def _fall_of_moment(edges: Edges, G: float, at_fixed_width: Slope | None) -> float:
-    """-dM/d(tilt): π/2 G r² at constant load; at constant half-width the load changes too, dm/d(tilt) = -π/J0, dP/dm = G r J1."""
-    r = edges.contact.r
-    falls = 0.5 * math.pi * G * r * r
-    if at_fixed_width is not None:
-        k = Search(at_fixed_width.tilted(edges.tilt), G).moments(edges.contact)
+def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
+    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes too, dm/d(tilt) = -π/J0, dP/dm = G r J1."""
+    r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
+    falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
+    if at_fixed_width:
+        k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
         falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
     return falls
 

@@ -44,6 +44,8 @@ CHOP = 0.5 * EPS
 class Panels:
     """The pieces expanded: V(z) on the contact, beside it, and in the complex plane."""
 
+    cos = 1.0  # of πε, for the exponents 1/2 ± ε of the edges (`sliding`)
+
     def __init__(self, geometry: Geometry, I0: float = 0.0) -> None:
         """`I0` = ∫H/w dt over the contact, exactly 0 where both edges are smooth."""
         g = self.geometry = geometry
@@ -68,15 +70,21 @@ class Panels:
     def _continuation(self) -> Array:
         """q_m / l of every piece (K, degree): the U-series that multiplies the root."""
         d = self.degree
+        nu = self._means() / self.half_length  # (degree, K)
         if d <= 1:
-            q: Array = self.series[:, 1:] * (self.geometry.angles[2] / self.half_length[:, None])  # μ_0 is the piece's angle
+            q: Array = self.series[:, 1:] * nu.T
             return q
-        offset, _, weight, _ = self.geometry.nodes(quadrature_order(d))
-        s = offset / self.half_length[:, None] - 1.0
-        nu = (chebyshev.polynomials(d, s) * weight).sum(axis=-1)  # (degree, K)
         nu[1:] *= 2.0
-        nu /= self.half_length
         return np.stack([(self.series[:, m + 1 :] * nu[: d - m].T).sum(axis=1) for m in range(d)], axis=1)
+
+    def _means(self) -> Array:
+        """μ_n = ∫ T_n(s)/w dt over every piece, n < degree: (degree, K)."""
+        if self.degree <= 1:
+            return self.geometry.angles[2].T  # μ_0 is the piece's angle
+        offset, _, weight, _ = self.geometry.nodes(quadrature_order(self.degree))
+        s = offset / self.half_length[:, None] - 1.0
+        means: Array = (chebyshev.polynomials(self.degree, s) * weight).sum(axis=-1)
+        return means
 
     @cached_property
     def reach(self) -> Array:
@@ -182,6 +190,10 @@ class Panels:
             far_edge: Array = 2.0 * np.arctan2(root_left[at] * e_right, root_right[at] * e_left)
             return far_edge
 
+        return self._continued(x, R, log_of, on_right)
+
+    def _continued(self, x: Array, R: Array, log_of: Any, on_right: bool) -> tuple[Array, Array]:
+        """`beside`, from the root and the functions of the breaks."""
         regions = self._regions(x)
         V = self._combined(x, R, log_of, regions)
         continued = np.zeros_like(x)
@@ -189,7 +201,7 @@ class Panels:
             k = len(regions) - 1 if on_right else 0
             near = regions[k][0]
             continued[near] = self._slope(k, x[near])
-        far = np.abs(x - self.contact.m) > FAR_FIELD * width
+        far = np.abs(x - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         if far.any():
             V[far], continued[far] = self._far_field(x[far]), 0.0
         return V, continued
@@ -206,11 +218,15 @@ class Panels:
             out: NDArray[np.complex128] = -1j * np.log((q[at] + 1j * tau) ** 2 / product)
             return out
 
+        return self._in_the_plane(z, root1 * root2, log_of)
+
+    def _in_the_plane(self, z: NDArray[np.complex128], R: NDArray[np.complex128], log_of: Any) -> NDArray[np.complex128]:
+        """`off_axis`, from the root and the functions of the breaks, which vanish at the right edge and are π/cos at the left one."""
         regions = self._regions(z)
-        V: NDArray[np.complex128] = self._combined(z, root1 * root2, log_of, regions)
+        V: NDArray[np.complex128] = self._combined(z, R, log_of, regions)
         if self.geometry.cut_left:
             near = regions[0][0]
-            V[near] -= np.pi * self._slope(0, z[near])
+            V[near] -= np.pi / self.cos * self._slope(0, z[near])
         far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         if far.any():
             V[far] = self._far_field(z[far])
@@ -225,8 +241,11 @@ class Panels:
         total = np.zeros_like(z)
         for row_t, row_w in zip(t_m, WH * t_m, strict=True):
             total += row_w @ np.reciprocal(row_t[:, None] - z_m)
-        root = np.sqrt(c.from_left(z) / z_m) * np.sqrt(-c.from_right(z) / z_m)  # R(z) / (z - m)
-        return (total - self.I0) * root
+        return (total - self.I0) * self._far_root(z, z_m)
+
+    def _far_root(self, z: Any, z_m: Any) -> Any:
+        """R(z) / (z - m)."""
+        return np.sqrt(self.contact.from_left(z) / z_m) * np.sqrt(-self.contact.from_right(z) / z_m)
 
     @cached_property
     def _far_field_rule(self) -> tuple[Array, Array]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 from . import checks
+from .interval import EPS
 from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus
 from .profile import Profile
 
@@ -21,6 +23,7 @@ class Scene:
     tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
     friction           Coulomb's coefficient f
     tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body
+    sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
 
     Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
     """
@@ -35,6 +38,7 @@ class Scene:
     friction: float = 0.0
     tangential_load: float = 0.0
     bulk_stress: float = 0.0
+    sliding: int = 0
     modulus: float | None = None
     dundurs: float | None = None
     poisson: float | None = None
@@ -90,9 +94,33 @@ class Scene:
             raise ValueError(
                 f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"
             )
+        self._check_sliding()
+
+    def _check_sliding(self) -> None:
+        if self.sliding not in (-1, 0, 1):
+            raise ValueError(f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0")
+        if self.sliding and self.tangential_load:
+            raise ValueError(
+                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
+            )
+        if self.sliding and self.friction == 0.0:
+            raise ValueError(f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0")
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
+
+    @property
+    def slides(self) -> int:
+        """+1 or -1 in full sliding, q = ±f p: if that was said, or if |Q| = f P to rounding."""
+        if self.sliding or self.normal_load is None or self.tangential_load == 0.0:
+            return self.sliding
+        limit = self.friction * self.normal_load
+        return int(math.copysign(1.0, self.tangential_load)) if abs(abs(self.tangential_load) - limit) <= 4.0 * EPS * limit else 0
+
+    @property
+    def epsilon(self) -> float:
+        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β f in full sliding."""
+        return -math.atan(self.beta * self.friction * self.slides) / math.pi
 
     @property
     def Estar(self) -> float:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import checks
 from .check import Certificate, certificate, verify_inequalities
-from .density import ZERO, Density, SlopeDensity
+from .density import ZERO, Density, Scaled, SlopeDensity
 from .errors import ContactError, LoadError
 from .gap import gap
 from .normal import ECONOMY, Normal, normal_contact, pressure
@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment"})
+# ... and what couples them to friction: `epsilon` of the scene.
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
 _STAGES = ("normal", "pressure", "inequalities", "certificate")
@@ -132,8 +133,15 @@ class Solution:
 
     @property
     def shear(self) -> Density:
-        """The shear traction q(x): zero without friction, tangential load and bulk stress; other states are not covered yet."""
-        return ZERO
+        """The shear traction q(x): ±f p in full sliding, zero without tangential load; other states are not covered yet."""
+        slides = self.scene.slides
+        return Scaled(self.pressure, slides * self.scene.friction) if slides else ZERO
+
+    @property
+    def tangential_load(self) -> float:
+        """Q, force per length."""
+        slides = self.scene.slides
+        return slides * self.scene.friction * self.normal_load if slides else self.scene.tangential_load
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
@@ -158,7 +166,7 @@ class Solution:
             changes = {"body": None, "indenter": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in _NORMAL_FIELDS):
+        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in (*_NORMAL_FIELDS, "epsilon")):
             new.__dict__.update({stage: self.__dict__[stage] for stage in _STAGES if stage in self.__dict__})
         return new
 
@@ -188,13 +196,14 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
 
 
 def _refuse_uncovered(scene: Scene) -> None:
-    if scene.tangential_load != 0.0 or scene.bulk_stress != 0.0:
+    if scene.bulk_stress != 0.0 or (scene.tangential_load != 0.0 and not scene.slides and scene.beta == 0.0):
         raise ContactError(
             f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "
-            "set both to 0 for the normal contact"
+            "set both to 0 for the normal contact, or let the bodies slide"
         )
-    if scene.beta != 0.0 and scene.friction != 0.0:
+    if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
         raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: "
-            "set friction = 0 for the frictionless contact"
+            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick and slip in part at "
+            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is not covered yet; "
+            "let them slide (sliding = ±1), or set friction = 0 for the frictionless contact"
         )

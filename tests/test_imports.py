@@ -15,8 +15,9 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 
 # From the ground up: a module imports only from those before it.
 ORDER = (
-    "errors", "interval", "checks", "expression", "chebyshev", "slope", "touch", "adaptive", "geometry", "moments", "panels", "density",
-    "jacobi", "grading", "jacobi_density", "collocation", "equation",
+    "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
+    "panels", "density",
+    "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
     "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "plan", "solution",
     "scenefile", "export", "plot", "__main__",
 )  # fmt: skip
