@@ -44,6 +44,8 @@ class Plan:
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
     """The steps for what is wanted ("edges", "pressure", "gap", "check"), as a printable Plan. Computes nothing."""
     stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    if scene.bonded:
+        return _of_bonded(scene, stages)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -65,12 +67,28 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     else:
         why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
         steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
-    steps += [_coupling(scene), _slip(scene)]
-    asked = "certificate" in stages
-    steps.append(
-        Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate")
-    )
+    steps += [_coupling(scene), _slip(scene), _certificate(stages)]
     return Plan(tuple(steps))
+
+
+def _of_bonded(scene: Scene, stages: set[str]) -> Plan:
+    how = "-1/2: β = 0 leaves p and q uncoupled" if scene.beta == 0.0 else f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
+    asked = "pressure" in stages
+    steps = (
+        Step("edges", True, "the ends of the punch", "normal"),
+        Step("full stick", True, f"one equation for p + iq, exponents {how}; the tilt is {tilt}", "bonded"),
+        Step("pressure", asked, "its real part" if asked else "not asked for", "pressure"),
+        Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
+        Step("slip", False, "infinite friction: nothing slips"),
+        _certificate(stages),
+    )
+    return Plan(steps)
+
+
+def _certificate(stages: set[str]) -> Step:
+    asked = "certificate" in stages
+    return Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate")
 
 
 def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
@@ -98,8 +116,13 @@ def _edges(scene: Scene) -> str:
 
 def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
     tilted = scene.tilt != 0.0
-    if scene.profile.axis is None or tilted or "symmetry" not in economy:
-        why = "economy is switched off" if "symmetry" not in economy else "the tilt breaks it" if tilted else "the profile has no axis"
+    if scene.profile.axis is None or tilted or scene.epsilon or "symmetry" not in economy:
+        reasons = (
+            ("symmetry" not in economy, "economy is switched off"),
+            (tilted, "the tilt breaks it"),
+            (scene.epsilon, "friction breaks it"),
+        )
+        why = next((reason for holds, reason in reasons if holds), "the profile has no axis")
         return Step("symmetry", False, f"{why}: both edges are unknown")
     extra = " while the tilt is zero" if scene.moment is not None else ""
     return Step("symmetry", True, f"about x = {scene.profile.axis:g}{extra}: half the unknowns, half the pieces")
@@ -121,6 +144,8 @@ def _tilt(scene: Scene) -> Step:
 
 
 def _pressure(scene: Scene, economy: Collection[str]) -> str:
+    if scene.epsilon:
+        return "exact panels with the edges' exponents"
     if "transform" not in economy:
         return "exact panels: economy is switched off"
     if not scene.profile.breaks:
@@ -131,10 +156,15 @@ def _pressure(scene: Scene, economy: Collection[str]) -> str:
 def _coupling(scene: Scene) -> Step:
     if scene.beta == 0.0:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
+    if scene.slides:
+        why = f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+        return Step("coupling", True, f"{why}, panels with Lerch's function for the logarithm")
     return Step("coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure")
 
 
 def _slip(scene: Scene) -> Step:
+    if scene.slides:
+        return Step("slip", False, "full sliding: the shear traction is f times the pressure, nothing to solve")
     return Step(
         "slip",
         False,

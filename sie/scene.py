@@ -21,7 +21,7 @@ class Scene:
                        or, in their place, modulus = E*, dundurs = β, poisson = ν
     normal_load        P, force per length;  or half_width, length: exactly one of the two
     tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
-    friction           Coulomb's coefficient f
+    friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
     tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body
     sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
 
@@ -87,7 +87,7 @@ class Scene:
             self._set("moment", checks.finite("moment", self.moment))
             if self.tilt != 0.0:
                 raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
-        self._set("friction", checks.not_negative("friction", self.friction))
+        self._set("friction", self.friction if self.friction == math.inf else checks.not_negative("friction", self.friction))
         for name in ("tangential_load", "bulk_stress"):
             self._set(name, checks.finite(name, getattr(self, name)))
         if self.tangential_load != 0.0 and self.friction == 0.0:
@@ -99,10 +99,13 @@ class Scene:
     def _check_sliding(self) -> None:
         if self.sliding not in (-1, 0, 1):
             raise ValueError(f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0")
+        self._set("sliding", int(self.sliding))
         if self.sliding and self.tangential_load:
             raise ValueError(
                 f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
             )
+        if self.sliding and self.friction == math.inf:
+            raise ValueError(f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction")
         if self.sliding and self.friction == 0.0:
             raise ValueError(f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0")
 
@@ -112,15 +115,21 @@ class Scene:
     @property
     def slides(self) -> int:
         """+1 or -1 in full sliding, q = ±f p: if that was said, or if |Q| = f P to rounding."""
-        if self.sliding or self.normal_load is None or self.tangential_load == 0.0:
+        if self.sliding or self.normal_load is None or self.tangential_load == 0.0 or self.bonded:
             return self.sliding
         limit = self.friction * self.normal_load
         return int(math.copysign(1.0, self.tangential_load)) if abs(abs(self.tangential_load) - limit) <= 4.0 * EPS * limit else 0
 
     @property
+    def bonded(self) -> bool:
+        """Full stick: infinite friction."""
+        return self.friction == math.inf
+
+    @property
     def epsilon(self) -> float:
         """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β f in full sliding."""
-        return -math.atan(self.beta * self.friction * self.slides) / math.pi
+        slides = self.slides
+        return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
 
     @property
     def Estar(self) -> float:

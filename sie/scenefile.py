@@ -9,7 +9,7 @@
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]   the same; without it the indenter is made of the body's material
     [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]
-    [load]       normal_load | half_width, tilt | moment, friction, tangential_load, bulk_stress
+    [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress
 
 `sie example` lists commented files to start from. Whatever does not fit is refused in one sentence, a `SceneFileError`, that names the
 file, the table, the value and the remedy; a name that is not known is answered with the nearest that is.
@@ -195,7 +195,7 @@ def _shown(value: Any) -> str:
 # -- what each table may hold ------------------------------------------------------------------------------------------
 
 _BODY: dict[str, Reader] = {"young": _number, "poisson": _number, "plane": _text, "rigid": _flag}
-_LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "bulk_stress")
+_LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "sliding", "bulk_stress")
 _TABLES: dict[str, dict[str, Reader]] = {
     "units": {"length": _text, "force": _text, "stress": _text},
     "body": _BODY,

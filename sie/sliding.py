@@ -171,7 +171,7 @@ class SlidingPanels(Panels):
             inside = away <= towards
             for mask, near, far, power in ((inside, away, towards, self.at_right), (~inside, towards, away, self.at_left)):
                 y = np.maximum(np.abs(x[at][mask] - e) / far[mask], least)
-                y[y == 0.0] = 1.0
+                y[y == 0.0] = EPS  # V is set to infinity there
                 y = np.minimum(y, 1.0)
                 out[mask] = -lerch.log(power, np.where(y < 0.5, 1.0 - y, near[mask] / far[mask]), y)
             return out

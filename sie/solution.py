@@ -12,10 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
+from .bonded import Component, bonded_certificate, bonded_contact
 from .check import Certificate, certificate, verify_inequalities
 from .density import ZERO, Density, Scaled, SlopeDensity
+from .edges import Edges
 from .errors import ContactError, LoadError
 from .gap import gap
+from .jacobi_density import JacobiDensity
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
 from .slope import Slope
@@ -27,7 +30,7 @@ _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_lo
 # ... and what couples them to friction: `epsilon` of the scene.
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_STAGES = ("normal", "pressure", "inequalities", "certificate")
+_STAGES = ("bonded", "normal", "pressure", "inequalities", "certificate")
 
 
 class Solution:
@@ -52,6 +55,8 @@ class Solution:
     @cached_property
     def normal(self) -> Normal:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
+        if self.scene.bonded:
+            return Normal(self.bonded[0], False)
         try:
             found = normal_contact(self.scene, self.tol, self.economy)
         except LoadError:
@@ -61,6 +66,11 @@ class Solution:
             self.__dict__["pressure"] = self._verified(self.scene, found)
             self.__dict__["inequalities"] = True
         return found
+
+    @cached_property
+    def bonded(self) -> tuple[Edges, JacobiDensity]:
+        """Of a bonded punch: its edges, and p + i q."""
+        return bonded_contact(self.scene, self.tol)
 
     @property
     def _may_not_be_convex(self) -> bool:
@@ -81,15 +91,24 @@ class Solution:
                 self._verified(scene, normal_contact(scene, self.tol, self.economy))
 
     @cached_property
-    def pressure(self) -> SlopeDensity:
+    def pressure(self) -> SlopeDensity | Component:
         """The contact pressure p(x)."""
+        if self.scene.bonded:
+            return Component(self.bonded[1], imaginary=False)
         normal = self.normal
         verified: SlopeDensity | None = self.__dict__.get("pressure")
         return verified or pressure(normal, self.scene, self.tol, self.economy)
 
     @cached_property
     def certificate(self) -> Certificate:
-        return certificate(self.pressure, self._slope, self.tol)
+        if self.scene.bonded:
+            return bonded_certificate(*self.bonded, self.scene, self.tol)
+        return certificate(self._slope_density, self._slope, self.tol)
+
+    @property
+    def _slope_density(self) -> SlopeDensity:
+        assert isinstance(self.pressure, SlopeDensity)
+        return self.pressure
 
     @property
     def _slope(self) -> Slope:
@@ -133,7 +152,9 @@ class Solution:
 
     @property
     def shear(self) -> Density:
-        """The shear traction q(x): ±f p in full sliding, zero without tangential load; other states are not covered yet."""
+        """The shear traction q(x): ±f p in full sliding, that of full stick, zero without tangential load; others are not covered yet."""
+        if self.scene.bonded:
+            return Component(self.bonded[1], imaginary=True)
         slides = self.scene.slides
         return Scaled(self.pressure, slides * self.scene.friction) if slides else ZERO
 
@@ -146,7 +167,9 @@ class Solution:
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
         x = np.asarray(x, dtype=float)
-        return gap(x.ravel(), self.pressure, self._slope).reshape(x.shape)
+        if self.scene.bonded:
+            return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, 0.0)
+        return gap(x.ravel(), self._slope_density, self._slope).reshape(x.shape)
 
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""
@@ -166,7 +189,8 @@ class Solution:
             changes = {"body": None, "indenter": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in (*_NORMAL_FIELDS, "epsilon")):
+        decisive = (*_NORMAL_FIELDS, "epsilon", "bonded", *(("tangential_load",) if self.scene.bonded else ()))
+        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in decisive):
             new.__dict__.update({stage: self.__dict__[stage] for stage in _STAGES if stage in self.__dict__})
         return new
 
@@ -196,6 +220,8 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
 
 
 def _refuse_uncovered(scene: Scene) -> None:
+    if scene.bonded and scene.bulk_stress == 0.0:
+        return
     if scene.bulk_stress != 0.0 or (scene.tangential_load != 0.0 and not scene.slides and scene.beta == 0.0):
         raise ContactError(
             f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "

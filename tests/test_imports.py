@@ -18,7 +18,7 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "panels", "density",
     "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
-    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "plan", "solution",
+    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "plan", "solution",
     "scenefile", "export", "plot", "__main__",
 )  # fmt: skip
 

@@ -1,0 +1,256 @@
+"""Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded flat punch)."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sie
+
+SIMILAR = {"modulus": 2.0}
+RIM = sie.RoundedFlat(half_flat=1.0, radius=50.0)
+PROFILES = {
+    "parabola": sie.Parabola(3.0),
+    "rounded flat": RIM,
+    "wedge": sie.Wedge(0.1),
+    "power": sie.Power(2.5, 0.1),
+    "catenary": sie.FromFunction(slope=np.sinh),
+    "corners of every kind": RIM + sie.Wedge(0.01).shifted(0.3),
+    "thin rim": sie.RoundedFlat(half_flat=1.0, radius=1e4),
+}
+COUPLINGS = (0.3, -0.3, 0.49, 1e-3)
+
+
+def slid(profile, coupling, **given):
+    """Full sliding in +x with β f = coupling."""
+    return sie.solve(sie.Scene(profile=profile, **SIMILAR, dundurs=0.5 * coupling, friction=2.0, sliding=1, **given))
+
+
+def shift(coupling):
+    return -math.atan(coupling) / math.pi
+
+
+def inside(solution, n=201):
+    x1, x2 = solution.edges
+    return solution.centre + solution.half_width * np.cos((np.arange(n) + 0.5) * np.pi / n) if x1 < x2 else None
+
+
+# -- closed forms ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("coupling", COUPLINGS)
+def test_sliding_hertz(coupling):
+    R, w, e = 3.0, 1.1, shift(coupling)
+    solution = slid(sie.Parabola(R), coupling, half_width=w)
+    c1, c2 = w * (1 - 2 * e), w * (1 + 2 * e)
+    assert solution.edges == pytest.approx((-c1, c2), rel=1e-14)
+    assert solution.normal_load == pytest.approx(math.pi * 2.0 * w * w * (0.25 - e * e) / R, rel=1e-14)
+    x = inside(solution)
+    assert solution.pressure(x) == pytest.approx(
+        2.0 * math.cos(math.pi * e) / (2 * R) * (c2 - x) ** (0.5 - e) * (c1 + x) ** (0.5 + e), rel=1e-11
+    )
+
+
+@pytest.mark.parametrize("coupling", COUPLINGS)
+def test_sliding_flat(coupling):
+    b, P, e = 1.0, 2.0, shift(coupling)
+    solution = slid(sie.Flat(b), coupling, normal_load=P)
+    x = np.linspace(-0.999, 0.999, 201)
+    assert solution.pressure(x) == pytest.approx(
+        P * math.cos(math.pi * e) / math.pi * (b - x) ** (-0.5 - e) * (b + x) ** (-0.5 + e), rel=1e-13
+    )
+    assert solution.moment == pytest.approx(2 * e * P * b, rel=1e-13)
+
+
+@pytest.mark.parametrize("coupling", [0.3, -0.15])
+def test_rounded_punch_against_principal_value_quadrature_with_thirty_digits(coupling):
+    """Both edges satisfy their conditions, and p is the inversion formula of Muskhelishvili § 110."""
+    a, R = 1.0, 50.0
+    solution = slid(RIM, coupling, half_width=1.3)
+    mp = mpmath.mp.clone()
+    mp.dps = 30
+    e = -mp.atan(mp.mpf(coupling)) / mp.pi
+    x1, x2 = map(mp.mpf, solution.edges)
+
+    def over_rims(f):
+        """∫ H f / w over both rims, the edges' powers taken away by t = edge ± u^4."""
+        total = mp.mpf(0)
+        for edge, other, sign in ((x1, x2, 1), (x2, x1, -1)):
+            length = -sign * edge - a
+
+            def integrand(u, edge=edge, sign=sign):
+                near = u**4
+                t = edge + sign * near
+                far = (x2 - x1) - near
+                left, right = (near, far) if sign > 0 else (far, near)
+                return (t + sign * a) / R * f(t) * left ** (-mp.mpf(1) / 2 - e) * right ** (e - mp.mpf(1) / 2) * 4 * u**3
+
+            total += mp.quad(integrand, mp.linspace(0, mp.root(length, 4), 5))
+            del other
+        return total
+
+    c = mp.cos(mp.pi * e)
+    assert abs(over_rims(lambda t: 1)) < 1e-14 * abs(over_rims(lambda t: t))
+    assert solution.normal_load == pytest.approx(float(c * over_rims(lambda t: t)), rel=1e-14)  # E*/2 = 1
+    for x in (-0.9, 0.0, 0.75, 0.999):  # on the flat, where no principal value is needed
+        p = c**2 / mp.pi * (x - x1) ** (mp.mpf(1) / 2 + e) * (x2 - x) ** (mp.mpf(1) / 2 - e) * over_rims(lambda t, x=x: 1 / (t - mp.mpf(x)))
+        assert float(solution.pressure(x)) == pytest.approx(float(p), rel=1e-12)
+
+
+@pytest.mark.parametrize("beta", [0.3, -0.2, 0.0, 0.49])
+def test_bonded_flat(beta):
+    b, P, Q, eta = 2.0, 5.0, -2.0, math.atanh(beta) / math.pi
+    solution = sie.solve(bonded(beta, P, Q, b))
+    x = np.linspace(-1.99, 1.99, 101)
+    exact = (P + 1j * Q) / math.pi * math.cosh(math.pi * eta) * (b * b - x * x) ** -0.5 * np.exp(1j * eta * np.log((b + x) / (b - x)))
+    assert solution.pressure(x) + 1j * solution.shear(x) == pytest.approx(exact, rel=1e-13)
+    assert (solution.pressure.resultant, solution.shear.resultant) == pytest.approx((P, Q), rel=1e-14)
+    assert solution.tilt == 0.0
+    assert solution.check().ok, solution.check()
+
+
+def bonded(beta, P=5.0, Q=2.0, b=2.0, **given):
+    return sie.Scene(profile=sie.Flat(b), modulus=3.0, dundurs=beta, friction=math.inf, normal_load=P, tangential_load=Q, **given)
+
+
+# -- laws -----------------------------------------------------------------------------------------------------------------
+
+GIVEN = ({"normal_load": 0.1}, {"half_width": 1.3}, {"normal_load": 0.1, "tilt": 0.002}, {"normal_load": 0.1, "moment": 0.004})
+
+
+@pytest.mark.parametrize("given", GIVEN, ids=str)
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("coupling", [0.3, -0.49])
+def test_every_profile_is_certified(name, coupling, given):
+    solution = slid(PROFILES[name], coupling, **given)
+    certificate = solution.check()
+    assert certificate.ok, certificate
+    for what, value in given.items():
+        assert getattr(solution, what) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_the_mirror_image_slides_the_other_way(name):
+    one = slid(PROFILES[name], 0.3, normal_load=0.1, tilt=0.001)
+    scene = one.scene
+    other = sie.solve(
+        sie.Scene(profile=scene.profile.mirrored(), modulus=2.0, dundurs=0.15, friction=2.0, sliding=-1, normal_load=0.1, tilt=-0.001)
+    )
+    x = inside(one, 31)
+    assert other.edges == pytest.approx((-one.edges[1], -one.edges[0]), rel=1e-12)
+    assert other.pressure(-x) == pytest.approx(one.pressure(x), rel=1e-10, abs=1e-13 * one.pressure(0.0))
+    assert other.shear.resultant == -one.shear.resultant == -2.0 * 0.1
+
+
+@pytest.mark.parametrize("name", [n for n in PROFILES if n != "thin rim"])
+def test_a_vanishing_coupling_leaves_the_pressure_of_similar_bodies(name):
+    similar = sie.solve(sie.Scene(profile=PROFILES[name], **SIMILAR, normal_load=0.1))
+    coupled = slid(PROFILES[name], 1e-12, normal_load=0.1)
+    x = similar.centre + 0.99 * similar.half_width * np.linspace(-1, 1, 41)
+    assert coupled.edges == pytest.approx(similar.edges, rel=1e-10)
+    finite = np.isfinite(similar.pressure(x))
+    assert coupled.pressure(x)[finite] == pytest.approx(similar.pressure(x)[finite], rel=1e-10)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("coupling", [0.3, -0.49])
+def test_plemelj_and_the_far_field(name, coupling):
+    p = slid(PROFILES[name], coupling, normal_load=0.1).pressure
+    x1, x2 = p.interval
+    x = x1 + (x2 - x1) * np.array([0.01, 0.2, 0.6, 0.99])
+    above, below, between = p.cauchy(x, +1), p.cauchy(x, -1), p.cauchy(x, 0)
+    assert above - below == pytest.approx(-2j * p(x), rel=1e-13)
+    assert between.real == pytest.approx(p.hilbert(x), rel=1e-13)
+    r = 0.5 * (x2 - x1)
+    near = p.cauchy(x + 1e-13j * r)
+    assert near == pytest.approx(above, abs=2e-11 * float(np.abs(above).max()))
+    z = 1e6 * r * np.exp(1j * np.array([0.1, 1.0, 2.0, 3.0]))
+    assert z * p.cauchy(z) == pytest.approx((p.resultant + p.moment / z) / math.pi, rel=1e-11)
+
+
+@settings(deadline=None, max_examples=20)
+@given(
+    breaks=st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=4, unique_by=lambda b: round(b, 2)),
+    coupling=st.floats(-0.49, 0.49).filter(lambda c: abs(c) > 1e-6),
+    load=st.floats(1e-3, 10.0),
+)
+def test_random_convex_chains_are_certified(breaks, coupling, load):
+    slopes = np.linspace(-0.5, 0.5, len(breaks) + 1) + 0.013
+    ends = [-math.inf, *sorted(breaks), math.inf]
+    solution = slid(sie.Piecewise(ends, [[float(s), 0.2] for s in slopes]), coupling, normal_load=load)
+    assert solution.check().ok, solution.check()
+    assert solution.pressure.resultant == pytest.approx(load, rel=1e-13)
+
+
+@pytest.mark.parametrize("moment", [-2.0, 0.0, 3.5])
+def test_the_tilt_of_a_bonded_punch_answers_the_moment(moment):
+    solution = sie.solve(bonded(0.3, moment=moment))
+    assert solution.pressure.moment == pytest.approx(moment, abs=1e-13)
+    assert sie.solve(bonded(0.3, tilt=solution.tilt)).moment == pytest.approx(moment, abs=1e-13)
+    assert solution.check().ok, solution.check()
+
+
+# -- what is said about it ------------------------------------------------------------------------------------------------
+
+
+def test_shear_is_friction_times_pressure_and_nothing_is_solved_for_it():
+    solution = slid(RIM, 0.3, normal_load=0.1)
+    x = inside(solution, 11)
+    assert solution.shear(x) == pytest.approx(2.0 * solution.pressure(x), rel=1e-15)
+    assert solution.tangential_load == 0.2
+    assert set(vars(solution)) >= {"normal", "pressure"}
+
+
+def test_a_tangential_load_of_f_times_p_is_full_sliding():
+    given = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, tangential_load=-0.03)
+    said = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, sliding=-1)
+    assert sie.solve(given).edges == sie.solve(said).edges
+
+
+def test_a_change_of_direction_is_a_new_contact_and_a_change_of_nothing_is_not():
+    solution = slid(RIM, 0.3, normal_load=0.1)
+    edges = solution.edges
+    assert "normal" in vars(solution.with_(tangential_load=0.2, sliding=0))
+    assert solution.with_(sliding=-1).edges == pytest.approx((-edges[1], -edges[0]), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("scene", "words"),
+    [
+        (sie.Scene(profile=RIM, **SIMILAR, dundurs=0.2, normal_load=0.1), "f = 0: no shear acts back"),
+        (sie.Scene(profile=RIM, **SIMILAR, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.1), "exponents 1/2 ±"),
+        (sie.Scene(profile=RIM, **SIMILAR, friction=0.5, sliding=1, normal_load=0.1), "uncoupled"),
+        (bonded(0.3), "1/2 ± iη"),
+    ],
+)
+def test_the_plan_says_how_pressure_and_shear_are_coupled(scene, words):
+    assert words in str(sie.plan(scene))
+
+
+@pytest.mark.parametrize("tangential_load", [0.0, 0.01])
+def test_partial_slip_of_dissimilar_bodies_is_not_covered_yet(tangential_load):
+    scene = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, tangential_load=tangential_load)
+    with pytest.raises(sie.ContactError, match=r"stick and slip in part .* not covered yet"):
+        sie.solve(scene)
+
+
+def test_full_stick_is_for_flat_punches():
+    with pytest.raises(sie.ContactError, match="full stick"):
+        _ = sie.solve(sie.Scene(profile=RIM, **SIMILAR, friction=math.inf, normal_load=0.1)).edges
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"sliding": 2, "friction": 0.1}, "sliding = 2"),
+        ({"sliding": 1}, "without friction"),
+        ({"sliding": 1, "friction": 0.1, "tangential_load": 0.1}, "both sliding"),
+        ({"sliding": 1, "friction": math.inf}, "infinite friction"),
+    ],
+)
+def test_senseless_sliding_is_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1, **given)
