@@ -17,16 +17,12 @@ lose no digits, the last term being a third of the second or less; where p_b and
 integrated. Loads, not widths, are what is given, since Q and f P must be known exactly where they are nearly equal.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from analytic import rounded_flat
-from analytic._artanh import atan_excess
-from analytic._lib import Library, Number, as_result, bits, everywhere, first_where, not_negative, pick, positive, real
+from analytic._lib import Library, Number, as_result, first_where, not_negative, pick, positive, real
 from analytic._partial_slip import Traction, integral, traction, turned, turned_twice
+from analytic._rounded_slip import Contact, contact_of, load_between, lost, nothing, slip_at, zones_of
 
-MOST_STEPS = 60
 # A first loading counts once, every turn of the load twice: there and back.
 TURNS = (1, -2, 2)
 
@@ -45,8 +41,8 @@ def loading_ratio(*, half_flat: Number, half_width: Number, stick_half_width: Nu
     if np.any(outside):
         flat, stick, width = first_where(outside, a, c, b)
         raise ValueError(f"stick_half_width = {stick} is not between half_flat = {flat} and half_width = {width}; give a <= c <= b, a < b.")
-    whole = _load_between(lib, a, 0 * a, b - a)
-    return as_result(_load_between(lib, a, c - a, b - c) / whole)
+    whole = load_between(lib, a, 0 * a, b - a)
+    return as_result(load_between(lib, a, c - a, b - c) / whole)
 
 
 def stick_rim(
@@ -55,12 +51,13 @@ def stick_rim(
     """The length c - a on which each rounding sticks, to full relative accuracy; 0 at Q = f P.
 
     >>> given = dict(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, friction=0.5)
+    >>> from analytic import rounded_flat
     >>> whole = rounded_flat.rim(normal_load=0.5, half_flat=0.5, radius=1.0, modulus=1.0)
     >>> round(float(stick_rim(**given, tangential_load=0.25) / whole), 12)
     1.0
     """
-    P, contact = _contact_of(normal_load, half_flat, radius, modulus, lib)
-    return as_result(_zones(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).stick)
+    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
+    return as_result(zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).stick)
 
 
 def slip_width(
@@ -72,8 +69,8 @@ def slip_width(
     >>> round(float(slip_width(**given, tangential_load=3 * np.pi / 16)), 12)
     0.5
     """
-    P, contact = _contact_of(normal_load, half_flat, radius, modulus, lib)
-    return as_result(_zones(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).slip)
+    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
+    return as_result(zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).slip)
 
 
 def shear(
@@ -96,7 +93,7 @@ def shear(
     0.25
     """
     used = (traction(lib, friction, normal_load, tangential_load),)
-    P, contact = _contact_of(normal_load, half_flat, radius, modulus, lib)
+    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
     return _shear(x, contact, P, positive("friction", friction, lib), used, lib=lib)
 
 
@@ -121,7 +118,7 @@ def unloading_shear(
     -0.25
     """
     used = turned(lib, friction, normal_load, largest_load, tangential_load)
-    P, contact = _contact_of(normal_load, half_flat, radius, modulus, lib)
+    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
     return _shear(x, contact, P, positive("friction", friction, lib), used, lib=lib)
 
 
@@ -148,7 +145,7 @@ def reloading_shear(
     0.25
     """
     used = turned_twice(lib, friction, normal_load, (largest_load, least_load, tangential_load))
-    P, contact = _contact_of(normal_load, half_flat, radius, modulus, lib)
+    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
     return _shear(x, contact, P, positive("friction", friction, lib), used, lib=lib)
 
 
@@ -171,10 +168,10 @@ def slip(
     >>> round(float(slip(1.0, **given, tangential_load=np.pi / 4)), 12)
     0.5
     """
-    x, (P, contact), f = real("x", x, lib), _contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
-    zones = _zones(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
+    x, (P, contact), f = real("x", x, lib), contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
+    zones = zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
     near = (contact.a - abs(x)) + contact.rim
-    value = pick(lib, (near >= 0) & (zones.slip - near > 0), _slip, _nothing, zones.slip - near, zones.stick, contact.a)
+    value = pick(lib, (near >= 0) & (zones.slip - near > 0), slip_at, nothing, zones.slip - near, zones.stick, contact.a)
     return as_result(2 * f / contact.R / lib.pi * value)
 
 
@@ -189,156 +186,22 @@ def dissipation(
     >>> round(float(dissipation(**given, tangential_load=np.pi) / np.pi), 12)
     1.0
     """
-    (P, contact), f = _contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
-    b, zones = contact.a + contact.rim, _zones(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
+    (P, contact), f = contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
+    b, zones = contact.a + contact.rim, zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
     a, stick, width = contact.a / b, zones.stick / b, zones.slip / b  # lest their powers overflow
 
     def integrand(left: Number, right: Number) -> Number:
-        to_edge = _load_between(lib, a, stick + width * left, width * right)
-        return to_edge * _load_between(lib, a, stick, width * left) / (a + stick + width * left)
+        to_edge = load_between(lib, a, stick + width * left, width * right)
+        return to_edge * load_between(lib, a, stick, width * left) / (a + stick + width * left)
 
     scale = 8 * f * f / lib.pi * (contact.E * (b / contact.R) * b) * (b / contact.R) * b
     return as_result(scale * width * integral(lib, integrand))
 
 
-class _Contact(NamedTuple):
-    a: Number
-    rim: Number
-    R: Number
-    E: Number
-
-
-class _Zones(NamedTuple):
-    stick: Number  # c - a
-    slip: Number  # b - c
-
-
-def _contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library) -> tuple[Number, _Contact]:
-    P, a = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    return P, _Contact(a, rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib), R, E)
-
-
-def _zones(lib: Library, P: Number, contact: _Contact, used: Traction) -> _Zones:
-    return _Zones(*(pick(lib, used.used > 0.5, part, other, P, contact, used) for part, other in _WAYS))
-
-
-def _stick_of_rest(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    """c - a under the load P - Q/f."""
-    return pick(lib, used.left > 0, _stick_of_load, _no_stick, P, contact, used)
-
-
-def _stick_of_load(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    return rounded_flat.rim(normal_load=P * used.left, half_flat=contact.a, radius=contact.R, modulus=contact.E, lib=lib)
-
-
-def _no_stick(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    return 0 * used.left * contact.rim
-
-
-def _slip_of_rest(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    return contact.rim - _stick_of_rest(lib, P, contact, used)
-
-
-def _slip_of_load(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c: it climbs to the root."""
-    a, rim = contact.a, contact.rim
-    target = P * used.used / contact.E * contact.R
-    width = target / ((a + rim) * _theta(lib, a, rim))
-    for _ in range(MOST_STEPS):
-        lost = _load_between(lib, a, rim - width, width)
-        step = (target - lost) / ((a + rim - width) * _theta(lib, a, rim - width))
-        width = width + step
-        if everywhere(abs(step) <= 2.0 ** (-bits(lib) / 2) * width):  # what is left is of the order of step²
-            break
-    return width
-
-
-def _stick_of_slip(lib: Library, P: Number, contact: _Contact, used: Traction) -> Number:
-    return contact.rim - _slip_of_load(lib, P, contact, used)
-
-
-_WAYS = ((_stick_of_rest, _stick_of_slip), (_slip_of_rest, _slip_of_load))
-
-
-def _theta(lib: Library, a: Number, rim: Number) -> Number:
-    """arccos(a/(a + rim)), rim > 0."""
-    return 2 * lib.atan(lib.sqrt(rim / (2 * a + rim)))
-
-
-def _load_between(lib: Library, a: Number, stick: Number, width: Number) -> Number:
-    """R/E* (P(s_2) - P(s_1)), s_1 = a + stick, s_2 = s_1 + width."""
-    return pick(lib, width > 0, _load_between_apart, _nothing, width, a, stick)
-
-
-def _load_between_apart(lib: Library, width: Number, a: Number, stick: Number) -> Number:
-    upper = stick + width
-    omega_1, omega_2 = lib.sqrt(stick * (2 * a + stick)), lib.sqrt(upper * (2 * a + upper))
-    squares = width * (2 * a + stick + upper)
-    growth = squares / (omega_1 + omega_2)
-    apex = (a == 0) * (stick == 0) * 1  # where theta is pi/2, not arccos(0/0)
-    theta_1 = _theta(lib, a, stick + apex)
-    product, opposite = a * a + omega_1 * omega_2, a * growth
-    y = opposite / (product + apex)
-    arc = lib.atan(y)
-    return (squares * theta_1 + omega_2 * growth * arc + opposite * _arc_excess(lib, y * y)) / 2
-
-
-def _arc_excess(lib: Library, y2: Number) -> Number:
-    """atan(y)/y - 1."""
-    return pick(lib, y2 > 0, atan_excess, _nothing, y2)
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
-
-
-def _slip(lib: Library, beyond: Number, stick: Number, a: Number) -> Number:
-    """∫_c^x s theta arccosh(x/s) ds, beyond = x - c."""
-
-    def integrand(left: Number, right: Number) -> Number:
-        rim, rest = stick + beyond * left, beyond * right
-        s = a + rim
-        return s * _theta(lib, a, rim) * 2 * lib.asinh(lib.sqrt(rest / (2 * s)))
-
-    return beyond * integral(lib, integrand)
-
-
-def _shear(x: Number, contact: _Contact, P: Number, f: Number, loads: tuple[Traction, ...], *, lib: Library) -> Number:
+def _shear(x: Number, contact: Contact, P: Number, f: Number, loads: tuple[Traction, ...], *, lib: Library) -> Number:
     """The sum of the shears of first loadings, the later ones with the weight of a turn."""
     x = abs(real("x", x, lib))
     total = 0
     for used, weight in zip(loads, TURNS, strict=False):
-        total = total + weight * _lost(lib, x, contact, _zones(lib, P, contact, used))
+        total = total + weight * lost(lib, x, contact, zones_of(lib, P, contact, used))
     return as_result(f * total)
-
-
-def _lost(lib: Library, x: Number, contact: _Contact, zones: _Zones) -> Number:
-    """p_b - p_c at x >= 0."""
-    shape = {"half_flat": contact.a, "radius": contact.R, "modulus": contact.E, "lib": lib}
-    sticks = contact.a + zones.stick > 0  # the apex of a parabola that slides is no contact
-    whole = rounded_flat.pressure(x, rim=contact.rim, **shape)
-    stuck = sticks * rounded_flat.pressure(x, rim=zones.stick + (1 - sticks * 1) * contact.rim, **shape)
-    near = ((contact.a - x) + contact.rim) - zones.slip
-    return pick(lib, (2 * stuck > whole) & (near > 0), _lost_by_integral, _lost_by_difference, x, contact, zones, whole - stuck)
-
-
-def _lost_by_difference(lib: Library, x: Number, contact: _Contact, zones: _Zones, difference: Number) -> Number:
-    return difference
-
-
-def _lost_by_integral(lib: Library, x: Number, contact: _Contact, zones: _Zones, difference: Number) -> Number:
-    """(E*/(pi R)) ∫ theta(sqrt(x² + u²)) du, which is smooth; s² - a² = (c² - a²) + (u² - u_c²)."""
-    a, rim = contact.a, contact.rim
-    near = (a - x) + rim
-    u_b = lib.sqrt(near) * lib.sqrt(a + rim + x)
-    u_c = lib.sqrt(near - zones.slip) * lib.sqrt(a + zones.stick + x)
-    span = zones.slip * (2 * a + rim + zones.stick) / (u_b + u_c)
-    least = zones.stick * (2 * a + zones.stick)
-
-    def integrand(left: Number, right: Number) -> Number:
-        step = span * left
-        squares = least + step * (2 * u_c + step)
-        return 2 * lib.atan(lib.sqrt(squares) / (a + lib.sqrt(a * a + squares)))
-
-    return contact.E / contact.R / lib.pi * span * integral(lib, integrand)
