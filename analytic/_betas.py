@@ -61,7 +61,7 @@ def rim_moment(lib: Library, n: int, alpha: Number, rim: Number, length: Number)
 def _terms(lib: Library, Y: Number) -> int:
     """How many terms, each less than Y times the one before, are enough."""
     largest = float(most(Y, lib))
-    return int(bits(lib) / max(-math.log2(largest), 0.05)) if largest > 0 else 1
+    return int(bits(lib) / -math.log2(largest)) if largest > 0 else 1
 
 
 def _B_series(lib: Library, alpha: Number, y: Number, c: Number) -> Number:

@@ -26,10 +26,12 @@ import numpy as np
 
 from analytic import rounded_flat
 from analytic._betas import A, B, phi, rim_moment
-from analytic._lib import Library, Number, as_result, bits, larger, most, not_negative, pick, positive, real
+from analytic._lib import Library, Number, as_result, bits, first_where, larger, most, not_negative, pick, positive, real
 from analytic._slant import cosine, sliding_exponent
 
 MOST_STEPS = 60
+# |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable time. beta is at most 1/2.
+MOST_COUPLING = 10
 
 
 def rims(
@@ -108,6 +110,7 @@ class _Rim(NamedTuple):
 def _contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, *, lib: Library) -> _Contact:
     P, a, k = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib), real("coupling", coupling, lib)
     R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
+    _refuse_strong(k)
     target = 2 * (P / E) * R / cosine(lib, k)
     start = rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib) + 0 * k
     contact = _Contact(a, start, start, k)
@@ -117,6 +120,13 @@ def _contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus:
         if most(larger(left * left, right * right, lib), lib) < 2.0 ** -bits(lib):  # what is left is of the order of step²
             break
     return contact
+
+
+def _refuse_strong(k: Number) -> None:
+    strong = abs(k) > MOST_COUPLING
+    if np.any(strong):
+        (bad,) = first_where(strong, k)
+        raise ValueError(f"coupling = {bad} is beyond ±{MOST_COUPLING}, where the series end too late; give a smaller |beta f|.")
 
 
 def _newton_step(lib: Library, contact: _Contact, target: Number) -> tuple[Number, Number]:

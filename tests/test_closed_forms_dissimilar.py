@@ -24,7 +24,7 @@ from closed_forms import (
 
 from analytic import bonded_flat, flat, hertz, rounded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
 
-COUPLINGS = [0.49, -1e-9, -0.3, 1.7]
+COUPLINGS = [0.49, -1e-9, -0.3, 9.9]
 either_way = pytest.mark.parametrize("k", COUPLINGS)
 ROUNDED = {"normal_load": 0.3, "half_flat": 0.5, "radius": 2.0, "modulus": 3.0}
 HERTZ = {"half_width": 1.0, "radius": 2.0, "modulus": 3.0}
@@ -346,4 +346,6 @@ def test_nonsense_is_refused() -> None:
         sliding_flat.pressure(0.0, **FLAT, coupling=0.3, moment=3.0)
     with pytest.raises(ValueError, match=r"dundurs = 0\.6 .* give"):
         bonded_flat.tilt(half_width=1.0, dundurs=0.6, modulus=1.0)
+    with pytest.raises(ValueError, match=r"coupling = -11\.0 is beyond ±10"):
+        sliding_rounded_flat.rims(**ROUNDED, coupling=-11.0)
     assert call(sliding_flat.pressure, {"x": 0.0, **FLAT, "coupling": 0.3, "moment": 0.0}) > 0
