@@ -18,6 +18,8 @@ from .errors import ContactError, LoadError
 from .gap import gap
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
+from .slip import Slip, Step, refuse_sliding, slip
+from .slipcheck import shear_certificate
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -26,7 +28,8 @@ Array = NDArray[np.float64]
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment"})
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_STAGES = ("normal", "pressure", "inequalities", "certificate")
+_SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "bulk_stress"}
+_STAGES = {name: _NORMAL_FIELDS for name in ("normal", "pressure", "inequalities")} | dict.fromkeys(("tangential", "certificate"), _SHEAR_FIELDS)
 
 
 class Solution:
@@ -34,6 +37,7 @@ class Solution:
 
     edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
     pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
+    shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
     gap(x)       the gap between the deformed bodies, 0 in contact
     check()      Certificate
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
@@ -86,9 +90,27 @@ class Solution:
         verified: SlopeDensity | None = self.__dict__.get("pressure")
         return verified or pressure(normal, self.scene, self.tol, self.economy)
 
+    @property
+    def _loads(self) -> tuple[float, float]:
+        return self.scene.tangential_load, self.scene.tau if self.scene.friction else 0.0
+
+    @property
+    def _sheared(self) -> bool:
+        scene = self.scene
+        loaded = scene.tangential_load != 0.0 or scene.tau != 0.0
+        return scene.friction != 0.0 and (loaded or "shear" not in self.economy)
+
+    @cached_property
+    def tangential(self) -> Slip:
+        """Zones of stick and slip, and the shear."""
+        return slip(Step(self.scene, self.normal, self.pressure, *self._loads, self.tol, self.economy))
+
     @cached_property
     def certificate(self) -> Certificate:
-        return certificate(self.pressure, self._slope, self.tol)
+        found = certificate(self.pressure, self._slope, self.tol)
+        if not self._sheared:
+            return found
+        return replace(found, shear=shear_certificate(self.tangential, self.pressure, self._loads, self._slope, self.tol))
 
     @property
     def _slope(self) -> Slope:
@@ -131,9 +153,37 @@ class Solution:
         return self.normal.edges.sharp
 
     @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The stick zones as (lo, hi): the contact where no tangential load came, () in full sliding and without friction."""
+        if self._sheared:
+            return self.tangential.stick
+        return (self.edges,) if self.scene.friction else ()
+
+    @property
     def shear(self) -> Density:
-        """The shear traction q(x): zero without friction, tangential load and bulk stress; other states are not covered yet."""
-        return ZERO
+        """The shear traction q(x), which acts on the body in +x."""
+        return self.tangential.shear if self._sheared else ZERO
+
+    def slip(self, x: ArrayLike) -> Array:
+        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
+
+        It has the sign of q. In full sliding: what it is when the last point lets go.
+        """
+        x = np.asarray(x, dtype=float)
+        return self.tangential.slip(x.ravel()).reshape(x.shape) if self._sheared else np.zeros(x.shape)
+
+    @property
+    def energy_lost(self) -> float:
+        """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
+        return self.tangential.energy if self._sheared else 0.0
+
+    @property
+    def shift(self) -> float:
+        """How far slip lets the indenter move along x, beyond what the same loads would move it if nothing slipped.
+
+        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it undetermined (Johnson 1985, § 2.2).
+        """
+        return self.tangential.shift if self._sheared else 0.0
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
@@ -158,8 +208,8 @@ class Solution:
             changes = {"body": None, "indenter": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in _NORMAL_FIELDS):
-            new.__dict__.update({stage: self.__dict__[stage] for stage in _STAGES if stage in self.__dict__})
+        changed = {name for name in known if getattr(new.scene, name) != getattr(self.scene, name)}
+        new.__dict__.update({stage: self.__dict__[stage] for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs})
         return new
 
     def __repr__(self) -> str:
@@ -188,11 +238,8 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
 
 
 def _refuse_uncovered(scene: Scene) -> None:
-    if scene.tangential_load != 0.0 or scene.bulk_stress != 0.0:
-        raise ContactError(
-            f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "
-            "set both to 0 for the normal contact"
-        )
+    if scene.normal_load is not None:
+        refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
     if scene.beta != 0.0 and scene.friction != 0.0:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: "

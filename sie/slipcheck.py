@@ -1,0 +1,90 @@
+"""The certificate of a shear traction: measured on its values and those of the pressure, at points that no solver used.
+
+    residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
+    equilibrium   |∫q dx - Q| / ∫|q| dx
+    excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
+    opposing      smallest slip in the direction of q over the largest
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .check import Rule, ShearCertificate, composite_rule
+from .density import SlopeDensity
+from .interval import Interval
+from .slip import Slip
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+POINTS = 24  # in the stick zone
+
+def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float) -> ShearCertificate:
+    """Measure a state; `loads` are Q and τ."""
+    ends = [c for zone in state.stick for c in zone] + [c for lo, hi, _ in state.slipped for c in (lo, hi)] + list(state.levels)
+    x1, x2 = pressure.interval
+    rule = composite_rule(pressure.contact, slope, np.array([c for c in set(ends) if x1 < c < x2]))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
+        return _measured(state, pressure, loads, rule, tol)
+
+
+def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, tol: float) -> ShearCertificate:
+    x, weight = rule.x, rule.weight
+    p, q = (np.where(np.isfinite(v), v, 0.0) for v in (state.friction * pressure(x), state.shear(x)))
+    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    if size == 0.0:
+        size = peak = state.friction * pressure.resultant
+    of_force, of_equation = _rounding(pressure.contact, x, weight, q, state)
+    return ShearCertificate(
+        residual=_residual(state, pressure.contact, rule, q, loads[1]) / peak,
+        equilibrium=abs(float(weight @ q) - loads[0]) / size,
+        excess=_excess(state, x, p, q) / float(p.max()),
+        opposing=_opposing(state, x),
+        abscissae=max(of_force / size, of_equation / peak),
+        condition=state.condition,
+        advancing=state.advancing,
+        kind=state.kind,
+        tol=tol,
+    )
+
+
+def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) -> float:
+    """1/π PV∫q/(x - t) - τ in the zone that never slipped, by subtracting q there."""
+    lo, hi = state.untouched
+    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    at = at[(at > lo) & (at < hi) & ~np.isin(at, rule.x)]
+    if not at.size:
+        return 0.0
+    values = state.shear(at)
+    distance = at[:, None] - rule.x
+    distance[distance == 0.0] = np.inf
+    whole = values * np.log(contact.from_left(at) / contact.from_right(at))
+    return float(np.abs((((q - values[:, None]) / distance) @ rule.weight + whole) / np.pi - tau).max())
+
+
+def _excess(state: Slip, x: Array, p: Array, q: Array) -> float:
+    worst = float((np.abs(q) - p).max())
+    for lo, hi, sign in state.slipped:
+        slipping = (x > lo) & (x < hi)
+        worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
+    return worst
+
+
+def _opposing(state: Slip, x: Array) -> float:
+    """Of the slip since the last turning point: smallest in its own direction, over the largest."""
+    slip = state.slip_now(x)
+    largest = float(np.abs(slip).max(initial=0.0))
+    lowest = min((float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0)) for lo, hi, sign in state.slipped), default=0.0)
+    return lowest / largest if largest else 0.0
+
+
+def _rounding(contact: Interval, x: Array, weight: Array, q: Array, state: Slip) -> tuple[float, float]:
+    """What one ulp of x does to ∫q dx and to q between the nodes."""
+    near = np.nextafter(x, contact.m)
+    moved = np.abs(np.where(np.isfinite(v := state.shear(near)), v, 0.0) - q)
+    stick = np.zeros(x.shape, dtype=bool)
+    for lo, hi in state.stick:
+        stick |= (x > lo + 0.05 * (hi - lo)) & (x < hi - 0.05 * (hi - lo))
+    return float(weight @ moved), float(moved[stick].max(initial=0.0))
