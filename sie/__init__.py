@@ -28,9 +28,10 @@ Units are free: any consistent set works, and nothing depends on scale.
 
 from .density import ZERO, Density
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
-from .history import History, Path, follow
+from .history import History, follow
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
+from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
 from .scene import Scene

@@ -5,9 +5,9 @@ that slip at the edges can leave behind,
 
     q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f                      (Jäger 1998; Mindlin & Deresiewicz 1953)
 
-because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P'. A change of Q at constant P overwrites κ by ± f from the top (the edges) down,
-as deep as it takes: Masing's rule, with all its memory of turning points, and their wiping out. P that grows adds a layer with κ = dQ/dP,
-which does not slip while |dQ/dP| <= f; P that falls takes layers away. A layer that is thick in Q is counted in Q: f dP'.
+because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P'. A change of Q at constant P overwrites κ by ± f from the top (the edges)
+down, as deep as it takes: Masing's rule, with all its memory of turning points, and their wiping out. P that grows adds a layer with
+κ = dQ/dP, which does not slip while |dQ/dP| <= f; P that falls takes layers away. Thickness is counted in Q: f dP'.
 
 At constant P the same holds of any step that opens slip zones monotonically, with a bulk stress in proportion to Q too: depth is then the
 amplitude of the step (Q, σ) that reaches it from the virgin state. Only that the zones grow with the amplitude is used.
@@ -68,7 +68,7 @@ class Ladder:
             thickness, k = layers.pop(0) if layers else (self.size - depth, 0.0)
             jump = abs(sign - k)
             taken = left / jump if jump * thickness > left else thickness
-            if 0.0 < thickness - taken <= NOTHING * (depth + thickness):
+            if 0.0 < thickness - taken <= NOTHING * (depth + taken):
                 taken = thickness
             if jump:
                 done.append(Overwritten(depth, depth + taken, jump))

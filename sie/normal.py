@@ -87,7 +87,7 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
 
 
 def contact_under(
-    load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, near: Interval | None = None
+    load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, *, near: Interval | None = None
 ) -> Normal:
     """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
     profile = scene.profile

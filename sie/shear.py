@@ -103,9 +103,7 @@ class TwoSigns(Density):
     def _side(self, right: bool) -> tuple[float, Zone, float]:
         """(f times the sign of slip next to z, the zone on the other side, the sign of its integral)."""
         drive = self.zones.drive
-        return (
-            (self.friction * drive.right, self.zones.left, 1.0) if right else (self.friction * drive.left, self.zones.right, -1.0)
-        )
+        return (self.friction * drive.right, self.zones.left, 1.0) if right else (self.friction * drive.left, self.zones.right, -1.0)
 
     def hilbert(self, x: ArrayLike) -> Array:
         x = np.asarray(x, dtype=float)

@@ -1,9 +1,9 @@
 """The certificate of a shear traction: measured on its values and those of the pressure, at points that no solver used.
 
-    residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
-    equilibrium   |∫q dx - Q| / ∫|q| dx
-    excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
-    opposing      smallest slip in the direction of q over the largest
+residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
+equilibrium   |∫q dx - Q| / ∫|q| dx
+excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
+opposing      smallest slip in the direction of q over the largest
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from .check import Rule, ShearCertificate, composite_rule
 from .density import SlopeDensity
 from .interval import Interval
-from .slip import Slip
 from .slope import Slope
+from .states import Slip
 
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
+
 
 def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float) -> ShearCertificate:
     """Measure a state; `loads` are Q and τ."""

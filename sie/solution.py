@@ -18,9 +18,10 @@ from .errors import ContactError, LoadError
 from .gap import gap
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
-from .slip import Slip, Step, refuse_sliding, slip
+from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
 from .slope import Slope
+from .states import Slip, Step
 
 Array = NDArray[np.float64]
 
@@ -29,7 +30,8 @@ _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_lo
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
 _SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "bulk_stress"}
-_STAGES = {name: _NORMAL_FIELDS for name in ("normal", "pressure", "inequalities")} | dict.fromkeys(("tangential", "certificate"), _SHEAR_FIELDS)
+_STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
+_STAGES |= dict.fromkeys(("tangential", "certificate"), _SHEAR_FIELDS)
 
 
 class Solution:
@@ -96,9 +98,7 @@ class Solution:
 
     @property
     def _sheared(self) -> bool:
-        scene = self.scene
-        loaded = scene.tangential_load != 0.0 or scene.tau != 0.0
-        return scene.friction != 0.0 and (loaded or "shear" not in self.economy)
+        return sheared(self.scene, self.economy)
 
     @cached_property
     def tangential(self) -> Slip:
@@ -209,7 +209,8 @@ class Solution:
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
         changed = {name for name in known if getattr(new.scene, name) != getattr(self.scene, name)}
-        new.__dict__.update({stage: self.__dict__[stage] for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs})
+        kept = [stage for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs]
+        new.__dict__.update({stage: self.__dict__[stage] for stage in kept})
         return new
 
     def __repr__(self) -> str:

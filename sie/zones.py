@@ -1,7 +1,7 @@
 """Slip zones at both ends of a stick zone: where they end, and the shear between them, from the pressure alone.
 
-On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1; inside, 1/π PV∫q/(x - t) dt = τ, the strain that
-a bulk stress would cause, as a stress. With c = (c1 + c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone,
+On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1; inside, 1/π PV∫q/(x - t) dt = τ, the strain
+that a bulk stress causes, as a stress. With c = (c1 + c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone,
 (Fq - τ)/R is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
 
     Fq(z) = τ + R(z)/π ∫_slip q(s) / (R(s) (z - s)) ds
@@ -12,9 +12,9 @@ and what this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 
     s2 ∫_right p sqrt((s - c1)/(s - c2)) ds + s1 ∫_left  p sqrt((c1 - s)/(c2 - s)) ds = (Q - π ρ τ)/f
     s1 ∫_left  p sqrt((c2 - s)/(c1 - s)) ds + s2 ∫_right p sqrt((s - c2)/(s - c1)) ds = (Q + π ρ τ)/f
 
-With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures (`slip`); with s1 = -s2 slip is reversed on
-one side by a large bulk stress (Nowell & Hills 1987). All integrands are positive: nothing cancels, however thin the zones are. The pressure
-next to an edge is therefore needed as a function of the distance from it, which a double x no longer tells: it is evaluated in coordinates
+With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures (`slip`); with s1 = -s2 slip is reversed
+on one side by a large bulk stress (Nowell & Hills 1987). All integrands are positive: nothing cancels, however thin the zones are. The
+pressure next to an edge is needed as a function of the distance from it, which a double x no longer tells: it is evaluated in coordinates
 whose origin is that edge.
 
 The same argument gives what a further load step does while nothing else slips, dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): zones of
@@ -243,7 +243,11 @@ def _root(function: Callable[[float], float], guess: float, limit: float) -> flo
         low, high = (u, high) if f < 0.0 else (low, u)
         new = u - f * (u - before[0]) / (f - before[1]) if before is not None and f != before[1] else -1.0
         if not low < new < high:
-            new = min(u * FIRST_STEP, 0.5 * (u + limit)) if f < 0.0 and high == limit else u / FIRST_STEP if low == 0.0 else 0.5 * (low + high)
+            new = 0.5 * (low + high)
+            if f < 0.0 and high == limit:
+                new = min(u * FIRST_STEP, 0.5 * (u + limit))
+            elif low == 0.0:
+                new = u / FIRST_STEP
         before = (u, f)
         if abs(new - u) <= EPS * u or high - low <= 2.0 * EPS * high or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step)):
             return new

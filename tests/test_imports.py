@@ -16,8 +16,8 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a module imports only from those before it.
 ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "slope", "touch", "adaptive", "geometry", "moments", "panels", "density",
-    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "plan", "solution",
-    "scenefile", "export", "plot", "__main__",
+    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "zones", "shear",
+    "states", "slip", "slipcheck", "plan", "solution", "ladder", "path", "history", "scenefile", "export", "plot", "__main__",
 )  # fmt: skip
 
 
