@@ -189,7 +189,8 @@ class Followed(Solution):
         return self.history.plain(self.history.states[self.index].loads[0]).pressure
 
     @property
-    def _sheared(self) -> bool:
+    def sheared(self) -> bool:
+        """Whether there is friction, and a load that shears."""
         return self.history.scene.friction != 0.0
 
     @cached_property
@@ -199,7 +200,7 @@ class Followed(Solution):
     @property
     def energy_lost(self) -> float:
         """What friction turned into heat since the beginning of the path."""
-        return self.history.energy(self.index) if self._sheared else 0.0
+        return self.history.energy(self.index) if self.sheared else 0.0
 
     def with_(self, **changes: Any) -> Solution:
         raise ValueError("this solution is a point of a path: change the scene or the path, and follow it again")

@@ -33,11 +33,11 @@ def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, f
 
 def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, tol: float) -> ShearCertificate:
     x, weight = rule.x, rule.weight
-    p, q = (np.where(np.isfinite(v), v, 0.0) for v in (state.friction * pressure(x), state.shear(x)))
+    p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
     if size == 0.0:
         size = peak = state.friction * pressure.resultant
-    of_force, of_equation = _rounding(pressure.contact, x, weight, q, state)
+    of_force, of_equation = _rounding(state, pressure.contact, x, weight, q)
     return ShearCertificate(
         residual=_residual(state, pressure.contact, rule, q, loads[1]) / peak,
         equilibrium=abs(float(weight @ q) - loads[0]) / size,
@@ -53,9 +53,8 @@ def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], r
 
 def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) -> float:
     """1/π PV∫q/(x - t) - τ in the zone that never slipped, by subtracting q there."""
-    lo, hi = state.untouched
-    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
-    at = at[(at > lo) & (at < hi) & ~np.isin(at, rule.x)]
+    at = _points(state)
+    at = at[~np.isin(at, rule.x)]
     if not at.size:
         return 0.0
     values = state.shear(at)
@@ -81,11 +80,21 @@ def _opposing(state: Slip, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def _rounding(contact: Interval, x: Array, weight: Array, q: Array, state: Slip) -> tuple[float, float]:
-    """What one ulp of x does to ∫q dx and to q between the nodes."""
-    near = np.nextafter(x, contact.m)
-    moved = np.abs(np.where(np.isfinite(v := state.shear(near)), v, 0.0) - q)
-    stick = np.zeros(x.shape, dtype=bool)
-    for lo, hi in state.stick:
-        stick |= (x > lo + 0.05 * (hi - lo)) & (x < hi - 0.05 * (hi - lo))
-    return float(weight @ moved), float(moved[stick].max(initial=0.0))
+def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array) -> tuple[float, float]:
+    """What one ulp of x does to ∫q dx, and to q where the equation is measured."""
+    moved = np.abs(_finite(state.shear(np.nextafter(x, contact.m))) - q)
+    at = _points(state)
+    here = np.abs(state.shear(np.nextafter(at, contact.m)) - state.shear(at))
+    return float(weight @ moved), float(here.max(initial=0.0))
+
+
+def _points(state: Slip) -> Array:
+    """Where the equation is measured: in the zone that never slipped."""
+    lo, hi = state.untouched
+    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    inside: Array = at[(at > lo) & (at < hi)]
+    return inside
+
+
+def _finite(values: Array) -> Array:
+    return np.where(np.isfinite(values), values, 0.0)

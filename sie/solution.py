@@ -97,7 +97,8 @@ class Solution:
         return self.scene.tangential_load, self.scene.tau if self.scene.friction else 0.0
 
     @property
-    def _sheared(self) -> bool:
+    def sheared(self) -> bool:
+        """Whether there is friction, and a load that shears."""
         return sheared(self.scene, self.economy)
 
     @cached_property
@@ -108,7 +109,7 @@ class Solution:
     @cached_property
     def certificate(self) -> Certificate:
         found = certificate(self.pressure, self._slope, self.tol)
-        if not self._sheared:
+        if not self.sheared:
             return found
         return replace(found, shear=shear_certificate(self.tangential, self.pressure, self._loads, self._slope, self.tol))
 
@@ -155,14 +156,14 @@ class Solution:
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
         """The stick zones as (lo, hi): the contact where no tangential load came, () in full sliding and without friction."""
-        if self._sheared:
+        if self.sheared:
             return self.tangential.stick
         return (self.edges,) if self.scene.friction else ()
 
     @property
     def shear(self) -> Density:
         """The shear traction q(x), which acts on the body in +x."""
-        return self.tangential.shear if self._sheared else ZERO
+        return self.tangential.shear if self.sheared else ZERO
 
     def slip(self, x: ArrayLike) -> Array:
         """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
@@ -170,12 +171,12 @@ class Solution:
         It has the sign of q. In full sliding: what it is when the last point lets go.
         """
         x = np.asarray(x, dtype=float)
-        return self.tangential.slip(x.ravel()).reshape(x.shape) if self._sheared else np.zeros(x.shape)
+        return self.tangential.slip(x.ravel()).reshape(x.shape) if self.sheared else np.zeros(x.shape)
 
     @property
     def energy_lost(self) -> float:
         """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
-        return self.tangential.energy if self._sheared else 0.0
+        return self.tangential.energy if self.sheared else 0.0
 
     @property
     def shift(self) -> float:
@@ -183,7 +184,7 @@ class Solution:
 
         The rest, Q times a constant, depends on where one stands: plane elasticity leaves it undetermined (Johnson 1985, § 2.2).
         """
-        return self.tangential.shift if self._sheared else 0.0
+        return self.tangential.shift if self.sheared else 0.0
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
