@@ -42,6 +42,8 @@ from .zones import Drive, zones
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
+# Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they would underflow.
+SMALLEST = 1e-60
 # Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
 HARDLY = 1e-40
 
@@ -73,6 +75,11 @@ def slip(step: Step) -> Slip:
     if f == 0.0 or (Q == 0.0 == tau and "shear" in step.economy):
         return Stuck(step.pressure.contact, f)
     refuse_sliding(f, P, Q)
+    if max(abs(Q), math.pi * step.pressure.contact.r * abs(tau)) < SMALLEST * f * P and "shear" in step.economy:
+        raise LoadError(
+            f"Q = {Q:.6g} and the bulk stress are below {SMALLEST:g} of f P = {f * P:.6g}: "
+            "zones of slip so short have no length in doubles; give 0 instead"
+        )
     if abs(Q) == f * P and "sliding" in step.economy:
         return sliding(step)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):

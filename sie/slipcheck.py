@@ -53,8 +53,7 @@ def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], r
 
 def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) -> float:
     """1/π PV∫q/(x - t) - τ in the zone that never slipped, by subtracting q there."""
-    at = _points(state)
-    at = at[~np.isin(at, rule.x)]
+    at = _points(state, rule.x)
     if not at.size:
         return 0.0
     values = state.shear(at)
@@ -65,9 +64,9 @@ def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) 
 
 
 def _excess(state: Slip, x: Array, p: Array, q: Array) -> float:
-    worst = float((np.abs(q) - p).max())
+    worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())  # a node on a corner, where p is infinite, was set to 0
     for lo, hi, sign in state.slipped:
-        slipping = (x > lo) & (x < hi)
+        slipping = (x > lo) & (x < hi) & (p > 0.0)
         worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
     return worst
 
@@ -83,16 +82,19 @@ def _opposing(state: Slip, x: Array) -> float:
 def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array) -> tuple[float, float]:
     """What one ulp of x does to ∫q dx, and to q where the equation is measured."""
     moved = np.abs(_finite(state.shear(np.nextafter(x, contact.m))) - q)
-    at = _points(state)
+    at = _points(state, x)
     here = np.abs(state.shear(np.nextafter(at, contact.m)) - state.shear(at))
     return float(weight @ moved), float(here.max(initial=0.0))
 
 
-def _points(state: Slip) -> Array:
-    """Where the equation is measured: in the zone that never slipped."""
+def _points(state: Slip, nodes: Array) -> Array:
+    """Where the equation is measured: over the zone that never slipped, half-way between two nodes."""
     lo, hi = state.untouched
+    nodes = np.unique(nodes)
     at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
-    inside: Array = at[(at > lo) & (at < hi)]
+    k = np.clip(np.searchsorted(nodes, at), 1, len(nodes) - 1)
+    at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
+    inside: Array = at[(at > lo) & (at < hi) & ~np.isin(at, nodes)]
     return inside
 
 

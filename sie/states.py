@@ -163,6 +163,18 @@ class _Slipping(Slip):
     def rims(self) -> tuple[Rim, Rim]:
         return rims(self.pressure, self.slope)
 
+    def slip(self, x: Array) -> Array:
+        out = np.zeros(x.shape)
+        if not x.size:
+            return out
+        from_edge = self.contact.from_left(x), self.contact.from_right(x)
+        nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
+        for r, distance, sign, side in zip(self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True):
+            at = side & (distance >= 0.0)
+            if at.any():
+                out[at] = sign * self.friction * self._opening(distance[at], r)
+        return out
+
     @property
     def zones(self) -> tuple[Zone, Zone]:
         left, right = (zone(r, length) for r, length in zip(self.rims, self.lengths, strict=True))
@@ -231,10 +243,6 @@ class Sliding(_Slipping):
         z1, z2 = self._touch
         return max(self.contact.from_left(z1), 0.0), max(self.contact.from_right(z2), 0.0)
 
-    def slip(self, x: Array) -> Array:
-        out = self.sign * self.friction * raised(self._resolved, self._touch, x)
-        return np.where((x < self.contact.x1) | (x > self.contact.x2), 0.0, out)
-
     def _opening(self, distance: Array, rim: Rim) -> Array:
         edge, tail = (self.contact.x2, self.contact.tail2) if rim.side > 0.0 else (self.contact.x1, self.contact.tail1)
         slope = self._resolved.shifted(-edge).shifted(-tail)
@@ -261,7 +269,7 @@ class OneWay(_Slipping):
         """The zones from their own equations, where the difference of two pressures would lose digits."""
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
-        small = abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(tau) <= abs(Q)
+        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(tau) <= abs(Q)
         if not small or any(step.normal.edges.sharp):
             return None
         drive = Drive(self.sign * Q / f, self.sign * math.pi * tau / f, 1.0, 1.0)
@@ -309,9 +317,6 @@ class OneWay(_Slipping):
         right = (outer.x2 - inner.x2) + (outer.tail2 - inner.tail2)
         return max(left, 0.0), max(right, 0.0)
 
-    def slip(self, x: Array) -> Array:
-        return self.sign * self.friction * _within(self.contact, x, gap(x, self.corrective, self._tilted))
-
     def _opening(self, distance: Array, rim: Rim) -> Array:
         corrective, slope = seen(self.corrective, self._tilted, self.lengths, rim)
         return gap(-rim.side * distance, corrective, slope)
@@ -350,10 +355,6 @@ class TwoWays(_Slipping):
     def zones(self) -> tuple[Zone, Zone]:
         return self.found.left, self.found.right
 
-    def slip(self, x: Array) -> Array:
-        opening = _within(self.contact, x, gap(x, self.formal, self.slope, self._more(self.formal.contact)))
-        return self.friction * np.where(x > self.found.stick.m, self.signs[1], self.signs[0]) * opening
-
     def _opening(self, distance: Array, rim: Rim) -> Array:
         formal, slope = seen(self.formal, self.slope, self.lengths, rim)
         return gap(-rim.side * distance, formal, slope, self._more(formal.contact))
@@ -386,11 +387,6 @@ def seen(density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim:
     ends = (left - rim.width, -right) if rim.side > 0.0 else (left, rim.width - right)
     dx, tail = rim.origin
     return moved(density, Interval(*ends), dx, tail), slope.shifted(dx).shifted(tail)
-
-
-def _within(contact: Interval, x: Array, values: Array) -> Array:
-    out: Array = np.where((x < contact.x1) | (x > contact.x2), 0.0, values)
-    return out
 
 
 def _guess(step: Step, sign: float) -> tuple[float, float]:
