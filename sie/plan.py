@@ -45,7 +45,8 @@ class Plan:
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
     """The steps for what is wanted ("edges", "pressure", "gap", "shear", "check"), as a printable Plan. Computes nothing."""
-    stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    needed = WANTS if sheared(scene, economy) else WANTS | {"shear": ("normal",)}
+    stages = {stage for w in wanted(want) for stage in needed[w]}
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -58,7 +59,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
+        why = "" if any("pressure" in needed[w] for w in wanted(want)) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
