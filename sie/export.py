@@ -267,7 +267,7 @@ def summary(solution: Solution, file: SceneFile) -> str:
     sections = {"edges": edges_summary, "pressure": pressure_summary, "gap": gap_summary, "shear": shear_summary, "check": check_summary}
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     parts = [section(solution, file.units) for name, section in sections.items() if name in wanted(file)]
-    return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *filter(None, parts)])
+    return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts])
 
 
 def edges_summary(solution: Solution, units: Units) -> str:
@@ -301,9 +301,9 @@ def gap_summary(solution: Solution, units: Units) -> str:
 
 
 def shear_summary(solution: Solution, units: Units) -> str:
-    """Stick and slip zones, shear and what it costs; a table of the turning points of a path. Nothing without shear."""
+    """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
     if not solution.sheared:
-        return ""
+        return _rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
     rows = [("shear load", f"Q = {_number(scene.tangential_load)} {units.force}; f P = {_number(scene.friction * solution.normal_load)}")]
     rows += [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")] if scene.bulk_stress else []

@@ -54,6 +54,8 @@ def follow(scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str
     """
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
+    if scene.bonded:
+        raise ValueError("a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene")
     return History(scene, path, tol, economy)
 
 
@@ -66,7 +68,7 @@ class History(Sequence[Solution]):
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
         first = next(P for P, _, _ in path.points if P > 0.0)
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
-        self.scene = replace(scene, normal_load=first, half_width=None, tangential_load=0.0, bulk_stress=0.0)
+        self.scene = replace(scene, normal_load=first, half_width=None, tangential_load=0.0, sliding=0, bulk_stress=0.0)
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.unit = direction(path)
         self.states = states(scene, path)

@@ -18,6 +18,15 @@ WANTS: dict[str, tuple[str, ...]] = {
     "check": ("normal", "pressure", "tangential", "certificate"),
 }
 
+# The same for a bonded punch, whose one equation answers pressure and shear alike.
+BONDED: dict[str, tuple[str, ...]] = {
+    "edges": ("normal",),
+    "pressure": ("normal", "pressure"),
+    "gap": ("normal",),
+    "shear": ("normal",),
+    "check": ("normal", "certificate"),
+}
+
 
 @dataclass(frozen=True)
 class Step:
@@ -45,9 +54,10 @@ class Plan:
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
     """The steps for what is wanted ("edges", "pressure", "gap", "shear", "check"), as a printable Plan. Computes nothing."""
-    stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
+    stages = {stage for w in wanted(want) for stage in needed[w]}
     if scene.bonded:
-        return _of_bonded(scene, stages)
+        return _of_bonded(scene, {stage for w in wanted(want) for stage in BONDED[w]})
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -60,7 +70,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
+        why = "" if any("pressure" in needed[w] for w in wanted(want)) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))

@@ -78,6 +78,12 @@ class Solution:
         return bonded_contact(self.scene, self.tol)
 
     @property
+    def normal_and_shear(self) -> JacobiDensity:
+        """p + i q of a bonded punch."""
+        _ = self.normal
+        return self.bonded[1]
+
+    @property
     def _may_not_be_convex(self) -> bool:
         return not (self.scene.profile.convex and "convexity" in self.economy)
 
@@ -99,7 +105,7 @@ class Solution:
     def pressure(self) -> SlopeDensity | Component:
         """The contact pressure p(x)."""
         if self.scene.bonded:
-            return Component(self.bonded[1], imaginary=False)
+            return Component(self.normal_and_shear, imaginary=False)
         normal = self.normal
         verified: SlopeDensity | None = self.__dict__.get("pressure")
         return verified or pressure(normal, self.scene, self.tol, self.economy)
@@ -121,7 +127,7 @@ class Solution:
     @cached_property
     def certificate(self) -> Certificate:
         if self.scene.bonded:
-            return bonded_certificate(*self.bonded, self.scene, self.tol)
+            return bonded_certificate(self.normal.edges, self.normal_and_shear, self.scene, self.tol)
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
@@ -185,7 +191,7 @@ class Solution:
     def shear(self) -> Density:
         """The shear traction q(x), which acts on the body in +x."""
         if self.scene.bonded:
-            return Component(self.bonded[1], imaginary=True)
+            return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
             return Scaled(self.pressure, self.scene.slides * self.scene.friction)
         return self.tangential.shear if self.sheared else ZERO
