@@ -49,7 +49,7 @@ class Part:
         for distance, exponent in ((right, self.weight.alpha), (left, self.weight.beta)):
             end = distance <= 0.0
             if end.any():
-                out[end] = 0.0 if exponent.real > 0.0 else np.where(psi[end] == 0.0, 0.0, np.inf * np.sign(psi[end].real))
+                out[end] = 0.0 if exponent.real >= 0.0 else jacobi.infinite(psi[end])
         return out
 
     @cached_property
@@ -92,11 +92,12 @@ class Part:
 
     # -- Cauchy integrals -----------------------------------------------------------------------------------------------
 
-    def hilbert_inside(self, to_right: Array, to_left: Array, value: Array) -> Array:
-        """1/π PV∫ φ/(x - t) dt inside; `value` is φ there."""
+    def cauchy_inside(self, to_right: Array, to_left: Array, side: int) -> Array:
+        """1/π PV∫ φ/(x - t) dt inside (side 0), or the limit from one side."""
         right, left, stretch = self.map.inverse(to_right, to_left)
-        out = jacobi.hilbert(self.weight, self.coefficients, 0.5 * (left - right), value * stretch)
-        return (out - self._smooth(right, left)) / stretch
+        regular = jacobi.second(self.weight, self.coefficients, 0.5 * (left - right)) - self._smooth(right, left)
+        out: Array = regular / stretch - jacobi.cut(self.weight, self.value(to_right, to_left), side)
+        return out
 
     def cauchy_outside(self, z: Array) -> Array:
         """1/π ∫ φ/(z - t) dt off the interval."""
@@ -214,12 +215,7 @@ def _cauchy(part: Part, z: Array, side: int) -> Array:
     to_right, to_left = part.map.x2 - z.real, z.real - part.map.x1
     on = (z.imag == 0.0) & (to_right >= 0.0) & (to_left >= 0.0)
     if on.any():
-        value = part.value(to_right[on], to_left[on])
-        out[on] = part.hilbert_inside(to_right[on], to_left[on], value)
-        if side and np.iscomplexobj(value):
-            out[on] -= 1j * side * value
-        elif side:
-            out.imag[on] -= side * value  # a product with 1j would make nan of an infinite value
+        out[on] = part.cauchy_inside(to_right[on], to_left[on], side)
     if not on.all():
         out[~on] = part.cauchy_outside(z[~on])
     return out
