@@ -318,15 +318,21 @@ def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Arr
     the functions of the second kind.
     """
     out = np.empty(z.shape, dtype=complex)
-    rho = np.abs(z + np.sqrt(right) * np.sqrt(left))
-    near = rho ** (len(c) + 1) <= GROWTH
+    rho = bernstein(z, right, left)
+    near = np.log(rho) <= math.log(GROWTH) / (len(c) + 1)
     if near.any():
-        root = right[near] ** weight.alpha * left[near] ** weight.beta
-        z_near = z[near]
+        z_near, left_near = z[near], left[near]
+        root = (right[near] / left_near) ** weight.alpha * left_near**-weight.kappa
         out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
     if not near.all():
         out[~near] = _continued_fraction(weight, c, z[~near], float(rho[~near].min())) / np.pi
     return out
+
+
+def bernstein(z: Array, right: Array, left: Array) -> Array:
+    """The parameter ρ > 1 of the ellipse with foci ±1 through z. A ratio is negative on the interval only, whatever the signs of zeros."""
+    rho: Array = np.abs(z + left * np.sqrt(right / left))
+    return rho
 
 
 def _continued_fraction(weight: Weight, c: Array, z: Array, rho: float) -> Array:

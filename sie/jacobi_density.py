@@ -70,10 +70,12 @@ class Part:
         n = self._quadrature_size
         s, A = jacobi.analysis(self.weight, n)
         _, to_left, _ = self.map.distances(1.0 - s, 1.0 + s)
-        return s, to_left, A[:, : len(self.coefficients)] @ self.coefficients
+        c = self.coefficients[:n]  # what is left out is orthogonal to all that n nodes resolve
+        return s, to_left, A[:, : len(c)] @ c
 
     @property
     def _quadrature_size(self) -> int:
+        """So many that they integrate the coefficients times a kernel with its poles at HALFWAY."""
         n = len(self.coefficients)
         if isinstance(self.map, Affine):
             return n + 1
@@ -129,7 +131,7 @@ class Part:
         right, left, _ = self.map.inverse(np.where(poles, 0.5 * self.map.length, to_right), at)
         s = 0.5 * (left - right)
         height = HALFWAY / self.map.h
-        near: Array = np.abs(s + np.sqrt(-right) * np.sqrt(left)) < height + math.sqrt(1.0 + height * height)
+        near: Array = jacobi.bernstein(s, -right, left) < height + math.sqrt(1.0 + height * height)
         return near & ~poles
 
     def _smooth(self, right: Array, left: Array) -> Array:

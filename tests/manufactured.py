@@ -142,13 +142,17 @@ def right_hand_side(densities, a, b, kernels=()):
     return g
 
 
-def needed(densities, tol):
-    """How many coefficients of f are above tol: those of its Chebyshev series, which decay as any Jacobi series of it do."""
-    sizes = []
+def needed(densities, tol, g=None):
+    """How many coefficients of f (or of g) are above tol: those of its Chebyshev series, which decay as any Jacobi series of it do."""
+    sizes, n = [], 160
+    theta = np.pi * (np.arange(n) + 0.5) / n
     for d in densities:
-        s = np.cos(np.pi * (np.arange(400) + 0.5) / 400)
-        values = np.array([complex(d.f(mp.mpf(float(v)))) for v in s])
-        c = np.abs(np.cos(np.outer(np.arange(400), np.arccos(s))) @ values)
-        c[0] *= 0.5
-        sizes.append(int(np.flatnonzero(c > tol * c.max())[-1]) + 1)
+        s = np.cos(theta)
+        values = exact(lambda v, d=d: d.f(mp.mpf(v)), s) if g is None else g(float(d.m) + float(d.r) * s)
+        c = np.abs(np.cos(np.outer(np.arange(n), theta)) @ values)
+        sizes.append(int(np.flatnonzero(c > tol * c.max())[-1]) + 1 if c.any() else 1)
     return tuple(sizes)
+
+
+def exact(function, x):
+    return np.array([complex(function(v)) for v in np.asarray(x).tolist()])
