@@ -206,6 +206,16 @@ def test_a_short_series_costs_few_nodes():
     assert sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve().n == (collocation.SMALLEST,)
 
 
+@pytest.mark.parametrize("a", [0.0, 0.2j])
+def test_a_kernel_that_is_rough_in_t_only_is_seen(a):
+    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves its own equation exactly."""
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, a=a, k=lambda x, t: np.cos(30.0 * t + 1.0), total=1.0)
+    found, fine = equation.solve(), equation.solve(n=150)
+    x = np.linspace(-0.9, 0.9, 7)
+    assert found(x) == pytest.approx(fine(x), rel=1e-12)
+    assert equation.solve(n=8).error > 1e-3
+
+
 # -- refusals ---------------------------------------------------------------------------------------------------------
 
 ILL_POSED = [
