@@ -443,11 +443,14 @@ def _real_if_real(value: complex) -> Any:
 
 def _functionals(interval: Map, weight: Weight, n: int) -> tuple[Array, Array]:
     """(2, n): what ∫ φ dx and ∫ φ x dx are of the coefficients."""
-    sigma, quadrature = jacobi.analysis(weight, n)
-    x = _positions(interval, 1.0 - sigma, 1.0 + sigma)[0]
-    total = np.zeros(n, dtype=quadrature.dtype)
+    total = np.zeros(n, dtype=weight.kind)
     total[0] = 1.0 / jacobi.recurrence(weight, 1).first
-    return total, x @ quadrature
+    if isinstance(interval, Affine):
+        moment = interval.x1 * total
+        moment[:2] += interval.r * np.array(jacobi.first_moment(weight))
+        return total, moment
+    sigma, quadrature = jacobi.analysis(weight, n)
+    return total, _positions(interval, 1.0 - sigma, 1.0 + sigma)[0] @ quadrature
 
 
 def _rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> tuple[Array, Array]:

@@ -142,7 +142,7 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
         beta = total - alpha
     else:
         alpha = total - beta
-    a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1)
+    a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
     a[0] = (beta - alpha) / (total + 2)
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
@@ -160,6 +160,12 @@ def second_sign(weight: Weight) -> float:
     first = recurrence(low, 1)
     norm = first.b[1] / first.first if weight.kappa else 1.0 / first.first
     return float(round((1.0 / (recurrence(high, 1).first * norm)).real))
+
+
+def first_moment(weight: Weight) -> tuple[Any, Any]:
+    """∫ w p_n (1 + s) ds for n = 0 and 1; those of higher n vanish."""
+    r = recurrence(weight, 1)
+    return (1.0 + r.a[0]) / r.first, r.b[1] / r.first
 
 
 def polynomials(weight: Weight, n: int, s: Array) -> Array:

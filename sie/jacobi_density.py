@@ -89,6 +89,10 @@ class Part:
     @cached_property
     def moment(self) -> Any:
         """∫ φ x dx about x = 0."""
+        if isinstance(self.map, Affine):
+            c = self.coefficients[:2]
+            about_left = (c @ np.array(jacobi.first_moment(self.weight))[: len(c)]).item()
+            return self.map.x1 * self.resultant + self.map.r * about_left
         _, to_left, values = self.nodes
         return self.map.x1 * self.resultant + (to_left @ values).item()
 
