@@ -13,12 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import checks
 from .check import Certificate, certificate, verify_inequalities
-from .density import ZERO, Density, SlopeDensity
+from .density import Density, SlopeDensity
 from .errors import ContactError, LoadError
+from .field import Stress, Tractions
 from .gap import gap
+from .interval import EPS
+from .material import Elastic
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
 from .slope import Slope
+from .strength import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .superposition import scaled
 
 Array = NDArray[np.float64]
 
@@ -34,7 +39,10 @@ class Solution:
 
     edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
     pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
+    shear        Density: the shear traction q
     gap(x)       the gap between the deformed bodies, 0 in contact
+    stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
+    elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
@@ -132,8 +140,41 @@ class Solution:
 
     @property
     def shear(self) -> Density:
-        """The shear traction q(x): zero without friction, tangential load and bulk stress; other states are not covered yet."""
-        return ZERO
+        """The shear traction q(x): zero without friction, f p in full sliding; other states are not covered yet."""
+        Q, limit = self.scene.tangential_load, self.scene.friction * self.normal_load
+        if Q != 0.0 and not _slides(Q, limit):
+            raise ContactError(
+                f"tangential_load = {Q:g} is not f P = {limit:g}: partial slip is not covered yet, give f P for full sliding"
+            )
+        return scaled(float(np.sign(Q)) * self.scene.friction, self.pressure)
+
+    # -- in the body --------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def tractions(self) -> Tractions:
+        """What acts on the body (y > 0), and what it is made of: all that a stress depends on."""
+        scene, body = self.scene, self.scene.body
+        if body is not None and not isinstance(body, Elastic):
+            raise ContactError("the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter")
+        if body is None:
+            return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
+        return Tractions(self.pressure, self.shear, scene.bulk_stress, body.poisson, body.plane, body)
+
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
+        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are arrays of the broadcast shape."""
+        return Stress(self.tractions, x, y)
+
+    def surface_stress(self, x: ArrayLike) -> Stress:
+        """The stress on the surface, in the contact and beside it."""
+        return self.stress(x, 0.0)
+
+    def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
+        """Where the body yields first, and at which load; see `YieldPoint`."""
+        return elastic_limit(self.tractions, self.normal_load, criterion)
+
+    def peak_tension(self) -> Peak:
+        """(value, x): the largest σ_xx on the surface, in the contact or beside it, and where."""
+        return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
@@ -188,13 +229,21 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
 
 
 def _refuse_uncovered(scene: Scene) -> None:
-    if scene.tangential_load != 0.0 or scene.bulk_stress != 0.0:
+    Q, f, P = scene.tangential_load, scene.friction, scene.normal_load
+    # With the half-width given P is not known yet: `shear` will tell
+    sliding = Q != 0.0 and (P is None or _slides(Q, f * P))
+    if f != 0.0 and (Q != 0.0 or scene.bulk_stress != 0.0) and not sliding:
         raise ContactError(
-            f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "
-            "set both to 0 for the normal contact"
+            f"tangential_load = {Q:g} and bulk_stress = {scene.bulk_stress:g} with friction = {f:g} are not covered yet (partial slip): "
+            "give tangential_load = friction × normal_load for full sliding, or set both to 0 for the normal contact"
         )
     if scene.beta != 0.0 and scene.friction != 0.0:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} are not covered yet: "
             "set friction = 0 for the frictionless contact"
         )
+
+
+def _slides(Q: float, limit: float) -> bool:
+    """|Q| = f P, but for the rounding of a product."""
+    return abs(abs(Q) - limit) <= 4.0 * EPS * limit
