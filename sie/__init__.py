@@ -8,7 +8,9 @@ One notation for the whole package, its messages and its plots:
     p(x), q(x)  contact pressure, >= 0; shear traction, q > 0 pushes the half-plane in +x
     P, Q, M     ∫p dx, ∫q dx, ∫p x dx (about x = 0), per unit length
     E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant; f Coulomb's friction
-    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction
+    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction; Fp of the pressure, Fq of the shear
+    σ_xx, J2    stress, tension positive: σ_yy = -p, σ_xy = -q on the surface; second invariant of its deviator
+    k           yield stress in shear
 
     (1)   E*/2 h'(x) = 1/π PV∫ p(ξ)/(x - ξ) dξ - β q(x)          in contact
 
@@ -23,12 +25,15 @@ Units are free: any consistent set works, and nothing depends on scale.
 
 from .density import ZERO, Density
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .field import Stress
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
 from .plan import Plan, plan
 from .profile import Profile
 from .scene import Scene
 from .solution import Solution, solve
+from .strength import Peak, YieldPoint
+from .superposition import scaled, superposed
 
 __version__ = "0.1.0"
 
@@ -43,6 +48,7 @@ __all__ = [
     "InequalityError",
     "LoadError",
     "Parabola",
+    "Peak",
     "Piecewise",
     "Plan",
     "Polynomial",
@@ -52,7 +58,11 @@ __all__ = [
     "RoundedFlat",
     "Scene",
     "Solution",
+    "Stress",
     "Wedge",
+    "YieldPoint",
     "plan",
+    "scaled",
     "solve",
+    "superposed",
 ]

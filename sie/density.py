@@ -249,7 +249,11 @@ class SlopeDensity(Density):
             if side.any():
                 G, continued = self.gap_excess(flat[side])
                 out[side] = continued - G
-        return (self.half_modulus * out).reshape(x.shape)
+        out *= self.half_modulus
+        if self.k1 or self.k2:
+            far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
+            out[far] = self._far_in_upper(flat[far] + 1j * (SHALLOW * self.contact.r))[0].real
+        return out.reshape(x.shape)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         z, real = _points(z, side)
@@ -299,12 +303,14 @@ class SlopeDensity(Density):
         if not (self.k1 or self.k2):
             F, dF = self._pair(z)
             return self.half_modulus * F, self.half_modulus * dF
-        out = np.empty((2, *z.shape), dtype=complex)
         far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
-        for at, pair in ((far, self._far_pair), (~far, self._pair)):
-            if at.any():
-                out[:, at] = self.half_modulus * np.array(pair(z[at])) + self._singular_pair(z[at], pair == self._far_pair)
+        out = np.empty((2, *z.shape), dtype=complex)
+        out[:, far] = self._far_in_upper(z[far])
+        out[:, ~far] = self.half_modulus * np.array(self._pair(z[~far])) + self._singular_pair(z[~far], far=False)
         return out[0], out[1]
+
+    def _far_in_upper(self, z: Complex) -> Complex:
+        return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
         """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of the first."""

@@ -125,15 +125,17 @@ class Stress:
 
     @property
     def xx(self) -> Array:
-        return self._s - self._D.real
+        s, D = self._both
+        return s - D.real
 
     @property
     def yy(self) -> Array:
-        return self._s + self._D.real
+        s, D = self._both
+        return s + D.real
 
     @property
     def xy(self) -> Array:
-        return self._D.imag.copy()
+        return self._both[1].imag.copy()
 
     @property
     def zz(self) -> Array:
@@ -148,13 +150,13 @@ class Stress:
 
     @property
     def in_plane_shear(self) -> Array:
-        return np.abs(self._D)
+        return np.abs(self._both[1])
 
     @property
     def j2(self) -> Array:
         """½ s:s = |D|² + (s - σ_zz)²/3."""
-        D = self._D
-        return D.real**2 + D.imag**2 + _times(self.tractions.out_of_plane, self._s) ** 2 / 3.0
+        s, D = self._both
+        return D.real**2 + D.imag**2 + _times(self.tractions.out_of_plane, s) ** 2 / 3.0
 
     @property
     def mises(self) -> Array:
@@ -180,7 +182,7 @@ class Stress:
         """Hooke's law, 2μ ε = σ - (3 - κ)/4 (σ_xx + σ_yy) 1 in the plane."""
         body = self.tractions.known_body
         two_mu = 2.0 * body.shear_modulus
-        s, D = self._s, self._D
+        s, D = self._both
         volume = 0.5 * (body.kolosov - 1.0) * s  # s - (3 - κ)/4 2s
         zz = np.zeros_like(s) if body.plane == "strain" else -2.0 * body.poisson / body.young * s
         return Tensor((volume - D.real) / two_mu, (volume + D.real) / two_mu, D.imag / two_mu, zz)
@@ -196,10 +198,6 @@ class Stress:
     @property
     def _s(self) -> Array:
         return self._both[0] if "_both" in self.__dict__ else self._only_s
-
-    @property
-    def _D(self) -> Complex:
-        return self._both[1]
 
     @cached_property
     def _only_s(self) -> Array:

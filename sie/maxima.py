@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,8 @@ MOST_STARTS = 48
 CIRCLE = 32
 STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
 SETTLED = 1e-9  # of the depth: the step after it is below rounding
+SAME_VALUE, STUCK = 4e-15, 1e-9  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
+TOGETHER = 1e-3  # of the depth
 LEFT = 0.25  # of the shallowest depth: what climbs beyond belongs to the surface
 ROOT_STEPS, BISECT_AFTER = 80, 12
 ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
@@ -125,28 +127,35 @@ def _climbed(tractions: Tractions, measure: Measure, z: Complex) -> Complex:
     """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that leave through the surface are dropped."""
     shallow = LEFT * float(_depths(tractions)[0])
     rest: list[Complex] = []
-    value = measure.value(_values(tractions, z))
-    trust = np.full(z.shape, LONGEST)
+    before, value, trust = z, np.full(z.shape, -np.inf), np.full(z.shape, LONGEST)
     for _ in range(STEPS):
         if not z.size:
             break
-        step = _newton(measure, _local(tractions, z))
+        at = _local(tractions, z)
+        here = measure.value(at.value)
+        uphill = here >= value * (1.0 - SAME_VALUE)
+        trust = np.where(uphill, np.minimum(2.0 * trust, LONGEST), 0.25 * trust)
+        step = _newton(measure, at)
         length = np.abs(step) / z.imag
+        done = uphill & (length <= SETTLED)
+        rest.append((z + step)[done])
         step *= np.minimum(1.0, trust / np.maximum(length, 1e-300))
-        new = z + step
-        better = measure.value(_values(tractions, new))
-        done = length <= SETTLED
-        rest.append(new[done])
-        accepted = better >= value * (1.0 - 4e-15)
-        small = length <= 1e-7  # rounding of the value no longer tells
-        z = np.where(accepted | small, new, z)
-        value = np.where(accepted | small, better, value)
-        trust = np.where(accepted, np.minimum(2.0 * trust, LONGEST), 0.25 * trust)
-        keep = ~done & (z.imag > shallow) & (trust > 1e-9)
-        rest.append(z[~done & (trust <= 1e-9)])
-        z, value, trust = z[keep], value[keep], trust[keep]
+        # back to where it was better, and from there half as far as last time
+        new = np.where(uphill, z + step, before + 0.25 * (z - before))
+        before, value = np.where(uphill, z, before), np.where(uphill, here, value)
+        stuck = trust <= STUCK
+        rest.append(before[stuck & ~done])
+        keep = ~done & ~stuck & (new.imag > shallow)
+        z, before, value, trust = _distinct(new[keep], before[keep], value[keep], trust[keep])
     rest.append(z)
     return np.concatenate(rest)
+
+
+def _distinct(z: Complex, *others: Any) -> tuple[Any, ...]:
+    """Without those that have come together: from there they would go the same way."""
+    same = np.abs(z[:, None] - z) <= TOGETHER * z.imag
+    first = same.argmax(axis=1) == np.arange(len(z)) if z.size else np.zeros(0, dtype=bool)
+    return z[first], *(other[first] for other in others)
 
 
 def _newton(measure: Measure, at: Local) -> Complex:
@@ -233,10 +242,12 @@ def _slope(tractions: Tractions, measure: Measure, x: Array) -> Array:
     Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
     for density, p, q in tractions.combined:
         F, dF = density.potentials(x + 1j * (SHALLOW * 0.5 * (x2 - x1)))
-        for total, weight, value in ((Phi, p - 1j * q, F), (dPhi, p - 1j * q, dF), (Fq, q, F), (dFq, q, dF)):
-            total += weight * value
+        Phi += (p - 1j * q) * F
+        dPhi += (p - 1j * q) * dF
+        Fq += q * F
+        dFq += q * dF
     half = 0.5 * tractions.bulk_stress
-    value = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
+    value: Array = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
     return (measure.gradient(value) * np.stack((dPhi.imag, dFq.real, dFq.imag))).sum(axis=0)
 
 
@@ -247,14 +258,15 @@ def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
     fa, fb = slope(a), slope(b)
     falls = (fa > 0.0) & (fb < 0.0)
     a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
-    x, enough = 0.5 * (a + b), ROOT_SETTLED * (b - a)
+    x, enough, last = 0.5 * (a + b), ROOT_SETTLED * (b - a), np.zeros(a.shape)
     for k in range(ROOT_STEPS if x.size else 0):
         before = x
         middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
         x = np.where((secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle)
         f = slope(x)
         up = f > 0.0
-        fb, fa = np.where(up, 0.5 * fb, f), np.where(up, f, 0.5 * fa)
+        again = np.where(last == np.where(up, 1.0, -1.0), 0.5, 1.0)  # an end kept twice loses weight
+        fb, fa, last = np.where(up, again * fb, f), np.where(up, f, again * fa), np.where(up, 1.0, -1.0)
         a, b = np.where(up, x, a), np.where(up, b, x)
         if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
             break

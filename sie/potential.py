@@ -79,7 +79,7 @@ class Plane:
         """(V, V') at z (1-d), Im z > 0."""
         far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         if not far.any():
-            return self._near(z)
+            return self._near(z) if z.size else (z.copy(), z.copy())
         V, dV = np.empty_like(z), np.empty_like(z)
         V[far], dV[far] = self.far(z[far])
         if not far.all():
