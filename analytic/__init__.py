@@ -5,6 +5,7 @@ Each module is one indenter. All speak one notation:
 
     word in a call    symbol      meaning
     x                 x           position on the surface
+    y                 y           depth below the surface
     z                 z = x + iy  point of the plane; the body is y > 0
     normal_load       P           ∫ p dx, load per unit length, > 0
     moment            M           ∫ p x dx, moment per unit length about x = 0
@@ -20,6 +21,8 @@ Each module is one indenter. All speak one notation:
     pressure          p >= 0      sigma_yy = -p on the surface
     height, slope     h, h'       gap between the undeformed surfaces, growing away from the contact
     potential         Fp          (1/pi) ∫ p(t)/(z-t) dt; on the contact, side = +1, it is E*/2 h' - i p
+    friction          f           of full sliding, q = f p
+    xx, yy, xy        s_ij        stress, tension positive: s_yy = -p, s_xy = -q on the surface
     side              ±           +1: the limit from y > 0; -1: from y < 0
     lib                           numpy (arrays broadcast) or an mpmath context (scalars at its own precision)
 
@@ -30,6 +33,6 @@ Any consistent set of units will do: nothing depends on scale.
     0.307092424652
 """
 
-from analytic import flat, hertz, power, rounded_flat, wedge
+from analytic import flat, hertz, interior, power, rounded_flat, wedge
 
-__all__ = ["flat", "hertz", "power", "rounded_flat", "wedge"]
+__all__ = ["flat", "hertz", "interior", "power", "rounded_flat", "wedge"]

@@ -33,6 +33,10 @@ MEANING = {
     "tilt": "the rotation h' of the flat, in radians",
     "x": "a real position on the surface",
     "z": "a point x + iy of the plane",
+    "y": "a depth below the surface, a length >= 0",
+    "friction": "Coulomb's coefficient of friction; negative for sliding the other way",
+    "poisson": "Poisson's ratio",
+    "peak_pressure": "the largest pressure of the line contact, > 0",
 }
 
 

@@ -121,7 +121,7 @@ def test_the_stress_is_in_equilibrium_and_compatible(scene, at):
     solution = sliding(scene, bulk_stress=3.0) if scene is not SHARP else sliding(scene)
     r, m = solution.half_width, solution.centre
     x, y, span = m + at[0] * r, at[1] * r, 0.25 * at[1] * r
-    stress = lambda x, y: solution.stress(x, y)  # noqa: E731
+    stress = solution.stress
     xx_x, _ = derivatives(lambda x, y: stress(x, y).xx, x, y, span)
     xy_x, xy_y = derivatives(lambda x, y: stress(x, y).xy, x, y, span)
     _, yy_y = derivatives(lambda x, y: stress(x, y).yy, x, y, span)
