@@ -34,10 +34,12 @@ from .scene import Scene
 from .solution import Solution, solve
 from .strength import Peak, YieldPoint
 from .superposition import scaled, superposed
+from .sweep import QUANTITIES, Interrupted, sweep
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "QUANTITIES",
     "RIGID",
     "ZERO",
     "ContactError",
@@ -46,6 +48,7 @@ __all__ = [
     "Flat",
     "FromFunction",
     "InequalityError",
+    "Interrupted",
     "LoadError",
     "Parabola",
     "Peak",
@@ -65,4 +68,5 @@ __all__ = [
     "scaled",
     "solve",
     "superposed",
+    "sweep",
 ]
