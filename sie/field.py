@@ -243,7 +243,7 @@ class Stress:
         if surface:
             hilbert = t.shear.hilbert(x)
             D = np.empty(x.shape, dtype=complex)
-            D.real, D.imag = hilbert - 0.5 * t.bulk_stress, -t.shear(x)
+            D.real, D.imag = hilbert - 0.5 * t.bulk_stress, 0.0 - t.shear(x)  # no -0 where there is no shear
             return -t.pressure(x) - hilbert + 0.5 * t.bulk_stress, D
         Phi, dPhi, Fq = potentials(t, x + 1j * y)
         return Phi.imag + 0.5 * t.bulk_stress, Fq - y * dPhi - 0.5 * t.bulk_stress

@@ -14,7 +14,12 @@ WANTS: dict[str, tuple[str, ...]] = {
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
     "check": ("normal", "pressure", "certificate"),
+    "stress": ("normal", "pressure", "tractions"),
+    "yield": ("normal", "pressure", "tractions"),
+    "tension": ("normal", "pressure", "tractions"),
 }
+# What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
+UNASKED = ("edges", "pressure", "gap", "check")
 
 
 @dataclass(frozen=True)
@@ -42,8 +47,9 @@ class Plan:
 
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
-    """The steps for what is wanted ("edges", "pressure", "gap", "check"), as a printable Plan. Computes nothing."""
-    stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ...), as a printable Plan. Computes nothing."""
+    names = wanted(want)
+    stages = {stage for w in names for stage in WANTS[w]}
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -56,7 +62,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
+        why = "" if any("pressure" in WANTS[w] for w in names) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
@@ -65,7 +71,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     else:
         why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
         steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
-    steps += [_coupling(scene), _slip(scene)]
+    steps += [_coupling(scene), _slip(scene), _stress(stages), _maxima(names)]
     asked = "certificate" in stages
     steps.append(
         Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate")
@@ -135,8 +141,21 @@ def _coupling(scene: Scene) -> Step:
 
 
 def _slip(scene: Scene) -> Step:
+    if scene.friction != 0.0 and scene.tangential_load != 0.0:
+        return Step("slip", False, "full sliding: the shear is friction times pressure, nothing is solved twice")
     return Step(
         "slip",
         False,
         "f = 0: there is no shear traction" if scene.friction == 0.0 else "Q = 0 and no bulk stress: there is no shear traction",
     )
+
+
+def _stress(stages: set[str]) -> Step:
+    asked = "tractions" in stages
+    why = "from the potentials of the tractions, each once; no complex arithmetic on the surface" if asked else "not asked for"
+    return Step("stress", asked, why, "tractions")
+
+
+def _maxima(names: tuple[str, ...]) -> Step:
+    found = [what for name, what in (("yield", "J2 in the body"), ("tension", "σ_xx on the surface")) if name in names]
+    return Step("maxima", bool(found), f"{' and '.join(found)}: scanned, then polished with exact gradients" if found else "not asked for")

@@ -87,8 +87,12 @@ def peak_tension(tractions: Tractions) -> Peak:
         q = float(tractions.shear(np.array([edge]))[0])
         if q * outward == np.inf:
             return Peak(np.inf, x)
-    best = max(on_surface(tractions, _tension()), key=lambda m: m.value)
-    return Peak(best.value, best.x)
+    found = on_surface(tractions, _tension())
+    best = max(m.value for m in found)
+    middle = 0.5 * sum(tractions.pressure.interval)
+    # Where nothing pulls, the whole free surface is tied
+    x = min((m.x for m in found if m.value == best), key=lambda x: abs(x - middle))
+    return Peak(best + 0.0, x)
 
 
 # -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------

@@ -8,7 +8,7 @@ from hypothesis import given
 
 import sie
 
-STAGES = {"normal", "pressure", "inequalities", "certificate"}
+STAGES = {"normal", "pressure", "inequalities", "certificate", "tractions"}
 ECONOMIES = ("symmetry", "transform", "zero panels", "convexity")
 SCENES = {
     "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
@@ -30,6 +30,8 @@ ASK = {
     "pressure": lambda s: s.pressure(0.1),
     "gap": lambda s: s.gap(9.0),
     "check": lambda s: s.check(),
+    "stress": lambda s: s.stress(0.1, 0.2).xx,
+    "tension": lambda s: s.peak_tension(),
 }
 
 
