@@ -26,6 +26,7 @@ Units are free: any consistent set works, and nothing depends on scale.
 from .density import ZERO, Density
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .field import Stress
+from .fretting import Cycle
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
 from .plan import Plan, plan
@@ -43,6 +44,7 @@ __all__ = [
     "RIGID",
     "ZERO",
     "ContactError",
+    "Cycle",
     "Density",
     "Elastic",
     "Flat",
