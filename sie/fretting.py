@@ -92,8 +92,8 @@ class Cycle:
     def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
         """(largest range of shear stress over all planes through the z axis, angle of that plane's normal from x), at points.
 
-        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges over the
-        width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
+        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges
+        over the width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
         """
         tensors = self.history(x, y)
         D = 0.5 * (tensors[..., 1, 1] - tensors[..., 0, 0]) + 1j * tensors[..., 0, 1]

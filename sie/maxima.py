@@ -40,7 +40,7 @@ STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
 SETTLED = 1e-9  # of the depth: the step after it is below rounding
 SAME_VALUE, STUCK = 4e-15, 1e-9  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
 TOGETHER = 1e-3  # of the depth
-LEFT = 0.25  # of the shallowest depth: what climbs beyond belongs to the surface
+LEFT = 0.5  # of the shallowest depth: what climbs beyond belongs to the surface
 ROOT_STEPS, BISECT_AFTER = 80, 12
 ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
 # Maxima this close in value are tied, this close in place (of the half-width) the same.
