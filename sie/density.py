@@ -203,6 +203,11 @@ class SlopeDensity(Density):
         """H inside the contact."""
 
     @property
+    @abstractmethod
+    def _slope_at_edges(self) -> tuple[float, float]:
+        """H at both edges, which may lie between two doubles."""
+
+    @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
         """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is infinite."""
         return ()
@@ -287,11 +292,8 @@ class SlopeDensity(Density):
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
-        c = self.contact
-        inside = np.array([c.x1 if c.from_left(c.x1) >= 0.0 else np.nextafter(c.x1, c.x2), c.x2])
-        inside[1] = c.x2 if c.from_right(c.x2) >= 0.0 else np.nextafter(c.x2, c.x1)
-        left, right = (self.half_modulus * self._slope(inside)).tolist()
-        return left, right
+        left, right = self._slope_at_edges
+        return self.half_modulus * left, self.half_modulus * right
 
     def _in_upper(self, z: Complex) -> Complex:
         if self.k1 or self.k2:
@@ -365,6 +367,10 @@ class TransformDensity(SlopeDensity):
         H: Array = chebyshev.evaluate(self.series, self.contact.s(x))
         return H
 
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        return float(self.series @ (-1.0) ** np.arange(len(self.series))), float(self.series.sum())
+
     def _beside(self, x: Array) -> tuple[Array, Array]:
         left, right = self.contact.from_left(x), self.contact.from_right(x)
         s = (left - right) / (2.0 * self.contact.r)
@@ -418,6 +424,12 @@ class PanelDensity(SlopeDensity):
 
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        p, g = self.panels, self.panels.geometry
+        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0  # a flat piece there was left out
+        return left, float(p.series[-1].sum()) if g.cut_right else 0.0
 
     def _beside(self, x: Array) -> tuple[Array, Array]:
         V, continued = self.panels.beside(x)

@@ -48,7 +48,7 @@ TIED, SAME_PLACE = 1e-10, 1e-7
 
 
 class Local(NamedTuple):
-    """s, D_r, D_i and their derivatives, each with a first axis (s, D_r, D_i) of length 3."""
+    """s, D_r, D_i and their derivatives in units of the depth, each with a first axis (s, D_r, D_i) of length 3."""
 
     value: Array
     x: Array
@@ -93,10 +93,11 @@ def inside(tractions: Tractions, measure: Measure, known: float) -> list[Maximum
     """Local maxima below the surface that may be larger than a known value."""
     if np.isinf(known):
         return []
-    z = _starts(tractions, measure, known)
-    z = _climbed(tractions, measure, z)
-    if not z.size:
+    starts = _starts(tractions, measure, known)
+    if not starts.size:
         return []
+    # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest value is not taken anywhere
+    z = np.concatenate((starts[:1], _climbed(tractions, measure, starts)))
     values = measure.value(_values(tractions, z))
     return [Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)]
 
@@ -136,7 +137,8 @@ def _climbed(tractions: Tractions, measure: Measure, z: Complex) -> Complex:
         uphill = here >= value * (1.0 - SAME_VALUE)
         trust = np.where(uphill, np.minimum(2.0 * trust, LONGEST), 0.25 * trust)
         step = _newton(measure, at)
-        length = np.abs(step) / z.imag
+        length = np.abs(step)
+        step *= z.imag
         done = uphill & (length <= SETTLED)
         rest.append((z + step)[done])
         step *= np.minimum(1.0, trust / np.maximum(length, 1e-300))
@@ -159,7 +161,7 @@ def _distinct(z: Complex, *others: Any) -> tuple[Any, ...]:
 
 
 def _newton(measure: Measure, at: Local) -> Complex:
-    """The step -H⁻¹ g of a maximum, with the sign of every eigenvalue of H made negative: from anywhere it leads uphill."""
+    """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as negative: from anywhere it leads uphill."""
     g, G = measure.gradient(at.value), measure.hessian(at.value)
     gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
     hxx, hxy, hyy = (
@@ -186,17 +188,16 @@ def _values(tractions: Tractions, z: Complex) -> Array:
 
 
 def _local(tractions: Tractions, z: Complex) -> Local:
-    """(s, D_r, D_i) and their first and second derivatives at z (1-d), from the potentials on circles of radius y/3."""
+    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d): from the potentials on circles of radius y/3."""
     y = z.imag
     omega = np.exp(2j * np.pi * np.arange(CIRCLE) / CIRCLE)
-    rho = y / 3.0
-    circle = (z[:, None] + rho[:, None] * omega).ravel()
+    circle = (z[:, None] + (y / 3.0)[:, None] * omega).ravel()
     Phi, dPhi, Fq = (f.reshape(len(z), CIRCLE) for f in potentials(tractions, circle))
-    taylor = omega.conj()[:, None] ** np.arange(3) / CIRCLE
-    powers = rho[:, None] ** np.arange(3)
-    (_, P1, P2), (D1, D2, D3), (Q0, Q1, Q2) = ((f @ taylor / powers * (1.0, 1.0, 2.0)).T for f in (Phi, dPhi, Fq))
-    s = (Phi.mean(axis=1).imag, P1.imag, P1.real, P2.imag, P2.real, -P2.imag)
-    D = (Q0 - y * D1, Q1 - y * D2, -D1 - 1j * (y * D2 - Q1), Q2 - y * D3, -D2 - 1j * (y * D3 - Q2), -2j * D2 + y * D3 - Q2)
+    n = np.arange(3)
+    taylor = omega.conj()[:, None] ** n * (3.0**n * (1.0, 1.0, 2.0) / CIRCLE)
+    (P0, P1, P2), (D1, D2, D3), (Q0, Q1, Q2) = (f.T for f in (Phi @ taylor, (y[:, None] * dPhi) @ taylor, Fq @ taylor))
+    s = (P0.imag, P1.imag, P1.real, P2.imag, P2.real, -P2.imag)
+    D = (Q0 - D1, Q1 - D2, -D1 - 1j * (D2 - Q1), Q2 - D3, -D2 - 1j * (D3 - Q2), -2j * D2 + D3 - Q2)
     half = 0.5 * tractions.bulk_stress
     rows = [np.stack((a, b.real, b.imag)) for a, b in zip(s, D, strict=True)]
     rows[0] += np.array([half, -half, 0.0])[:, None]
@@ -229,9 +230,10 @@ def on_surface(tractions: Tractions, measure: Measure) -> list[Maximum]:
 def surface_values(tractions: Tractions, x: Array) -> Array:
     """(s, D_r, D_i) on the surface, (3, n); at the edges of the contact their limits from inside."""
     p, q, hilbert = tractions.pressure(x), tractions.shear(x), tractions.shear.hilbert(x)
-    for x_edge, limit in zip(tractions.pressure.interval, tractions.shear.hilbert_at_edges, strict=True):
-        if tractions.shear.interval == tractions.pressure.interval:
-            hilbert = np.where(x == x_edge, limit, hilbert)
+    if tractions.shear.interval == tractions.pressure.interval:
+        for x_edge, limit in zip(tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True):
+            edge = (x == x_edge) & np.isfinite(p)
+            p, q, hilbert = np.where(edge, 0.0, p), np.where(edge, 0.0, q), np.where(edge, limit, hilbert)
     half = 0.5 * tractions.bulk_stress
     return np.stack((half - p - hilbert, hilbert - half, -q))
 

@@ -154,6 +154,7 @@ class Plane:
         offset, WH = self.panels._far_rules[k]
         lo, tail, _ = self.panels._places[k]
         pole = np.reciprocal(offset[:, None] - ((at.z - lo) - tail))
+        WH = WH.astype(complex)  # a real vector times a complex matrix would not reach BLAS
         S = WH @ pole
         V += at.R * S
         N += at.from_centre * S + at.left * at.right * (WH @ (pole * pole))

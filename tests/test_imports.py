@@ -15,9 +15,10 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 
 # From the ground up: a module imports only from those before it.
 ORDER = (
-    "errors", "interval", "checks", "expression", "chebyshev", "slope", "touch", "adaptive", "geometry", "moments", "panels", "density",
-    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "plan", "solution",
-    "scenefile", "export", "plot", "__main__",
+    "errors", "interval", "checks", "expression", "chebyshev", "slope", "touch", "adaptive", "geometry", "moments", "panels",
+    "potential", "density", "superposition", "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check",
+    "field", "maxima", "strength", "fretting", "plan", "solution", "charts", "sweep",
+    "scenefile", "grid", "export", "plot", "contours", "__main__",
 )  # fmt: skip
 
 
