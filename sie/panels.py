@@ -288,5 +288,4 @@ class Panels:
     def _quadrature(self, k: int, z: Any) -> Any:
         offset, WH = self._far_rules[k]
         lo, tail, _ = self._places[k]
-        pole = np.reciprocal(offset[:, None] - ((z - lo) - tail))
-        return WH.astype(pole.dtype) @ pole  # a real vector times a complex matrix would not reach BLAS
+        return WH @ np.reciprocal(offset[:, None] - ((z - lo) - tail))

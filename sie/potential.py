@@ -153,11 +153,15 @@ class Plane:
         V, _, N = to
         offset, WH = self.panels._far_rules[k]
         lo, tail, _ = self.panels._places[k]
-        pole = np.reciprocal(offset[:, None] - ((at.z - lo) - tail))
-        WH = WH.astype(complex)  # a real vector times a complex matrix would not reach BLAS
-        S = WH @ pole
+        from_lo = (at.z - lo) - tail
+        S, dS = np.zeros_like(from_lo), np.zeros_like(from_lo)
+        for t, weight in zip(offset.tolist(), WH.tolist(), strict=True):
+            pole = np.reciprocal(t - from_lo)
+            S += weight * pole
+            pole *= pole
+            dS += weight * pole
         V += at.R * S
-        N += at.from_centre * S + at.left * at.right * (WH @ (pole * pole))
+        N += at.from_centre * S + at.left * at.right * dS
 
     def _angle(self, k: int, at: Points, shared: dict[float, Complex]) -> Any:
         """L_hi - L_lo; at the edges they are 0 and π."""
