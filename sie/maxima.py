@@ -28,7 +28,8 @@ from .field import SHALLOW, Tractions, potentials
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-COLUMNS, SURFACE_COLUMNS = 9, 17  # on every part of the contact between neighbouring edges and breaks
+COLUMNS, SURFACE_COLUMNS = 9, 17  # on every part of the contact between neighbouring edges and breaks ...
+FEWEST, MOST_COLUMNS = 3, 600  # ... fewer where there are many parts, whose length is then the finest scale
 OUTSIDE = (0.003, 0.03, 0.12, 0.35, 0.8, 1.8)  # columns beside the contact, in half-widths
 FAR = 1e3  # half-widths: the last column of the surface
 SHALLOWEST, DEEPEST, RATIO = 0.02, 4.0, 1.45  # depths of the scan: of the shortest part, of the half-width; geometric ratio
@@ -218,6 +219,9 @@ def on_surface(tractions: Tractions, measure: Measure) -> list[Maximum]:
     floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
     found = [Maximum(float(value[k]), float(x[k]), 0.0) for k in top]
+    # Between columns a concave top rises above the middle one by no more than that falls to a neighbour
+    fall = value[top] - np.minimum(padded[top], padded[top + 2])
+    top = top[value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best]
     left = np.unique(np.concatenate((top - 1, top)))
     left = left[(left >= 0) & (left < len(x) - 1)]
     roots = _roots(lambda t: _slope(tractions, measure, t), x[left], x[left + 1])
@@ -286,6 +290,7 @@ def _marks(tractions: Tractions) -> Array:
 def _columns(tractions: Tractions, n: int) -> Array:
     """Ascending abscissae, gathered at edges and breaks, none of them on one, nor midway between two."""
     marks = _marks(tractions)
+    n = max(min(n, MOST_COLUMNS // (len(marks) - 1)), FEWEST)
     t = np.sin(0.5 * np.pi * (np.arange(n) + 0.47) / n) ** 2
     r = 0.5 * (marks[-1] - marks[0])
     parts = (marks[:-1, None] + np.diff(marks)[:, None] * t).ravel()
