@@ -102,7 +102,11 @@ EXPONENTS = [
 @pytest.mark.parametrize("n", [1, 2, 23])
 def test_nodes_and_weights_are_those_of_40_digits(alpha, kappa, n):
     # the smaller exponent is the one with all its digits
-    weight = Weight(alpha, -kappa - alpha, kappa) if abs(alpha) <= 0.5 or kappa == 0 else Weight(-kappa - (-kappa - alpha), -kappa - alpha, kappa)
+    weight = (
+        Weight(alpha, -kappa - alpha, kappa)
+        if abs(alpha) <= 0.5 or kappa == 0
+        else Weight(-kappa - (-kappa - alpha), -kappa - alpha, kappa)
+    )
     nodes, weights = jacobi.gauss(weight, n)
     for s, w, (s_exact, w_exact) in zip(nodes, weights, exact_rule(weight, nodes), strict=True):
         assert abs(mp.mpmathify(s.item()) - s_exact) <= 1e-15

@@ -145,7 +145,9 @@ def test_manufactured_densities_on_two_intervals_are_found(problem):
 def test_a_narrow_gap_between_intervals_keeps_10_digits(gap, a, ends):
     """Bounded ends at the gap, too, where the density is far below its peak."""
     intervals, both = ((-1.0, 0.0), (gap, 1.5)), (ends, ends[::-1])
-    manufactured = [Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)]
+    manufactured = [
+        Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
+    ]
     density = equation_of(manufactured, a, 1.0, both).solve()
     for d, part in zip(manufactured, density.parts, strict=True):
         x = np.concatenate((inside(d), d.x1 + (d.x2 - d.x1) * np.array([1e-6, 0.999])))

@@ -128,7 +128,10 @@ def collinear(cracks, pressure=1):
     q = mp.lu_solve(mp.matrix([row[:n] for row in rows]), mp.matrix([-row[n] for row in rows]))
     found = []
     for i, (a, b) in enumerate(tips):
-        at_tips = [(mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x) / mp.sqrt(b - a) * mp.sqrt(2 * mp.pi) * pressure for x in (a, b)]
+        at_tips = [
+            (mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x) / mp.sqrt(b - a) * mp.sqrt(2 * mp.pi) * pressure
+            for x in (a, b)
+        ]
         found.append((float(-at_tips[0]), float(at_tips[1])))
     return found
 
@@ -138,7 +141,9 @@ def test_the_reference_for_collinear_cracks_agrees_with_elliptic_integrals():
     assert (inner, outer) == pytest.approx([float(v) for v in willmore(0.25, 2.0)], rel=1e-15)
 
 
-@pytest.mark.parametrize("cracks", [((-3.0, -1.0), (-0.9, 0.5), (1.5, 2.0)), ((0.0, 1.0), (1.05, 4.0), (4.5, 5.0)), ((-9.0, -8.0), (0.0, 2.0), (3.0, 9.0))])
+@pytest.mark.parametrize(
+    "cracks", [((-3.0, -1.0), (-0.9, 0.5), (1.5, 2.0)), ((0.0, 1.0), (1.05, 4.0), (4.5, 5.0)), ((-9.0, -8.0), (0.0, 2.0), (3.0, 9.0))]
+)
 def test_three_collinear_cracks_with_unequal_gaps(cracks):
     density = sie.CauchyEquation(cracks, 1.0, total=(0.0, 0.0, 0.0)).solve()
     assert np.array(intensity_factors(density)) == pytest.approx(np.array(collinear(cracks)), rel=PROMISE)

@@ -7,9 +7,9 @@ import json
 import sys
 from pathlib import Path
 
-from . import pressure
+from . import figures, pressure, stress
 
-TOPICS = {"pressure": pressure}
+TOPICS = {"pressure": pressure, "stress": stress, "figures": figures}
 
 
 def main() -> int:

@@ -71,20 +71,20 @@ def cost(case: Case) -> tuple[float, float]:
     return compared(lambda: sie.solve(scene).pressure(x), closed_form)
 
 
-def compared(run: Callable[[], Any], other: Callable[[], Any]) -> tuple[float, float]:
+def compared(run: Callable[[], Any], other: Callable[[], Any], loops: int = LOOPS) -> tuple[float, float]:
     """(median seconds of `run`, median ratio to `other`), in turns."""
     run(), other()
     times, ratios = [], []
     for _ in range(REPEATS):
-        mine, theirs = _timed(run), _timed(other)
+        mine, theirs = _timed(run, loops), _timed(other, loops)
         times.append(mine)
         ratios.append(mine / theirs)
     return median(times), median(ratios)
 
 
-def _timed(run: Callable[[], Any]) -> float:
+def _timed(run: Callable[[], Any], loops: int) -> float:
     best = float("inf")
-    for _ in range(LOOPS):
+    for _ in range(loops):
         start = time.perf_counter()
         run()
         best = min(best, time.perf_counter() - start)
