@@ -369,7 +369,24 @@ class System:
         return np.concatenate([b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)])
 
     def solution(self) -> Array:
-        return _solved(self.matrix(), self.rhs) if len(self.rhs) <= DENSE else self._by_gmres()
+        return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
+
+    def by_lapack(self) -> Array:
+        """In n³ operations."""
+        return _solved(self.matrix(), self.rhs)
+
+    def by_gmres(self) -> Array:
+        """In n² operations a step, and as many steps as the kernel asks for, whatever n."""
+        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
+
+        kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
+        operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
+        found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
+        # GMRES stops at rounding of its own recursion; what counts is the residual
+        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(len(self.rhs)) * 64.0 * EPS * np.linalg.norm(self.rhs):
+            raise ContactError(f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth")
+        out: Array = found
+        return out
 
     def _aliased(self, c: Array, sizes: Array) -> list[float]:
         """For each interval, what its nodes miss of the integrals over it, relative to the terms' sizes at the rows.
@@ -384,18 +401,6 @@ class System:
             decay = tail / _positive(largest)
             missed.append(float(np.abs(c[at]).max()) * tail * (decay if weight.is_real else float(decay > NEGLIGIBLE)))
         return missed
-
-    def _by_gmres(self) -> Array:
-        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
-
-        kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
-        operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
-        found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
-        # GMRES stops at rounding of its own recursion; what counts is the residual
-        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(len(self.rhs)) * 64.0 * EPS * np.linalg.norm(self.rhs):
-            raise ContactError(f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth")
-        out: Array = found
-        return out
 
     def attempt(self, unknown: Array) -> Attempt:
         N = sum(self.sizes)

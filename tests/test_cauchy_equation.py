@@ -183,7 +183,7 @@ def test_the_iteration_takes_no_more_steps_for_more_unknowns():
         system = collocation.System(sie.CauchyEquation((-1.0, 1.0), np.exp, k=smooth_kernel, total=0.0).problem, (n,))
         applied, calls = system.applied, []
         system.applied = lambda v, applied=applied, calls=calls: calls.append(1) or applied(v)
-        system._by_gmres()
+        system.by_gmres()
         counts.append(len(calls))
     assert max(counts) <= 2 * min(counts) < 30
 

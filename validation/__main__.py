@@ -6,10 +6,11 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from types import ModuleType
 
-from . import pressure
+from . import collocation, pressure
 
-TOPICS = {"pressure": pressure}
+TOPICS: dict[str, ModuleType] = {"pressure": pressure, "collocation": collocation}
 
 
 def main() -> int:
