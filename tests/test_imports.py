@@ -16,7 +16,7 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a module imports only from those before it.
 ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "slope", "touch", "adaptive", "geometry", "moments", "panels", "density",
-    "jacobi", "grading", "jacobi_density", "collocation", "equation",
+    "jacobi", "grading", "jacobi_density", "question", "transform", "system", "collocation", "equation",
     "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "plan", "solution",
     "scenefile", "export", "plot", "__main__",
 )  # fmt: skip
