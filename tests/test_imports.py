@@ -17,7 +17,7 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "panels", "potential", "density", "superposition",
-    "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
+    "jacobi", "grading", "jacobi_density", "question", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "zones", "shear",
     "states", "slip", "slipcheck", "field", "maxima", "strength", "plan", "solution", "ladder", "path", "history", "fretting",
     "charts", "sweep", "scenefile", "grid", "export", "plot", "contours", "__main__",

@@ -6,10 +6,11 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from types import ModuleType
 
-from . import figures, pressure, stress
+from . import collocation, figures, pressure, stress
 
-TOPICS = {"pressure": pressure, "stress": stress, "figures": figures}
+TOPICS: dict[str, ModuleType] = {"pressure": pressure, "collocation": collocation, "stress": stress, "figures": figures}
 
 
 def main() -> int:
