@@ -17,7 +17,10 @@ spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. C
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ContactError
 from .jacobi_density import JacobiDensity
@@ -27,6 +30,7 @@ from .transform import by_transform
 
 ENLARGED = 1.45  # from one attempt to the next: what is spent is not twice what is needed
 LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a transform, gives up
+LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
 IDLE, SETTLED = 3, 1e-6  # after so many enlargements without progress an error below this is noise of g or k
 # A right-hand side that misses its consistency by more than this fraction is refused.
 INCONSISTENT = 1e-9
@@ -34,7 +38,7 @@ INCONSISTENT = 1e-9
 
 def solve(problem: Problem, tol: float) -> JacobiDensity:
     """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
-    sizes, idle = problem.first_sizes(), 0
+    sizes, idle = _first_sizes(problem, tol), 0
     best: JacobiDensity | None = None
     while True:
         tried = attempt(problem, sizes)
@@ -45,13 +49,31 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
             best, idle = tried.density, 0
         else:
             idle += 1
-        sizes = tuple(int(np.ceil(ENLARGED * n)) if grows else n for n, grows in zip(sizes, more, strict=True))
+        sizes = _enlarged(sizes, more)
         if sum(sizes) > (LARGEST_TRANSFORM if problem.is_transform else LARGEST) or (idle >= IDLE and best.error < SETTLED):
             raise ContactError(
                 f"the density did not settle to tol = {tol:.1e}: with n = {best.n} nodes its estimated error is {best.error:.1e}; "
                 "g or k is noisy or not smooth: raise tol, or end the intervals where it is not smooth",
                 density=best,
             )
+
+
+def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
+    """Where there is a kernel on one interval: as many nodes as g needs without it, so that a smooth k is called once."""
+    sizes, free_of_kernel = problem.first_sizes(), replace(problem, k=None)
+    if problem.is_transform or not free_of_kernel.is_transform:
+        return sizes
+    tried = sizes
+    while sum(tried) <= LARGEST_GUESS:
+        more = attempt(free_of_kernel, tried).unresolved(tol)
+        if not more.any():
+            return tried
+        tried = _enlarged(tried, more)
+    return sizes
+
+
+def _enlarged(sizes: tuple[int, ...], more: NDArray[np.bool_]) -> tuple[int, ...]:
+    return tuple(int(np.ceil(ENLARGED * n)) if grows else n for n, grows in zip(sizes, more, strict=True))
 
 
 def consistent(found: Attempt) -> JacobiDensity:
