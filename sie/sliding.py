@@ -170,13 +170,13 @@ class SlidingPanels(Panels):
             out = np.empty_like(away)
             inside = away <= towards
             for mask, near, far, power in ((inside, away, towards, self.at_right), (~inside, towards, away, self.at_left)):
-                y = np.maximum(np.abs(x[at][mask] - e) / far[mask], least)
+                y = np.maximum(np.abs((x[at] - e)[mask]) / far[mask], least)
                 y[y == 0.0] = EPS  # V is set to infinity there
                 y = np.minimum(y, 1.0)
                 out[mask] = -lerch.log(power, np.where(y < 0.5, 1.0 - y, near[mask] / far[mask]), y)
             return out
 
-        V: Array = self._combined(x, left**self.at_left * right**self.at_right, log_of, self._regions(x, self._serves_contact))
+        V: Array = self._combined(x, left**self.at_left * right**self.at_right, log_of, on_contact=True)[0]
         for e, infinite in self.jumps:
             V[x == e] = infinite
         return V

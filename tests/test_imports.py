@@ -16,7 +16,7 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a module imports only from those before it.
 ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
-    "panels", "density",
+    "summation", "batched", "panels", "density",
     "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
     "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "plan", "solution",
     "scenefile", "export", "plot", "__main__",
