@@ -28,6 +28,7 @@ from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Powe
 from .material import RIGID, Elastic
 from .plan import Plan, plan
 from .profile import Profile
+from .sampled import Sampled
 from .scene import Scene
 from .solution import Solution, solve
 
@@ -52,6 +53,7 @@ __all__ = [
     "Profile",
     "ResolutionError",
     "RoundedFlat",
+    "Sampled",
     "Scene",
     "Solution",
     "Wedge",
