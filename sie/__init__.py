@@ -39,6 +39,7 @@ from .material import RIGID, Elastic
 from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
+from .sampled import Sampled
 from .scene import Scene
 from .solution import Solution, solve
 from .strength import Peak, YieldPoint
@@ -72,6 +73,7 @@ __all__ = [
     "Profile",
     "ResolutionError",
     "RoundedFlat",
+    "Sampled",
     "Scene",
     "Solution",
     "Stress",

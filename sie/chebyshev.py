@@ -101,6 +101,25 @@ def antiderivative(c: Array) -> Array:
     return out
 
 
+def divided(c: Array, end: float) -> Array:
+    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis: 2 U_{n-1-j}(end) of T_n, the first halved."""
+    n = c.shape[-1]
+    U = np.arange(1, n) * end ** np.arange(n - 1)
+    d = np.zeros((*c.shape[:-1], max(n - 1, 0)))
+    for j in range(n - 1):
+        d[..., j] = 2.0 * (c[..., j + 1 :] @ U[: n - 1 - j])
+    d[..., :1] *= 0.5
+    return d
+
+
+def second_kind_derivative(q: Array) -> Array:
+    """U-coefficients of the derivative of Σ q_m U_m, along the last axis: that of U_m is 2 Σ (j + 1) U_j over j = m - 1, m - 3, ..."""
+    d = np.zeros((*q.shape[:-1], max(q.shape[-1] - 1, 0)))
+    for j in range(d.shape[-1]):
+        d[..., j] = 2.0 * (j + 1) * q[..., j + 1 :: 2].sum(axis=-1)
+    return d
+
+
 def chopped_length(c: Array, floor: float) -> int:
     """How many coefficients of c matter: all beyond are below `floor` (at least one is kept)."""
     matter = np.flatnonzero(np.abs(c) > floor)

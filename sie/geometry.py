@@ -9,6 +9,7 @@ from the square roots of its ends' distances, without differences of nearly equa
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +20,8 @@ from .interval import Interval
 from .slope import Slope
 
 Array = NDArray[np.float64]
+
+NARROW_ANGLE = 0.02
 
 
 class Geometry:
@@ -75,6 +78,18 @@ class Geometry:
         from_edge = np.arctan2(np.where(left, a, b), np.where(left, b, a))
         return 2.0 * from_edge[:, None], np.where(left, 1.0, -1.0)[:, None], angle[:, None]
 
+    def part(self, chosen: NDArray[np.bool_]) -> Geometry:
+        """Some of the pieces; quadrature only."""
+        part = copy(self)
+        part.k = self.k[chosen]
+        part.ends, part.tails, part.length = self.ends[:, chosen], self.tails[:, chosen], self.length[chosen]
+        part.left, part.right = self.left[:, chosen], self.right[:, chosen]
+        part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
+        part.cut_left, part.cut_right = self.cut_left and bool(chosen[0]), self.cut_right and bool(chosen[-1])
+        from_edge, sign, length = self.angles
+        part.angles = from_edge[chosen], sign[chosen] if isinstance(sign, np.ndarray) else sign, length[chosen]
+        return part
+
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
         """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights, all (K, n), and signs."""
         g, w = chebyshev.gauss_legendre(n)
@@ -101,3 +116,8 @@ class Geometry:
 def quadrature_order(degree: int) -> int:
     """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact, measured to reach rounding."""
     return 13 + int(1.15 * degree)
+
+
+def narrow_order(degree: int) -> int:
+    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's own degree."""
+    return 3 + degree // 2

@@ -2,7 +2,7 @@
 
 Parabola  h = x²/(2R)          RoundedFlat  h = max(|x| - a, 0)²/(2R)      Flat  h = 0 for |x| <= a, nothing beyond
 Wedge     h = slope |x|        Power        h = coefficient |x|^exponent   Polynomial  h = Σ c_k x^k
-Piecewise, FromFunction: by their slope
+Piecewise, FromFunction: by their slope      Sampled (`sampled`): by a trace
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from . import checks
 from .adaptive import integral
 from .expression import Expression
 from .profile import Parity, Profile
+from .sampled import Sampled
 from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
@@ -381,4 +382,5 @@ def profile_kinds() -> dict[str, Any]:
         "polynomial": Polynomial,
         "piecewise": Piecewise,
         "function": FromFunction,
+        "sampled": Sampled,
     }

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .geometry import Geometry, quadrature_order
+from .geometry import NARROW_ANGLE, Geometry, narrow_order, quadrature_order
 from .interval import Interval
 from .slope import Row, Slope
 
@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 # Up to this angle of a piece a shorter rule reaches rounding.
 NARROW = 0.5 * math.pi + 0.01
+# So many narrow pieces are worth a pass of their own.
+MANY = 24
 
 
 class Moments(NamedTuple):
@@ -53,12 +55,17 @@ def _of_many(g: Geometry) -> Moments:
     if not len(g.k):
         return Moments(*(0.0,) * 7)
     with np.errstate(over="ignore", invalid="ignore"):  # a search may try a contact of 1e-300: what overflows is not rising
-        return _summed(g)
+        order = quadrature_order(g.slope.degree)
+        narrow = g.angles[2][:, 0] <= NARROW_ANGLE
+        if g.slope.functions or np.count_nonzero(narrow) < MANY:
+            return _summed(g, order)
+        wide = Moments(*(0.0,) * 7) if narrow.all() else _summed(g.part(~narrow), order)
+        return Moments(*map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree))))
 
 
-def _summed(g: Geometry) -> Moments:
+def _summed(g: Geometry, order: int) -> Moments:
     slope = g.slope
-    offset, angle, weight, sign = g.nodes(quadrature_order(slope.degree))
+    offset, angle, weight, sign = g.nodes(order)
     H = g.slopes(offset)
     WH = weight * H
     near = 2.0 * np.sin(0.5 * angle) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one

@@ -52,6 +52,18 @@ class Normal:
 
 def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
     """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it."""
+    found = _contact(scene, tol, economy)
+    ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
+    for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
+        raise LoadError(
+            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is like beyond is not known: "
+            "lower the load or the tilt, or measure further out (a trace of the surface's height instead of the gap has the wrong sign)",
+            end=end,
+        )
+    return found
+
+
+def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     profile = scene.profile
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)

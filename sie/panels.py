@@ -24,9 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
+from .batched import Pieces, combined
 from .geometry import Geometry, quadrature_order
 from .interval import EPS
 from .slope import JUMP
+from .summation import SEPARATED, KernelSums
 
 Array = NDArray[np.float64]
 
@@ -37,6 +39,8 @@ FAR_FIELD = 1.5
 FAR_FIELD_NODES = 22  # and half the degree: reach rounding there
 # Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
 SEEN_JUMP = 1e-9
+# Beyond so many pieces a loop over them costs more than pairs of pieces and points.
+MANY = 24
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
 
@@ -60,6 +64,7 @@ class Panels:
             lengths = self.degree + 1 - matters[:, ::-1].argmax(axis=1)
             self.series[np.arange(self.degree + 1) >= lengths[:, None]] = 0.0
             self.lengths = lengths.tolist()
+        self.many = len(g.k) > MANY
 
     @cached_property
     def scale(self) -> float:
@@ -112,12 +117,18 @@ class Panels:
     @cached_property
     def _far_rules(self) -> list[tuple[Array, Array]]:
         """Quadrature that serves beyond each piece's reach: (offsets from lo, weights times H), of as many nodes as the reach asks for."""
-        s = 2.0 * np.sqrt(0.5 * (self._reach_in_s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
-        decay = np.log(s + np.sqrt(s * s - 1.0))
-        needed = np.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2
-        orders = (2 * np.ceil(needed / 2)).astype(int).tolist()
+        orders = _order_beyond(self._reach_in_s).tolist()
         rules = {n: self._rule(n) for n in set(orders)}
         return [(rules[n][0][k], rules[n][1][k]) for k, n in enumerate(orders)]
+
+    @cached_property
+    def batched(self) -> Pieces:
+        """The same for many pieces: one rule for all of them, and its fast sums."""
+        reach = self._reach_in_s
+        offset, WH = self._rule(int(_order_beyond(np.minimum(reach, SEPARATED)).max()))
+        g = self.geometry
+        sums = KernelSums(g.ends[0] + g.tails[0], g.length, offset, WH)
+        return Pieces(g, self.half_length, self.series, self._continuation, self.reach, reach, offset, WH, sums)
 
     def _rule(self, n: int) -> tuple[Array, Array]:
         offset, _, weight, _ = self.geometry.nodes(n)
@@ -147,7 +158,7 @@ class Panels:
         """w(x) PV∫ H / (w (t - x)) dt for x inside the contact; infinite at a jump of H."""
         width = 2.0 * self.contact.r
         root_left, root_right = np.sqrt(self.contact.from_left(x) / width), np.sqrt(self.contact.from_right(x) / width)
-        kinks_only = self.geometry.slope.continuous
+        kinks_only = self.geometry.slope.continuous and not self.many
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> Array:
             a, b = e_right * root_left[at], e_left * root_right[at]
@@ -161,12 +172,12 @@ class Panels:
             out: Array = np.log1p(-y)
             if near.size:
                 scale = total[near]
-                d = np.abs(x[at][near] - e) / (width * scale)
+                d = np.abs((x[at] - e)[near]) / (width * scale)
                 scale[d == 0.0] = d[d == 0.0] = 1.0  # at the break itself the logarithm has the factor 0, or the pressure is infinite
                 out[near] = np.log(d / scale)
             return out
 
-        V: Array = self._combined(x, (width * root_left) * root_right, log_of, self._regions(x, self._serves_contact))
+        V: Array = self._combined(x, (width * root_left) * root_right, log_of, on_contact=True)[0]
         for e, infinite in self.jumps:
             V[x == e] = infinite
         return V
@@ -194,13 +205,11 @@ class Panels:
 
     def _continued(self, x: Array, R: Array, log_of: Any, on_right: bool) -> tuple[Array, Array]:
         """`beside`, from the root and the functions of the breaks."""
-        regions = self._regions(x)
-        V = self._combined(x, R, log_of, regions)
+        V, *near = self._combined(x, R, log_of)
         continued = np.zeros_like(x)
         if self.geometry.cut_right if on_right else self.geometry.cut_left:
-            k = len(regions) - 1 if on_right else 0
-            near = regions[k][0]
-            continued[near] = self._slope(k, x[near])
+            k, at = (len(self.series) - 1, near[1]) if on_right else (0, near[0])
+            continued[at] = self._slope(k, x[at])
         far = np.abs(x - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         if far.any():
             V[far], continued[far] = self._far_field(x[far]), 0.0
@@ -222,10 +231,9 @@ class Panels:
 
     def _in_the_plane(self, z: NDArray[np.complex128], R: NDArray[np.complex128], log_of: Any) -> NDArray[np.complex128]:
         """`off_axis`, from the root and the functions of the breaks, which vanish at the right edge and are π/cos at the left one."""
-        regions = self._regions(z)
-        V: NDArray[np.complex128] = self._combined(z, R, log_of, regions)
+        V: NDArray[np.complex128]
+        V, near, _ = self._combined(z, R, log_of)
         if self.geometry.cut_left:
-            near = regions[0][0]
             V[near] -= np.pi / self.cos * self._slope(0, z[near])
         far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         if far.any():
@@ -234,12 +242,13 @@ class Panels:
 
     def _far_field(self, z: Any) -> Any:
         """V(z) with ∫H/w taken from the edges' condition, not from quadrature: for smooth edges V ~ 1/z keeps its digits."""
-        offset, WH = self._far_field_rule
-        c = self.contact
-        t_m = ((self.geometry.ends[0] - c.m) + self.geometry.tails[0])[:, None] + offset
-        z_m = z - c.m
+        z_m = z - self.contact.m
+        if self.many:
+            total, _, _ = self._far_field_sums.far(z)  # at the root of the tree: no pairs are left
+            return (total - self.I0) * self._far_root(z, z_m)
+        t_m, charge = self.far_field_rule
         total = np.zeros_like(z)
-        for row_t, row_w in zip(t_m, WH * t_m, strict=True):
+        for row_t, row_w in zip(t_m, charge, strict=True):
             total += row_w @ np.reciprocal(row_t[:, None] - z_m)
         return (total - self.I0) * self._far_root(z, z_m)
 
@@ -248,8 +257,18 @@ class Panels:
         return np.sqrt(self.contact.from_left(z) / z_m) * np.sqrt(-self.contact.from_right(z) / z_m)
 
     @cached_property
-    def _far_field_rule(self) -> tuple[Array, Array]:
-        return self._rule(FAR_FIELD_NODES + self.degree // 2)
+    def far_field_rule(self) -> tuple[Array, Array]:
+        """t - m, and weight times H (t - m)."""
+        offset, WH = self._rule(FAR_FIELD_NODES + self.degree // 2)
+        t_m = ((self.geometry.ends[0] - self.contact.m) + self.geometry.tails[0])[:, None] + offset
+        return t_m, WH * t_m
+
+    @cached_property
+    def _far_field_sums(self) -> KernelSums:
+        g = self.geometry
+        t_m, charge = self.far_field_rule
+        start = (g.ends[0] - self.contact.m) + g.tails[0]
+        return KernelSums(g.ends[0] + g.tails[0], g.length, t_m - start[:, None], charge)
 
     def _slope(self, k: int, z: Any) -> Any:
         """H of piece k, continued."""
@@ -282,9 +301,15 @@ class Panels:
         near = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= self.reach[k]
         return np.flatnonzero(near), (np.flatnonzero(~near),)
 
-    def _combined(self, z: Any, root: Any, log_of: Any, regions: list[tuple[Any, tuple[Any, ...]]]) -> Any:
-        """Σ over the pieces: closed form within reach, quadrature beyond. Edges contribute no logarithm: log_of takes interior breaks."""
+    def _combined(self, z: Any, root: Any, log_of: Any, on_contact: bool = False) -> tuple[Any, Any, Any]:
+        """Σ over the pieces: closed form within reach, quadrature beyond. Edges contribute no logarithm: log_of takes interior breaks.
+
+        With it, where the closed forms of the first and of the last piece were used.
+        """
         g = self.geometry
+        if self.many:
+            return combined(self.batched, z, root, log_of)
+        regions = self._regions(z, self._serves_contact if on_contact else None)
         V = np.zeros_like(root)
         last = len(regions) - 1
         ends, root_left, root_right = g.ends.tolist(), g.root_left.tolist(), g.root_right.tolist()
@@ -302,9 +327,18 @@ class Panels:
             s, n = self._s(k, z[near]), self.lengths[k]
             H = chebyshev.evaluate(self.series[k, :n], s)
             V[near] += H * J0 + root[near] * chebyshev.evaluate_second_kind(self._continuation[k, : n - 1], s)
-        return V
+        return (V, regions[0][0], regions[-1][0]) if regions else (V, (), ())
 
     def _quadrature(self, k: int, z: Any) -> Any:
         offset, WH = self._far_rules[k]
         lo, tail, _ = self._places[k]
         return WH @ np.reciprocal(offset[:, None] - ((z - lo) - tail))
+
+
+def _order_beyond(reach_in_s: Array) -> NDArray[np.int64]:
+    """Gauss-Legendre nodes, an even number, of a piece that is taken from |s| = reach on."""
+    s = 2.0 * np.sqrt(0.5 * (reach_in_s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
+    decay = np.log(s + np.sqrt(s * s - 1.0))
+    needed = np.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2
+    order: NDArray[np.int64] = (2 * np.ceil(needed / 2)).astype(np.int64)
+    return order

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
+from .batched_plane import BatchedPlane
 from .geometry import quadrature_order
 from .interval import Interval
 from .panels import FAR_FIELD, SEEN_JUMP, Panels
@@ -100,8 +101,14 @@ class Plane:
 
     # -- near the contact ----------------------------------------------------------------------------------------------
 
+    @cached_property
+    def _many(self) -> BatchedPlane:
+        return BatchedPlane(self)
+
     def _near(self, z: Complex) -> tuple[Complex, Complex]:
-        every = self._points(z)
+        if self.panels.many:
+            return self._many.near(z)
+        every = self.points(z)
         V, dV, N = np.zeros_like(z), np.zeros_like(z), np.zeros_like(z)
         shared: dict[float, Complex] = {}
         reach = []
@@ -122,17 +129,17 @@ class Plane:
         dV += N
         return V, dV
 
-    def _points(self, z: Complex) -> Points:
+    def points(self, z: Complex) -> Points:
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         root1, root2 = np.sqrt(left), np.sqrt(right)
         R = root1 * root2
         return Points(z, left, right, root1, root2, R, R, 0.5 * (left + right))
 
-    def _weight(self, end: tuple[float, float, float]) -> float:
+    def weight(self, end: tuple[Any, Any, Any]) -> Any:
         """w(e), or in sliding (e - x1)(x2 - e)/w(e)."""
         return 2.0 * self.contact.r * end[1] * end[2]
 
-    def _logarithm(self, end: tuple[float, float, float], at: Points) -> Complex:
+    def logarithm(self, end: tuple[Any, Any, Any], at: Points) -> Complex:
         return _logarithm(end, at)
 
     def _within(self, k: int, s: Complex) -> NDArray[np.bool_] | None:
@@ -178,7 +185,7 @@ class Plane:
 
         def logarithm(e: tuple[float, float, float]) -> Complex:
             if e[0] not in shared:
-                shared[e[0]] = self._logarithm(e, at)
+                shared[e[0]] = self.logarithm(e, at)
             return shared[e[0]]
 
         J0: Any = logarithm(hi) if hi else 0.0
@@ -220,9 +227,9 @@ class Plane:
             ends = np.zeros(max(n - 1, 1))
             for end, sign in ((lo, -1.0), (hi, 1.0)):
                 if end:
-                    w = self._weight(end)
-                    ends[: n - 1] -= sign * w / half * _divided(c, sign)
-            rows.append((c, np.arange(1, n) * c[1:] / half, ends, q, _derivative(q) / half))
+                    w = self.weight(end)
+                    ends[: n - 1] -= sign * w / half * chebyshev.divided(c, sign)
+            rows.append((c, np.arange(1, n) * c[1:] / half, ends, q, chebyshev.second_kind_derivative(q) / half))
         return rows
 
     @cached_property
@@ -252,7 +259,7 @@ class Plane:
         for k, (lo, hi) in enumerate(self._ends):
             for end, place, value in ((lo, 1, entering[k]), (hi, 0, leaving[k])):
                 if end:
-                    row = found.setdefault(end[0], [self._weight(end), None, None, 0.0, 0.0])
+                    row = found.setdefault(end[0], [self.weight(end), None, None, 0.0, 0.0])
                     row[1 + place], row[3 + place] = k, value
         jumps = {e for e, _ in p.jumps}
         for e, row in found.items():
@@ -261,7 +268,7 @@ class Plane:
         return [(e, *row) for e, row in found.items()]
 
 
-def _logarithm(end: tuple[float, float, float], at: Points) -> Complex:
+def _logarithm(end: tuple[Any, Any, Any], at: Points) -> Complex:
     """L_e. The two terms of its argument do not cancel in the upper half-plane, and z - e is exact next to the break."""
     e, e_left, e_right = end
     argument = e_left * at.root2 + (1j * e_right) * at.root1
@@ -271,21 +278,3 @@ def _logarithm(end: tuple[float, float, float], at: Points) -> Complex:
     L.real = np.arctan2(argument.imag, argument.real)
     L.imag = -np.log(np.abs(argument))
     return L
-
-
-def _divided(c: Array, end: float) -> Array:
-    """T-coefficients of (Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1: those of T_n are 2 U_{n-1-j}(end), the first halved."""
-    n = len(c)
-    U = np.arange(1, n) * end ** np.arange(n - 1)
-    d = np.array([2.0 * (c[j + 1 :] @ U[: n - 1 - j]) for j in range(n - 1)])
-    if len(d):
-        d[0] *= 0.5
-    return d
-
-
-def _derivative(q: Array) -> Array:
-    """U-coefficients of the derivative of Σ q_m U_m: that of U_m is 2 Σ (j + 1) U_j over j = m - 1, m - 3, ..."""
-    d = np.zeros(max(len(q) - 1, 0))
-    for j in range(len(d)):
-        d[j] = 2.0 * (j + 1) * q[j + 1 :: 2].sum()
-    return d

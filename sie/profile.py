@@ -58,6 +58,11 @@ class Profile(ABC):
         return self.pieces.domain
 
     @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        """Whether the ends of the domain are the indenter's own, where contact is sharp, and not just where knowledge of it ends."""
+        return True, True
+
+    @property
     def parity(self) -> Parity:
         """ "even" if h(-x) = h(x)."""
         return "even" if self.axis == 0.0 else "none"
@@ -118,6 +123,10 @@ class Tilted(_Derived):
     def tilted(self, slope: float) -> Profile:
         return self.profile.tilted(self.tilt + checks.finite("slope", slope))
 
+    @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        return self.profile.ends_are_corners
+
     def _code(self) -> str:
         return f"{_operand(self.profile)}.tilted({self.tilt!r})"
 
@@ -147,6 +156,10 @@ class Shifted(_Derived):
     def shifted(self, dx: float) -> Profile:
         return self.profile.shifted(self.dx + checks.finite("dx", dx))
 
+    @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        return self.profile.ends_are_corners
+
     def _code(self) -> str:
         return f"{_operand(self.profile)}.shifted({self.dx!r})"
 
@@ -174,6 +187,10 @@ class Mirrored(_Derived):
 
     def mirrored(self) -> Profile:
         return self.profile
+
+    @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        return self.profile.ends_are_corners[::-1]
 
     def _code(self) -> str:
         return f"{_operand(self.profile)}.mirrored()"
@@ -203,6 +220,13 @@ class Sum(_Derived):
     @property
     def convex(self) -> bool:
         return self.first.convex and self.second.convex
+
+    @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        """Those of the profile that ends first."""
+        lo, hi = self.domain
+        left, right = ([p.ends_are_corners[k] for p in (self.first, self.second) if p.domain[k] == end] for k, end in enumerate((lo, hi)))
+        return all(left), all(right)
 
     def _code(self) -> str:
         return f"{self.first!r} + {_operand(self.second)}"

@@ -172,13 +172,13 @@ class SlidingPanels(Panels):
             out = np.empty_like(away)
             inside = away <= towards
             for mask, near, far, power in ((inside, away, towards, self.at_right), (~inside, towards, away, self.at_left)):
-                y = np.maximum(np.abs(x[at][mask] - e) / far[mask], least)
+                y = np.maximum(np.abs((x[at] - e)[mask]) / far[mask], least)
                 y[y == 0.0] = EPS  # V is set to infinity there
                 y = np.minimum(y, 1.0)
                 out[mask] = -lerch.log(power, np.where(y < 0.5, 1.0 - y, near[mask] / far[mask]), y)
             return out
 
-        V: Array = self._combined(x, left**self.at_left * right**self.at_right, log_of, self._regions(x, self._serves_contact))
+        V: Array = self._combined(x, left**self.at_left * right**self.at_right, log_of, on_contact=True)[0]
         for e, infinite in self.jumps:
             V[x == e] = infinite
         return V
@@ -203,7 +203,7 @@ class SlidingPanels(Panels):
 
         return self._in_the_plane(z, from_left**self.at_left * (-from_right) ** self.at_right, log_of)
 
-    def function_of_break(self, end: tuple[float, float, float], z: Complex, from_left: Complex, from_right: Complex) -> Complex:
+    def function_of_break(self, end: tuple[Any, Any, Any], z: Complex, from_left: Complex, from_right: Complex) -> Complex:
         """What stands for the logarithm of the break e in the upper half-plane, given (e, sqrt((e - x1)/2r), sqrt((x2 - e)/2r))."""
         e, e_left, e_right = end
         away, towards = e_left**2 * from_right, e_right**2 * from_left
@@ -226,27 +226,26 @@ class SlidingPlane(Plane):
 
     panels: SlidingPanels
 
-    def _points(self, z: Complex) -> Points:
+    def points(self, z: Complex) -> Points:
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         p = self.panels
         R = left**p.at_left * right**p.at_right
         return Points(z, left, right, left, right, R, left * right / R, p.at_left * right + p.at_right * left)
 
-    def _weight(self, end: tuple[float, float, float]) -> float:
+    def weight(self, end: tuple[Any, Any, Any]) -> Any:
         p = self.panels
-        return float(2.0 * self.contact.r * end[1] ** (2.0 * p.at_right) * end[2] ** (2.0 * p.at_left))
+        return 2.0 * self.contact.r * end[1] ** (2.0 * p.at_right) * end[2] ** (2.0 * p.at_left)
 
-    def _logarithm(self, end: tuple[float, float, float], at: Points) -> Complex:
+    def logarithm(self, end: tuple[Any, Any, Any], at: Points) -> Complex:
         return self.panels.function_of_break(end, at.z, at.left, -at.right)
 
     def far(self, z: Complex, constant: bool = True) -> tuple[Complex, Complex]:
         """With s = z - m, T = ∫H t/(w (t - s)) dt about the centre and ρ = X/s:  V = (T - I0) ρ."""
         p, r = self.panels, self.contact.r
-        offset, WH = p._far_field_rule
-        t = ((p.geometry.ends[0] - self.contact.m) + p.geometry.tails[0])[:, None] + offset
+        t, charge = p.far_field_rule
         s = z - self.contact.m
         T, dT = np.zeros_like(z), np.zeros_like(z)
-        for row_t, row_w in zip(t, WH * t, strict=True):
+        for row_t, row_w in zip(t, charge, strict=True):
             pole = np.reciprocal(row_t[:, None] - s)
             T += row_w @ pole
             dT += row_w @ (pole * pole)

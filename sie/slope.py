@@ -162,9 +162,12 @@ class Slope:
         """Whether H is known to have no jumps at its breaks, but for rounding (a function may have them at declared ones)."""
         if self.functions:
             return False
-        left, right = self.at_breaks
-        rounding = JUMP * max(map(abs, left + right), default=0.0)
-        return all(abs(a - b) <= rounding for a, b in zip(left, right, strict=True))
+        if not self.few:
+            left, right = self._sides
+            return bool((np.abs(left - right) <= JUMP * np.abs((left, right)).max(initial=0.0)).all())
+        below, above = self.at_breaks
+        rounding = JUMP * max(map(abs, below + above), default=0.0)
+        return all(abs(a - b) <= rounding for a, b in zip(below, above, strict=True))
 
     @cached_property
     def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -174,9 +177,14 @@ class Slope:
             before = {row.hi: row for row in self.rows}
             after = {row.lo: row for row in self.rows}
             return tuple(_value(before, b) for b in inner.tolist()), tuple(_value(after, b) for b in inner.tolist())
-        k = np.arange(len(self.origins))
-        left, right = (self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0] for j in (k[:-1], k[1:]))
+        left, right = self._sides
         return tuple(left.tolist()), tuple(right.tolist())
+
+    @cached_property
+    def _sides(self) -> tuple[Array, Array]:
+        inner, k = self.breaks[1:-1], np.arange(len(self.origins))
+        left, right = (self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0] for j in (k[:-1], k[1:]))
+        return left, right
 
     @property
     def domain(self) -> tuple[float, float]:

@@ -6,8 +6,6 @@ can be one. Of several minima the deepest is taken: contact starts there.
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +16,8 @@ from .slope import Slope
 Array = NDArray[np.float64]
 
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
+MANY, FEWER = 100, 3  # of so many polynomials each is sampled less
+SHORTLIST = 16  # of the minima of a rough trace, those which the samples show as lowest
 MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
 HEIGHT_NODES = 16
 BEYOND = 1e-3
@@ -36,7 +36,7 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
         if sign[end] == 0 and not np.isfinite(outer):
             raise LoadError(f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises")
-    candidates = _candidates(slope, ends, x, sign, piece)
+    candidates = _candidates(slope, ends, x, H, piece)
     if len(candidates) == 1:
         z1, z2 = candidates[0]
         return float(z1), float(z2)
@@ -64,7 +64,8 @@ def _finite_ends(slope: Slope) -> Array:
 
 def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]]:
     """Points inside every piece, ascending, the slope there, and the pieces' indices."""
-    s = 0.5 * (1.0 + chebyshev.points(SAMPLES + int(slope.degrees.max())))
+    samples = SAMPLES if slope.functions or len(ends) <= MANY else FEWER
+    s = 0.5 * (1.0 + chebyshev.points(samples + int(slope.degrees.max())))
     k = np.arange(len(ends))
     offset = (ends[:, 1] - ends[:, 0])[:, None] * s
     H = slope.local(k, ends[:, 0], np.zeros(len(k)), offset)
@@ -72,16 +73,20 @@ def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]
     return (ends[:, :1] + offset).ravel(), H.ravel(), np.repeat(k, len(s))
 
 
-def _candidates(slope: Slope, ends: Array, x: Array, sign: Array, piece: NDArray[np.int64]) -> list[tuple[float, float]]:
+def _candidates(slope: Slope, ends: Array, x: Array, H: Array, piece: NDArray[np.int64]) -> list[tuple[float, float]]:
+    sign = np.sign(H)
     found: list[tuple[float, float]] = []
     moving = np.flatnonzero(sign)
     if not moving.size:
         return [(float(ends[0, 0]), float(ends[-1, 1]))]
     if sign[moving[0]] > 0:
         found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
-    for i, j in pairwise(moving):
-        if sign[i] < 0 < sign[j]:
-            found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
+    turn = np.flatnonzero((sign[moving[:-1]] < 0) & (sign[moving[1:]] > 0))
+    if len(turn) > SHORTLIST:
+        height = np.concatenate(([0.0], np.cumsum(np.diff(x) * 0.5 * (H[1:] + H[:-1]))))
+        turn = np.sort(turn[np.argsort(height[moving[turn]], kind="stable")[:SHORTLIST]])
+    for i, j in zip(moving[turn].tolist(), moving[turn + 1].tolist(), strict=True):
+        found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
     if sign[moving[-1]] < 0:
         found.append((_root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]), float(ends[-1, 1])))
     return found
@@ -139,7 +144,8 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
 
 def _height(slope: Slope, ends: Array, z: float) -> float:
     """h(z) - h(left end), by Gauss-Legendre on every piece; only to compare minima."""
-    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + int(slope.degrees.max()))
+    degree = int(slope.degrees.max())
+    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + degree if slope.functions else degree // 2 + 1)
     lo, hi = np.minimum(ends[:, 0], z), np.minimum(ends[:, 1], z)
     length = hi - lo
     H = slope.local(np.arange(len(lo)), lo, np.zeros(len(lo)), length[:, None] * g)

@@ -1,0 +1,230 @@
+"""An indenter given by a trace: heights that a profilometer measured, a spline through them or along them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import checks, fits
+from .profile import Profile
+from .slope import Slope
+from .smoothing import cross_validated, interpolating_spline, longest_lambda, smoothing_spline
+from .traces import Column, is_text, read_columns, read_topography
+
+Array = NDArray[np.float64]
+Smoothing = float | Literal["gcv"]
+INF = float("inf")
+
+FEWEST = 4  # points of a cubic
+SHOWN = 12  # points that are printed; a longer trace is summed up
+
+
+@dataclass(frozen=True, init=False, repr=False, eq=False)
+class Sampled(Profile):
+    """h at the points x: the gap, which grows away from the contact. (A trace of a surface's height has the other sign.)
+
+    x, h        ascending points without gaps in the numbers, and heights, at least 4 of each, in the same unit of length
+    smoothing   0: the interpolating cubic spline, not-a-knot at the ends (SciPy's CubicSpline): for traces without noise
+                λ > 0: the smoothing spline that minimises Σ(h - f(x))² + λ∫f''² (SciPy's make_smoothing_spline), λ in length³
+                "gcv": the same, λ chosen by generalised cross validation
+    mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it
+
+    The slope is a quadratic polynomial on each piece. Beyond the trace's ends nothing is known: a contact that would reach an end is refused
+    (the end of a trace is not a corner of the indenter). Raises ValueError for anything that is not a trace.
+
+    >>> x = np.linspace(-1.0, 1.0, 21)
+    >>> pad = Sampled(x, x**2 / 100.0)
+    >>> pad
+    Sampled(x=<21 points from -1 to 1>, h=<from 0 to 0.01>)
+    >>> float(pad.slope(0.25))
+    0.005
+    """
+
+    points: Array
+    heights: Array
+    smoothing: Smoothing
+    source: str
+
+    def __init__(self, x: ArrayLike, h: ArrayLike, smoothing: Smoothing = 0.0, mend: bool = False) -> None:
+        points, heights = _trace(x, h, mend)
+        for array in (points, heights):
+            array.flags.writeable = False
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "smoothing", _smoothing(smoothing, points))
+        object.__setattr__(self, "source", "")
+
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        columns: tuple[Column, Column] = (0, 1),
+        scale: float | tuple[float, float] = 1.0,
+        skip: int = 0,
+        smoothing: Smoothing = 0.0,
+        mend: bool = False,
+    ) -> Sampled:
+        """The trace in a file: text in columns, or (with the extra `traces`) any format that SurfaceTopography reads.
+
+        columns     of x and h, by number from 0 or by their names in the header
+        scale       factors for x and h, or one for both: 1e-3 makes mm of µm; a negative one for h turns a surface's height into a gap
+        skip        lines at the top to pass over; comments (#, %) and headers are passed over anyway
+        smoothing, mend    as in `Sampled`; mend leaves out lines that lack a value
+
+        Raises ValueError, with the numbers of the lines, where values are missing, and OSError where there is no file.
+        """
+        factors = _factors(scale)
+        if is_text(path):
+            if len(tuple(columns)) != 2:
+                raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
+            if isinstance(skip, bool) or not isinstance(skip, int) or skip < 0:
+                raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
+            x, h = read_columns(path, tuple(columns), skip, drop_missing=mend)
+        else:
+            x, h = read_topography(path)
+        made = cls(factors[0] * x, factors[1] * h, smoothing, mend)
+        given = {"columns": (columns, (0, 1)), "scale": (scale, 1.0), "skip": (skip, 0), "smoothing": (smoothing, 0.0), "mend": (mend, False)}
+        options = "".join(f", {name}={value!r}" for name, (value, default) in given.items() if value != default)
+        object.__setattr__(made, "source", f"Sampled.read({str(path)!r}{options})")
+        return made
+
+    def __repr__(self) -> str:
+        if self.source:
+            return self.source
+        x, h = self.points, self.heights
+        if len(x) <= SHOWN:
+            named = f"x={tuple(x.tolist())!r}, h={tuple(h.tolist())!r}"
+        else:
+            named = f"x=<{len(x)} points from {x[0]:.6g} to {x[-1]:.6g}>, h=<from {h.min():.6g} to {h.max():.6g}>"
+        return f"Sampled({named}{f', smoothing={self.smoothing!r}' if self.smoothing else ''})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Sampled):
+            return NotImplemented
+        same = self.smoothing == other.smoothing and len(self.points) == len(other.points)
+        return same and bool((self.points == other.points).all() and (self.heights == other.heights).all())
+
+    def __hash__(self) -> int:
+        return hash((self.points.tobytes(), (self.heights + 0.0).tobytes(), self.smoothing))
+
+    # -- the spline ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def lam(self) -> float:
+        """λ of the smoothing spline in use; 0 where the spline interpolates."""
+        return cross_validated(self.points, self.heights) if self.smoothing == "gcv" else float(self.smoothing)
+
+    @cached_property
+    def _spline(self) -> tuple[Array, Array]:
+        """(breaks, coefficients of h about the left end of each piece, low order first)."""
+        return smoothing_spline(self.points, self.heights, self.lam) if self.lam else interpolating_spline(self.points, self.heights)
+
+    @cached_property
+    def pieces(self) -> Slope:
+        breaks, c = self._spline
+        return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
+
+    def height(self, x: ArrayLike) -> Array:
+        breaks, c = self._spline
+        x = np.asarray(x, dtype=float)
+        k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
+        u = x - breaks[k]
+        h = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))
+        return np.where((x < breaks[0]) | (x > breaks[-1]), INF, h)
+
+    @property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        return False, False
+
+    @property
+    def misfit(self) -> float:
+        """What the spline leaves of the heights, as the root of the mean square."""
+        return float(np.sqrt(np.mean((self.heights - self.height(self.points)) ** 2)))
+
+    # -- other traces made of this one ----------------------------------------------------------------------------------
+
+    def smoothed(self, smoothing: Smoothing = "gcv") -> Sampled:
+        """The same trace with another smoothing."""
+        return Sampled(self.points, self.heights, smoothing)
+
+    def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
+        """The trace less the least-squares line through it, or through the part of it between two x (a flat base, or the flat around a pad)."""
+        lo, hi = (-INF, INF) if between is None else (checks.real("between", end) for end in between)
+        part = (self.points >= lo) & (self.points <= hi)
+        if np.count_nonzero(part) < 2:
+            raise ValueError(f"between = ({lo:g}, {hi:g}) holds {np.count_nonzero(part)} points of the trace: a line needs at least 2")
+        offset, slope = fits.line(self.points[part], self.heights[part])
+        return Sampled(self.points, self.heights - (offset + slope * self.points), self.smoothing)
+
+    def fit_rounded_flat(self) -> fits.RoundedFlatFit:
+        """Half-flat a, radius R, centre and tilt of the rounded flat nearest to the measured points, with what it leaves of them."""
+        return fits.rounded_flat(self.points, self.heights)
+
+
+# -- what is not a trace -------------------------------------------------------------------------------------------------
+
+
+def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array]:
+    points, heights = (_numbers(name, values) for name, values in (("x", x), ("h", h)))
+    if len(points) != len(heights):
+        raise ValueError(f"{len(points)} values of x and {len(heights)} of h: give a height for each point")
+    missing = ~(np.isfinite(points) & np.isfinite(heights))
+    if missing.any():
+        if not mend:
+            k = int(np.argmax(missing))
+            raise ValueError(
+                f"{np.count_nonzero(missing)} of {len(points)} points of the trace are not finite, the first x[{k}] = {points[k]:g}, "
+                f"h[{k}] = {heights[k]:g}: leave them out, or give mend = True"
+            )
+        points, heights = points[~missing], heights[~missing]
+    wrong = np.flatnonzero(np.diff(points) <= 0.0)
+    if wrong.size:
+        if not mend:
+            k = int(wrong[0])
+            what = "is given twice" if points[k] == points[k + 1] else f"is followed by {points[k + 1]:.9g}"
+            raise ValueError(
+                f"x does not ascend at {len(wrong)} places, the first x[{k}] = {points[k]:.9g} {what}: "
+                "mend = True sorts x and averages the heights of equal x"
+            )
+        points, at, count = np.unique(points, return_inverse=True, return_counts=True)
+        heights = np.bincount(at, heights) / count
+    if len(points) < FEWEST:
+        raise ValueError(f"{len(points)} points are no trace: a cubic spline needs at least {FEWEST}")
+    return points, heights
+
+
+def _numbers(name: str, values: Any) -> Array:
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is not a list of numbers: give an array of floats") from None
+    if array.ndim != 1:
+        raise ValueError(f"{name} has shape {array.shape}: give a list of numbers")
+    return array + 0.0  # no -0.0: equal traces have equal hashes
+
+
+def _smoothing(smoothing: Any, points: Array) -> Smoothing:
+    if smoothing == "gcv":
+        return "gcv"
+    if isinstance(smoothing, str):
+        raise ValueError(f'smoothing = {smoothing!r} is not known: give 0, a number λ > 0, or "gcv"')
+    lam = checks.not_negative("smoothing", smoothing)
+    if lam > longest_lambda(points):
+        raise ValueError(f"smoothing = {lam:g} leaves a straight line of the trace: give less than {longest_lambda(points):.3g}")
+    return lam
+
+
+def _factors(scale: Any) -> Sequence[float]:
+    factors = tuple(scale) if isinstance(scale, (tuple, list)) else (scale, scale)
+    if len(factors) != 2:
+        raise ValueError(f"scale = {scale!r} is not a factor or a pair: give one for x and one for h")
+    factors = tuple(checks.finite("scale", f) for f in factors)
+    if factors[0] <= 0.0 or factors[1] == 0.0:
+        raise ValueError(f"scale = {scale!r}: the factor of x must be positive and that of h not zero")
+    return factors
