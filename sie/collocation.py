@@ -7,9 +7,9 @@ The singular part maps p_n to one constant times p̃_{n-κ}, orthonormal for 1/w
 the identity, moved by κ places, plus the coefficients of what is smooth; side conditions fill the places that κ = 1 leaves open, and
 free constants u_j answer the equation too many that κ = -1 brings.
 
-Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`). Otherwise the matrix is square, and about as well
-conditioned as the identity plus k (`system`). The sizes grow until coefficients have decayed, the residual is small at points that were
-not used, and the kernel's own coefficients show that its integrals are resolved.
+Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`). Otherwise the matrix is square, and
+about as well conditioned as the identity plus k (`system`). The sizes grow until coefficients have decayed, the residual is small at
+points that were not used, and the kernel's own coefficients show that its integrals are resolved.
 
 Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J. Numer. Anal. 19 (1982), for the weighted
 spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. Comput. 17 (1996), for GMRES on equations of the second kind.
