@@ -106,6 +106,7 @@ def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | No
         theta: Exponent = -math.atan2(b.real, a.real) / math.pi
     else:
         theta = cmath.log((a - 1j * b) / (a + 1j * b)) / (2j * math.pi)
+        theta = theta if theta.imag else theta.real  # a and b of one phase; equal weights must be of equal type, as keys of caches
     alpha, beta = _end(theta, bounded[1]), _end(-theta, bounded[0])
     if alpha is None or beta is None:
         return None

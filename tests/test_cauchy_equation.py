@@ -33,6 +33,16 @@ def test_the_index_counts_singular_less_bounded_ends(ends, a):
         assert (0 < exponent.real < 1) if kind == BOUNDED else (-1 < exponent.real < 0)
 
 
+def test_constants_of_one_phase_have_real_exponents():
+    """A complex multiple of an equation is the same equation; a complex weight equal to a real one would be mistaken for it in a cache."""
+    phase = 0.8 + 0.05j
+    turned = sie.CauchyEquation((0.0, 1.0), phase, a=phase, b=phase, ends=KINDS[1])
+    plain = sie.CauchyEquation((0.0, 1.0), 1.0, a=1.0, b=1.0, ends=KINDS[1])
+    assert turned.weights == plain.weights
+    assert all(isinstance(e, float) for e in turned.exponents[0])
+    assert turned.solve()(0.3) == pytest.approx(plain.solve()(0.3), rel=1e-15)
+
+
 @pytest.mark.parametrize("first", KINDS)
 @pytest.mark.parametrize("second", KINDS)
 def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(first, second):
