@@ -7,7 +7,7 @@ pieces at a break are near a point, the poles 1/(z - e) of their derivatives are
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,34 @@ from . import chebyshev
 from .batched import Index, place, within
 from .summation import add_pairs, chunks
 
-if TYPE_CHECKING:
-    from .potential import Plane, Points
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+class Points(NamedTuple):
+    """Points of the upper half-plane with z - x1, z - x2, the roots of both, R, (z - x1)(z - x2)/R, and that times R': here R, z - m."""
+
+    z: Complex
+    left: Complex
+    right: Complex
+    root1: Complex
+    root2: Complex
+    R: Complex
+    divisor: Complex
+    mean: Complex
+
+    def at(self, where: Any) -> Points:
+        return Points(*(values[where] for values in self))
+
+
+class Frame(Protocol):
+    """What a `Plane` knows of the edges' exponents."""
+
+    panels: Any
+
+    def points(self, z: Complex) -> Points: ...
+    def weight(self, end: tuple[Any, Any, Any]) -> Any: ...
+    def logarithm(self, end: tuple[Any, Any, Any], at: Points) -> Complex: ...
 
 
 class _Series(NamedTuple):
@@ -46,7 +69,7 @@ class _Poles(NamedTuple):
 class BatchedPlane:
     """The near field of a `Plane` whose panels are many."""
 
-    def __init__(self, plane: Plane) -> None:
+    def __init__(self, plane: Frame) -> None:
         self.plane, self.panels = plane, plane.panels
 
     def near(self, z: Complex) -> tuple[Complex, Complex]:

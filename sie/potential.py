@@ -15,13 +15,13 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .batched_plane import BatchedPlane
+from .batched_plane import BatchedPlane, Points
 from .geometry import quadrature_order
 from .interval import Interval
 from .panels import FAR_FIELD, SEEN_JUMP, Panels
@@ -49,22 +49,6 @@ def outer_series(series: Array, contact: Interval, z: Complex) -> tuple[Complex,
         steep += n * series[n]
         steep *= rho
     return F, -steep / root
-
-
-class Points(NamedTuple):
-    """Points of the upper half-plane with z - x1, z - x2, the roots of both, R, (z - x1)(z - x2)/R, and that times R': here R, z - m."""
-
-    z: Complex
-    left: Complex
-    right: Complex
-    root1: Complex
-    root2: Complex
-    R: Complex
-    divisor: Complex
-    mean: Complex
-
-    def at(self, where: Any) -> Points:
-        return Points(*(values[where] for values in self))
 
 
 class Plane:

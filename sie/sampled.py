@@ -89,7 +89,13 @@ class Sampled(Profile):
         else:
             x, h = read_topography(path)
         made = cls(factors[0] * x, factors[1] * h, smoothing, mend)
-        given = {"columns": (columns, (0, 1)), "scale": (scale, 1.0), "skip": (skip, 0), "smoothing": (smoothing, 0.0), "mend": (mend, False)}
+        given = {
+            "columns": (columns, (0, 1)),
+            "scale": (scale, 1.0),
+            "skip": (skip, 0),
+            "smoothing": (smoothing, 0.0),
+            "mend": (mend, False),
+        }
         options = "".join(f", {name}={value!r}" for name, (value, default) in given.items() if value != default)
         object.__setattr__(made, "source", f"Sampled.read({str(path)!r}{options})")
         return made

@@ -24,12 +24,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev, lerch
+from .batched_plane import Points
 from .density import PanelDensity
 from .geometry import Geometry, quadrature_order
 from .interval import EPS, Interval
 from .moments import Moments
 from .panels import Panels
-from .potential import Plane, Points
+from .potential import Plane
 from .slope import Slope
 
 Array = NDArray[np.float64]

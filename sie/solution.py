@@ -6,7 +6,7 @@ from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -141,8 +141,8 @@ class Solution:
 
     @property
     def slope_density(self) -> SlopeDensity:
-        assert isinstance(self.pressure, SlopeDensity)
-        return self.pressure
+        """The pressure where it is not that of a bonded punch."""
+        return cast(SlopeDensity, self.pressure)
 
     @property
     def _slope(self) -> Slope:

@@ -128,7 +128,9 @@ def _index(path: Path, column: Column, header: list[str], width: int) -> int:
             raise ValueError(f"{path.name} has no column {column!r}, {known}: give a name, or a number from 0 to {width - 1}")
         return names.index(column.lower())
     if isinstance(column, bool) or not isinstance(column, int) or not 0 <= column < width:
-        raise ValueError(f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header")
+        raise ValueError(
+            f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header"
+        )
     return column
 
 

@@ -112,7 +112,7 @@ class Zone:
 
     def strong(self, rho: float) -> float:
         """∫p sqrt((s - c_far)/(s - c_near)) ds."""
-        return float(self.force @ np.sqrt((self.inwards + 2.0 * rho) / self.inwards))
+        return float(self.force @ (np.sqrt(self.inwards + 2.0 * rho) / np.sqrt(self.inwards)))
 
     def weak(self, rho: float) -> float:
         """∫p sqrt((s - c_near)/(s - c_far)) ds."""
