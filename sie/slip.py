@@ -84,7 +84,8 @@ def slip(step: Step) -> Slip:
         return sliding(step)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):
         return _one_way(step, math.copysign(1.0, Q))
-    for sign in (math.copysign(1.0, Q),) if Q else (1.0, -1.0):
+    # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip is on the other side
+    for sign in (math.copysign(1.0, Q), -math.copysign(1.0, Q)):
         tried = _fitting(step, sign)
         if tried is not None:
             return tried

@@ -213,7 +213,12 @@ class Slope:
 
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
-        return replace(self, breaks=self.breaks + dx, origins=self.origins + dx, functions=functions)
+        breaks, origins = self.breaks + dx, self.origins + dx
+        kept = np.diff(breaks) > 0.0  # a piece that is shorter than the doubles are apart there is gone
+        if kept.all():
+            return replace(self, breaks=breaks, origins=origins, functions=functions)
+        ends = np.append(breaks[:-1][kept], breaks[-1])
+        return Slope(ends, origins[kept], self.coefficients[kept], self.degrees[kept], functions)
 
     def mirrored(self) -> Slope:
         """The slope of h(-x), that is -H(-x)."""

@@ -48,6 +48,7 @@ ROWS = 4096  # abscissae at a time
 MAX_STEPS = 200
 MAX_SWEEPS = 60
 FIRST_STEP = 16.0
+SHORTEST = 1e-120  # of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
 SETTLED = 8.0 * EPS
 
 
@@ -238,7 +239,7 @@ def _root(function: Callable[[float], float], guess: float, limit: float) -> flo
     before: tuple[float, float] | None = None
     for _ in range(MAX_STEPS):
         f = function(u)
-        if f == 0.0:
+        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
             return u
         low, high = (u, high) if f < 0.0 else (low, u)
         new = u - f * (u - before[0]) / (f - before[1]) if before is not None and f != before[1] else -1.0
