@@ -138,7 +138,7 @@ def examples() -> dict[str, str]:
 
 
 def _examples() -> tuple[str, ...]:
-    return (*profile_kinds(), "partial-slip", "fretting-cycle")
+    return (*profile_kinds(), "partial-slip", "fretting-cycle", "sliding")
 
 
 # -- values, each with the sentence that refuses it --------------------------------------------------------------------
