@@ -20,6 +20,7 @@ from .errors import ContactError, LoadError
 from .gap import gap
 from .jacobi_density import JacobiDensity
 from .normal import ECONOMY, Normal, normal_contact, pressure
+from .remedy import with_smoothing
 from .scene import Scene
 from .slope import Slope
 
@@ -57,6 +58,12 @@ class Solution:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        try:
+            return self._one_patch()
+        except ContactError as error:
+            raise with_smoothing(error, self.scene, lambda scene: Solution(scene, self.tol, self.economy)._one_patch()) from None
+
+    def _one_patch(self) -> Normal:
         try:
             found = normal_contact(self.scene, self.tol, self.economy)
         except LoadError:
