@@ -72,7 +72,8 @@ class Certificate:
         return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+        found = {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+        return found | {name: list(map(list, found[name])) for name in ("tension", "overlap")}
 
     def __str__(self) -> str:
         rows: tuple[tuple[str, str], ...] = (
@@ -237,7 +238,7 @@ def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tupl
 
 
 def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
-    """Points beside the contact, and the gap there relative to its largest value within one half-width: both sides out to FAR half-widths."""
+    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
     contact = density.contact
     lo, hi = slope.domain
     r = contact.r

@@ -1,8 +1,8 @@
 """Composite Gauss-Legendre in the angle φ over a contact, for a function that is not smooth at the breaks of a slope.
 
-A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative of H that jumps there. Panels are graded
-towards the breaks, and none is much longer than its neighbours. Of few breaks each is taken for a corner; of many (a trace) a break is graded
-for as many levels as the jumps there ask for, which for a smooth spline is none.
+A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative of H that jumps there. Panels are
+graded towards the breaks, and none is much longer than its neighbours. Of few breaks each is taken for a corner; of many (a trace) a break
+is graded for as many levels as the jumps there ask for, which for a smooth spline is none or one.
 """
 
 from __future__ import annotations
@@ -88,13 +88,14 @@ def _panels(contact: Interval, slope: Slope) -> tuple[Array, Array]:
 
 
 def _panels_of_many(contact: Interval, slope: Slope) -> tuple[Array, Array]:
-    """The same where the slope has many breaks: one panel a piece, graded where a break asks for it; and the middles of the largest pieces."""
+    """The same where the slope has many breaks: one panel a piece, graded where a break asks for it; and middles of the largest pieces."""
     cut = angles(contact, inner_breaks(contact, slope))
     ends = np.concatenate(([0.0], cut, [np.pi]))
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
     parts = np.ceil(length / LONGEST).astype(int)
-    within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * (np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts))
+    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)  # of each part within its piece
+    within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
     middle = 0.5 * (ends[:-1] + ends[1:])
     chosen = middle[_largest(middle, length)]
     cuts = [within, [np.pi], chosen, length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]

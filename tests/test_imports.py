@@ -18,8 +18,9 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "panels", "density",
     "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "normal", "gap", "composite", "check", "bonded", "remedy", "plan", "solution",
-    "scenefile", "export", "plot", "__main__",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene",
+    "edges", "normal", "gap", "composite", "check", "bonded", "remedy", "plan", "solution",
+    "scenefile", "compare", "export", "plot", "__main__",
 )  # fmt: skip
 
 
