@@ -150,7 +150,7 @@ class _Basis:
 
     @cached_property
     def _probes(self) -> tuple[Array, Array]:
-        signs = 2.0 * np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) - 1.0
+        signs: Array = 2.0 * np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) - 1.0
         projected: Array = self.values.T @ signs
         return signs, projected
 
