@@ -1,13 +1,14 @@
 """The command line.
 
     sie solve scene.toml [--want ...] [--plot FILE] [--csv FILE] [--json [FILE]] [--field FILE] [--grid NXxNY] [--points N] [--tol T]
+    sie compare scene.toml fem.csv [--tol T] [--plot FILE] [--json [FILE]]      a mesh result against the exact one: error norms, shift
     sie plan scene.toml [--want ...]          what would be computed, what would be skipped, and why
     sie example [NAME]                        a commented scene file to start from; without NAME, the list of them
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output (--csv, --json).
 
-Exit codes: 0 solved; 1 solved, but the certificate is not met; 2 refused, with one sentence on standard error and no file touched;
-130 interrupted; 141 nobody reads the output any more.
+Exit codes: 0 solved; 1 solved, but the certificate is not met, or the mesh result differs by more than --tol; 2 refused, with one sentence
+on standard error and no file touched; 130 interrupted; 141 nobody reads the output any more.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from types import ModuleType
 from typing import Any, NoReturn
 
 from . import __version__, export, scenefile
+from .compare import Comparison, compare, read_mesh
 from .errors import ContactError
 from .grid import SIZE, SUFFIXES, Grid, file_bytes
 from .history import follow
@@ -33,7 +35,7 @@ from .scenefile import SceneFile
 from .solution import Solution, solve
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, INTERRUPTED, UNREAD = 0, 1, 2, 130, 141
-COMMANDS = ("solve", "plan", "example")
+COMMANDS = ("solve", "compare", "plan", "example")
 OPTIONS = ("--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol", "--help", "--version")
 STANDARD = "-"
 MOST_POINTS = 10**6
@@ -87,6 +89,31 @@ def _solution(file: SceneFile, tol: float) -> Solution:
     return follow(file.scene, Path(file.path), tol=tol)[-1] if file.path else solve(file.scene, tol=tol)
 
 
+def _compare(arguments: argparse.Namespace) -> int:
+    if arguments.mesh is None:
+        raise ValueError("give the mesh result after the scene: sie compare scene.toml fem.csv, with columns x and p")
+    outputs = _outputs(arguments)
+    file = _scene(arguments)
+    mesh = read_mesh(arguments.mesh)
+    if not arguments.tol > 0.0:
+        raise ValueError(f"tol = {arguments.tol:g} is not positive: give the l2 error that is let pass, relative")
+    solution = _solution(file, TOL)
+    found = compare(solution, mesh, arguments.tol)
+    contents = {path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()}
+    shown = contents.pop(pathlib.Path(STANDARD), None)
+    export.write_files(contents)
+    _print(shown.decode() if shown is not None else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n")
+    return CERTIFIED if found.ok else NOT_CERTIFIED
+
+
+def _compared(kind: str, path: pathlib.Path, solution: Solution, found: Comparison, file: SceneFile) -> bytes:
+    if kind == "json":
+        return export.strict_json(found.as_dict()).encode()
+    figure = _pictures().comparison_picture(solution, found, file.units, file.title)
+    data: bytes = _pictures().picture_bytes(figure, path.suffix[1:].lower())
+    return data
+
+
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
     _solution(file, TOL)  # computes nothing, but refuses what is not covered
@@ -110,7 +137,7 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _scene(arguments: argparse.Namespace) -> SceneFile:
     """The scene file, with --want in place of what the file wants."""
-    want = scenefile.wants("--want", [name for word in arguments.want or () for name in word.split(",") if name])
+    want = scenefile.wants("--want", [name for word in getattr(arguments, "want", None) or () for name in word.split(",") if name])
     if arguments.scene is None:
         raise ValueError(f"give the scene file first: sie {arguments.command} scene.toml; `sie example` lists some to start from")
     standard = arguments.scene == STANDARD
@@ -120,7 +147,7 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """Where each kind of output goes. Raises ValueError unless all of them can be written."""
-    given = ((kind, getattr(arguments, kind)) for kind in ("plot", "csv", "json", "field"))
+    given = ((kind, getattr(arguments, kind, None)) for kind in ("plot", "csv", "json", "field"))
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
     if "plot" in outputs:
         _check_picture(outputs["plot"])
@@ -128,6 +155,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
         path = outputs["field"]
         raise ValueError(f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}')
     taken = {pathlib.Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
+    if getattr(arguments, "mesh", None) is not None:
+        taken[pathlib.Path(arguments.mesh).resolve()] = "the mesh result"
     for kind, path in outputs.items():
         place = path.resolve()
         if place in taken and path == pathlib.Path(STANDARD):
@@ -239,12 +268,16 @@ def _parser() -> argparse.ArgumentParser:
     about = "Plane elastic contact: edges, pressure, gap and stress, with a certificate of their accuracy."
     parser = _Parser(prog="sie", description=about, allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="{solve,plan,example}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="{solve,compare,plan,example}")
     solving = commands.add_parser("solve", help="solve a scene and print, draw or write the answer", allow_abbrev=False)
+    comparing = commands.add_parser(
+        "compare", help="a mesh result against the exact one: error norms, best shift, a picture", allow_abbrev=False
+    )
     planning = commands.add_parser("plan", help="what would be computed, what would be skipped, and why", allow_abbrev=False)
     showing = commands.add_parser("example", help="print a commented scene file to start from", allow_abbrev=False)
-    for command in (solving, planning):
+    for command in (solving, comparing, planning):
         command.add_argument("scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input")
+    for command in (solving, planning):
         command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})")
     solving.add_argument(
         "--plot", metavar="FILE", help="draw pressure, gap and shear, or with --want stress its contours: .png ... (needs Matplotlib)"
@@ -255,8 +288,12 @@ def _parser() -> argparse.ArgumentParser:
     solving.add_argument("--grid", metavar="NXxNY", type=_grid, default=SIZE, help="points of that grid (%(default)s)")
     solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
     solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
+    comparing.add_argument("mesh", nargs="?", metavar="fem.csv", help="columns x and p or q, named in the first line")
+    comparing.add_argument("--tol", metavar="T", type=float, default=1e-2, help="l2 error, relative, that is let pass (%(default)s)")
+    comparing.add_argument("--plot", metavar="FILE", help="draw both and their difference (needs Matplotlib)")
+    comparing.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write the norms; without FILE, print them")
     showing.add_argument("name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list")
-    for command, run in ((solving, _solve), (planning, _plan), (showing, _example)):
+    for command, run in ((solving, _solve), (comparing, _compare), (planning, _plan), (showing, _example)):
         command.set_defaults(run=run)
     return parser
 

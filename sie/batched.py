@@ -55,7 +55,7 @@ def combined(pieces: Pieces, z: Any, root: Any, log_of: Logarithm) -> tuple[Any,
         if beyond.any():
             _add(V, part, i[beyond], root[i[beyond]] * _quadrature(pieces, k[beyond], z[i[beyond]]))
         k, i, s = k[near], i[near], s[near]
-        _add(V, part, i, _closed(pieces, k, i, s, root, log_of))
+        _add(V, part, i, _closed(pieces, (k, i, s), root, log_of))
         first.append(i[k == 0])
         last.append(i[k == len(pieces.series) - 1])
     none = [np.zeros(0, dtype=np.int64)]
@@ -85,8 +85,9 @@ def _quadrature(pieces: Pieces, k: Index, z: Any) -> Any:
     return (pieces.charge[k] / distance).sum(axis=1)
 
 
-def _closed(pieces: Pieces, k: Index, i: Index, s: Any, root: Any, log_of: Logarithm) -> Any:
-    """H (L_hi - L_lo) + root Σ q_m U_m / l; an edge of the contact has no logarithm."""
+def _closed(pieces: Pieces, pairs: tuple[Index, Index, Any], root: Any, log_of: Logarithm) -> Any:
+    """H (L_hi - L_lo) + root Σ q_m U_m / l of pairs (k, i, s); an edge of the contact has no logarithm."""
+    k, i, s = pairs
     g = pieces.geometry
     difference = np.zeros_like(s)
     for end, sign, edge in ((1, 1.0, len(pieces.series) - 1 if g.cut_right else -1), (0, -1.0, 0 if g.cut_left else -1)):

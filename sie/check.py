@@ -11,39 +11,31 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import chebyshev
 from .adaptive import refined
+from .composite import Rule, angles, composite_rule, inner_breaks, position
 from .density import SlopeDensity
 from .errors import InequalityError
 from .gap import gap
 from .interval import EPS, Interval
-from .sliding import edge_rule
 from .slope import Slope
 
 Array = NDArray[np.float64]
+Intervals = tuple[tuple[float, float], ...]
 
-NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
-GRADING = 0.25
 EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
-FEW_BREAKS = 40
-TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
-LEVELS = 26  # GRADING**LEVELS is rounding, for the logarithm under a corner of the profile ...
-KINK_LEVELS = 14  # ... and its square is, for the x ln|x| under a corner of the slope
-COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
-POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
+NAMED = 3  # intervals that a message names
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 
 
@@ -54,6 +46,7 @@ class Certificate:
     abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
     implied         the error of the pressure that would leave this residual
     error           the estimated relative error of the pressure: the largest of these
+    tension, overlap    the intervals of x where p < 0 in contact and gap < 0 outside, as closely as these were scanned
     """
 
     residual: float
@@ -64,6 +57,8 @@ class Certificate:
     lowest_gap: float
     abscissae: float
     tol: float
+    tension: Intervals = ()
+    overlap: Intervals = ()
     shear: ShearCertificate | None = None
 
     @property
@@ -81,10 +76,11 @@ class Certificate:
 
     def as_dict(self) -> dict[str, Any]:
         numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {"error": self.error, "ok": self.ok}
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")}
         return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
 
     def __str__(self) -> str:
-        rows = (
+        rows: tuple[tuple[str, str], ...] = (
             ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
             ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
             ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
@@ -94,8 +90,11 @@ class Certificate:
             ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
             ("estimated relative error of the pressure", f"{self.error:.1e}"),
         )
+        for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
+            rows += ((f"{name} for {_shown(intervals)}", ""),) if intervals else ()
         verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
-        lines = [f"{name:<48} {value:>9}" for name, value in (*rows, *(self.shear.rows if self.shear is not None else ()))]
+        rows += self.shear.rows if self.shear is not None else ()
+        lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
         return "\n".join([*lines, *(self.shear.remarks if self.shear is not None else ()), verdict])
 
 
@@ -161,7 +160,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     peak = float(p.max())
     P, r = density.resultant, contact.r
     residual = _residual(density, slope, rule, p)
-    lowest_gap, _ = _lowest_gap(density, slope)
+    outside, gaps = _gaps(density, slope)
     of_force, of_equation = _rounding(density, slope, rule, p)
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,
@@ -169,9 +168,11 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         force=abs(float(weight @ p) - P) / P,
         moment=abs(float(weight @ (p * (x - contact.m))) + P * contact.m - density.moment) / (P * r),
         lowest_pressure=min(float(p.min()) / peak, 0.0),
-        lowest_gap=min(lowest_gap, 0.0),
+        lowest_gap=float(gaps.min(initial=0.0)),
         abscissae=max(of_force / P, of_equation / peak),
         tol=tol,
+        tension=_below(x, p / peak),
+        overlap=_below(outside, gaps),
     )
 
 
@@ -182,123 +183,66 @@ def _finite(p: Array) -> Array:
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
-    with_breaks = np.concatenate((_scan(density.contact, slope), _inner_breaks(density.contact, slope)))
-    p = density(with_breaks)
+    x = np.concatenate((_scan(density.contact, slope), inner_breaks(density.contact, slope)))
+    p = density(x)
     peak = float(p[np.isfinite(p)].max())
+    patch = f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would"
     worst = int(np.argmin(p))
     if p[worst] < -TOLERATED * peak or peak <= 0.0 or min(density.k1, density.k2) < 0.0:
-        where = float(with_breaks[worst]) if min(density.k1, density.k2) >= 0.0 else density.interval[int(density.k2 < density.k1)]
+        where = float(x[worst]) if min(density.k1, density.k2) >= 0.0 else density.interval[int(density.k2 < density.k1)]
+        intervals = _below(x, p / abs(peak))
         raise InequalityError(
-            f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would need tension at x = {where:.6g} "
-            f"(p = {float(p[worst]):.3g}, peak {peak:.3g}): the profile is not convex there and lifts off; "
+            f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak {peak:.3g}){_among(intervals)}: "
+            "the profile is not convex there and lifts off; "
             "several patches of contact are not covered yet, raise the load or smooth the profile",
             x=where,
             edges=density.interval,
+            tension=intervals,
         )
-    lowest, where = _lowest_gap(density, slope)
-    if lowest < -TOLERATED:
+    x, gaps = _gaps(density, slope)
+    if gaps.size and gaps.min() < -TOLERATED:
+        where, intervals = float(x[np.argmin(gaps)]), _below(x, gaps)
         raise InequalityError(
-            f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would overlap the body at x = {where:.6g}: "
+            f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
             "the profile touches there too; several patches of contact are not covered yet, lower the load or smooth the profile",
             x=where,
             edges=density.interval,
+            overlap=intervals,
         )
+
+
+def _below(x: Array, values: Array) -> Intervals:
+    """The intervals where values are below -TOLERATED, from where they change sign between two of the points."""
+    order = np.argsort(x, kind="stable")
+    x, values = x[order], values[order]
+    low = np.concatenate(([False], values < -TOLERATED, [False]))
+    starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
+
+    def crossing(inner: int, outer: int) -> float:
+        if not 0 <= outer < len(x) or not np.isfinite(values[outer]) or values[outer] <= 0.0:
+            return float(x[inner])
+        return float(x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer]))
+
+    return tuple((crossing(i, i - 1), crossing(j, j + 1)) for i, j in zip(starts.tolist(), ends.tolist(), strict=True))
+
+
+def _shown(intervals: Intervals) -> str:
+    shown = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in intervals[:NAMED])
+    return f"x in {shown}{f' and {len(intervals) - NAMED} more' if len(intervals) > NAMED else ''}"
+
+
+def _among(intervals: Intervals) -> str:
+    """The intervals, in a sentence that has named their worst point."""
+    return f", for {_shown(intervals)}" if any(lo < hi for lo, hi in intervals) else ""
 
 
 def _scan(contact: Interval, slope: Slope) -> Array:
     """Points inside every piece in the contact, evenly in the angle: many where there are few pieces."""
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
-    ends = np.concatenate(([0.0], _angles(contact, _inner_breaks(contact, resolution)), [np.pi]))
+    ends = np.concatenate(([0.0], angles(contact, inner_breaks(contact, resolution)), [np.pi]))
     n = max(SCANNED // (len(ends) - 1), 3)
     fractions = (np.arange(n) + 0.5) / n
-    return _position(contact, (ends[:-1, None] + np.diff(ends)[:, None] * fractions).ravel())
-
-
-def _inner_breaks(contact: Interval, slope: Slope) -> Array:
-    b = slope.breaks
-    inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
-    return inner
-
-
-class Rule(NamedTuple):
-    """Nodes x, weights of ∫ dx, and ends of large panels, which no node is near; `inner` nodes, in `ends`, are not next to an edge."""
-
-    x: Array
-    weight: Array
-    between: Array
-    inner: slice
-    ends: Interval
-
-
-def composite_rule(contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0) -> Rule:
-    """The composite rule; `also` are places inside to be treated as breaks.
-
-    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
-    edges take the powers ψ^(±2ε) of sliding into their weights.
-    """
-    edges = _panels(contact, slope, np.zeros(0) if also is None else also)
-    g, w = chebyshev.gauss_legendre(NODES)
-    length = np.diff(edges)
-    angle = edges[:-1, None] + length[:, None] * g
-    weight = length[:, None] * w
-    if epsilon:
-        for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
-            g, w = edge_rule(NODES, power)
-            angle[k] = abs(start - length[k] * g)
-            weight[k] = length[k] * w / g**power
-    angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
-    size = np.minimum(length[:-1], length[1:])
-    # One in each of POINTS parts of the contact: the end of the largest panels there
-    part = np.minimum((edges[1:-1] * (POINTS / np.pi)).astype(int), POINTS - 1)
-    best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
-    chosen = sorted(best.values())
-    if not epsilon:
-        return Rule(_position(contact, angle), weight, _position(contact, edges[1:-1][chosen]), slice(None), contact)
-    large = edges[1:-1][[i for i in chosen if 0 < i < len(edges) - 3]]
-    x2, x1 = _position(contact, edges[[1, -2]]).tolist()
-    return Rule(_position(contact, angle), weight, _position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
-
-
-def _panels(contact: Interval, slope: Slope, also: Array) -> Array:
-    """The ends of the panels, as angles from the right edge."""
-    levels = KINK_LEVELS if slope.continuous else LEVELS
-    resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
-    cut = _angles(contact, np.union1d(_inner_breaks(contact, resolution), also))
-    # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
-    towards = cut if len(cut) <= FEW_BREAKS else _angles(contact, np.union1d(_inner_breaks(contact, slope), also))
-    ends = np.concatenate(([0.0], towards, [np.pi]))
-    cuts = [cut]
-    graded = GRADING ** np.arange(levels, 0, -1)
-    graded = graded[graded < 0.25]
-    for k, (lo, hi) in enumerate(pairwise(ends)):
-        left = graded if k > 0 else TOWARDS_EDGE
-        right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
-        cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right)))
-    return _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
-
-
-def _balanced(edges: Array) -> Array:
-    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular next door is then far enough."""
-    while True:
-        length = np.diff(edges)
-        shortest = np.minimum(np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf])))
-        long = length > 1.01 * shortest / GRADING
-        if not long.any():
-            return edges
-        edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))
-
-
-def _angles(contact: Interval, x: Array) -> Array:
-    """Angles from the right edge, ascending."""
-    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
-    return psi[::-1]
-
-
-def _position(contact: Interval, angle: Array) -> Array:
-    """x at an angle from the right edge, counted from the nearer one."""
-    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
-    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
-    return np.where(angle < 0.5 * np.pi, right, left)
+    return position(contact, (ends[:-1, None] + np.diff(ends)[:, None] * fractions).ravel())
 
 
 def _residual(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> Array:
@@ -306,11 +250,13 @@ def _residual(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> Arra
     at, inner = rule.between, rule.inner
     values = density(at)
     whole = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
-    distance = at[:, None] - rule.x
-    distance[distance == 0.0] = np.inf  # a contact of a few ulp: the node is the point
-    integrand = np.broadcast_to(p, distance.shape).copy()
-    integrand[:, inner] -= values[:, None]
-    integral = (integrand / distance) @ rule.weight + whole
+    integral = whole.copy()
+    for k in range(len(at)):
+        distance = at[k] - rule.x
+        distance[distance == 0.0] = np.inf  # a contact of a few ulp: the node is the point
+        integrand = p.copy()
+        integrand[inner] -= values[k]
+        integral[k] += (integrand / distance) @ rule.weight
     return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * slope(at)
 
 
@@ -345,8 +291,8 @@ def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tupl
     return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(slope(step) - slope(at))).max())
 
 
-def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
-    """(lowest gap relative to its largest value within one half-width, where), over a scan of both sides out to FAR half-widths."""
+def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
+    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
     contact = density.contact
     lo, hi = slope.domain
     r = contact.r
@@ -360,11 +306,10 @@ def _lowest_gap(density: SlopeDensity, slope: Slope) -> tuple[float, float]:
     left, right = (np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0))
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
-        return 0.0, contact.x2
+        return x, x
     values = gap(x, density, slope)
     scale = max(
         float(np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(initial=0.0)),
         density.resultant / density.half_modulus * 1e-3,
     )
-    worst = int(np.argmin(values))
-    return float(values[worst]) / scale, float(x[worst])
+    return x, values / scale

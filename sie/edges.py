@@ -38,6 +38,7 @@ ROUGH = 1e-2
 # Polishing stops when a step is below this many units of rounding of the distance it corrects.
 POLISHED = 4.0 * EPS
 FARTHEST = 0.5  # of r: a longer step in polishing means that the profile is not convex there
+ASTRAY = 1e-6  # of r: polishing that ends with longer steps may not have found a contact
 SETTLED = 1e-12  # below this fraction of r steps that no longer shrink are rounding
 MAX_STEPS = 200
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the distance, and so many steps settle it.
@@ -284,7 +285,7 @@ class Search:
 
     def _polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
         """Newton for both edges at once; the Jacobian is diagonal at the solution."""
-        previous = np.inf
+        previous, settled = np.inf, False
         for _ in range(MAX_STEPS):
             k = self.moments(contact)
             r = contact.r
@@ -299,10 +300,25 @@ class Search:
                 break
             contact = contact.moved(step1, step2)
             # Rim by rim the steps end at rounding of the moments, not of r: stop when they no longer shrink
+            settled = size <= ASTRAY
             if size >= 0.25 * previous or size == 0.0:
                 break
             previous = size
+        if not settled:
+            self._refuse_astray(contact, target, left_sharp)
         return contact
+
+    def _refuse_astray(self, contact: Interval, target: float, left_sharp: bool) -> None:
+        """Raises LoadError unless the contact carries the load: of a profile with several bumps the search may end between two of them."""
+        k = self.moments(contact)
+        carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
+        if abs(carried - target) + askew > ASTRAY * target:
+            raise LoadError(
+                f"no single patch of contact was found that carries the load {target * self.half_modulus:.6g}: "
+                f"the search ended at [{contact.x1:.6g}, {contact.x2:.6g}] with {carried * self.half_modulus:.6g}; "
+                "the profile has several bumps, raise the load, lower it, or smooth the profile",
+                load=carried * self.half_modulus,
+            )
 
     # -- a prescribed half-width ----------------------------------------------------------------------------------------
 

@@ -11,7 +11,7 @@
            shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost, x: [..], q: [..],
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
-           check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, error, ok}                   if wanted
+           check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, tension, overlap, error, ok} if wanted
            stress {x, xx, yy, xy: [..]} on the surface                                                               if wanted
            yield {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion};  tension {value, x}              if wanted
 
@@ -49,6 +49,7 @@ POINTS = 401  # in the contact, unless told otherwise
 BESIDE = 0.25
 REACH = 0.6
 # Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is below the flat top that rounding leaves.
+PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
 ZOOMS = 8
 ZOOM_POINTS = 41
 LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
@@ -74,10 +75,10 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
     """About `points` abscissae from x1 to x2, ascending, among them the edges and the breaks of the slope.
 
     Points gather at edges and breaks like Chebyshev's. Half of them are shared out by length (in the angle of the contact), half equally,
-    so that a narrow rim has its own.
+    so that a narrow rim has its own. Of very many breaks, as a trace has, none is a place of its own.
     """
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
-    ends = np.array([x1, *(b for b in solution.scene.profile.breaks if x1 < b < x2), x2])
+    ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
     angle = np.arccos(np.clip((m - ends) / r, -1.0, 1.0))
     share = 0.5 * np.diff(angle) / np.pi + 0.5 / (len(ends) - 1)
     parts = [lo + (hi - lo) * _gathered(round(points * s)) for lo, hi, s in zip(ends[:-1], ends[1:], share, strict=True)]
@@ -89,8 +90,13 @@ def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
     (x1, x2), (lo, hi), reach = solution.edges, solution.scene.profile.domain, REACH * solution.half_width
     left, right = max(x1 - reach, lo), min(x2 + reach, hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
-    x = np.unique(np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, solution.scene.profile.breaks)))
+    x = np.unique(np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points))))
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
+
+
+def _corners(solution: Solution, points: int) -> tuple[float, ...]:
+    breaks = solution.scene.profile.breaks
+    return breaks if len(breaks) <= points // PER_BREAK else ()
 
 
 def abscissae(solution: Solution, points: int = POINTS) -> Array:
@@ -176,7 +182,12 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
 
 def json_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """Everything that the file wants, as the module's docstring describes."""
-    return json.dumps(_finite(as_dict(solution, file, points)), indent=2, allow_nan=False) + "\n"
+    return strict_json(as_dict(solution, file, points))
+
+
+def strict_json(value: Any) -> str:
+    """JSON with infinities as text."""
+    return json.dumps(_finite(value), indent=2, allow_nan=False) + "\n"
 
 
 def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[str, Any]:

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 More = Callable[[Array, float], Array] | None
 
 NODES = 20
+SHORT, SHORT_NODES = 0.125, 6  # ... and so few of them on a panel this short, relative to its θ (all singularities have Re θ = 0) and to 1
 LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
 
 
@@ -56,12 +57,18 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, mor
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
     theta = 2.0 * np.arcsinh(np.sqrt(distance / (2.0 * contact.r)))
     cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
-    g, w = chebyshev.gauss_legendre(NODES)
     beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)  # no double is nearer to the edge
 
     def integral(start: Array, length: Array) -> Array:
-        if not start.size:
-            return np.zeros(0)
+        short = length <= np.minimum(SHORT * start, SHORT)
+        out = np.zeros(start.shape)
+        for chosen, nodes in ((short, SHORT_NODES), (~short, NODES)):
+            if chosen.any():
+                out[chosen] = by_quadrature(start[chosen], length[chosen], nodes)
+        return out
+
+    def by_quadrature(start: Array, length: Array, nodes: int) -> Array:
+        g, w = chebyshev.gauss_legendre(nodes)
         t = start[:, None] + length[:, None] * g
         d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
         right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1

@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .compare import QUANTITIES, Comparison
 from .export import REACH, abscissae, ceiling, peak, summits
 from .history import Followed, follow
 from .path import Path
@@ -97,6 +98,43 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     lower.set_xlabel(f"$x$ ({view.length})", fontproperties=_font())
     for axes in shared[:-1]:
         axes.tick_params(labelbottom=False)
+    figure.align_ylabels()
+    if title:
+        figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
+    return figure
+
+
+def comparison_picture(solution: Solution, comparison: Comparison, units: Units = UNITS, title: str = "") -> Figure:
+    """For each quantity of a mesh result a panel with both curves, and one with their difference, as a part of the largest exact value."""
+    mesh, names = comparison.mesh, list(comparison.differences)
+    figure = Figure(figsize=(WIDTH, 0.5 + 2.5 * len(names)), dpi=DPI, layout="constrained")
+    panels = figure.subplots(2 * len(names), 1, sharex=True, height_ratios=(1.6, 1.0) * len(names))
+    factor, length = _scaled(solution.half_width, units.length)
+    x = np.unique(np.concatenate((abscissae(solution, POINTS), mesh.x)))
+    x = x[(x >= mesh.x[0]) & (x <= mesh.x[-1])]
+    for name, upper, lower in zip(names, panels[::2], panels[1::2], strict=True):
+        exact, at_mesh = (QUANTITIES[name](solution, at, np.zeros_like(at)) for at in (x, mesh.x))
+        finite = np.isfinite(at_mesh)
+        largest = float(np.abs(at_mesh[finite]).max()) or ceiling(solution)
+        scale, stress = _scaled(largest, units.stress)
+        bound = 2.0 * HEADROOM * largest
+        upper.plot(x * factor, np.clip(exact, -bound, bound) * scale, color=BLUE, linewidth=1.0, zorder=2, label="exact")
+        style = {"color": VERMILLION, "marker": "o", "markersize": 1.8, "linewidth": 0.0, "zorder": 3}
+        upper.plot(mesh.x * factor, mesh.values[name] * scale, label="mesh", **style)
+        upper.set_ylim(min(0.0, HEADROOM * float(np.min(at_mesh[finite])) * scale), HEADROOM * largest * scale)
+        upper.set_ylabel(f"${name}$ ({stress})", fontproperties=_font())
+        upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.1, ncols=2, prop=_font(SMALL), frameon=False)
+        difference = (mesh.values[name] - at_mesh)[finite] / largest
+        lower.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
+        lower.plot(mesh.x[finite] * factor, 100.0 * difference, color=VERMILLION, linewidth=0.9, zorder=2)
+        lower.set_ylabel("difference (%)", fontproperties=_font())
+        for axes in (upper, lower):
+            for edge in solution.edges:
+                axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=0.5)
+            _plain(axes)
+        lower.yaxis.set_major_locator(MaxNLocator(nbins=4))
+    panels[-1].set_xlabel(f"$x$ ({length})", fontproperties=_font())
+    panels[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
     figure.align_ylabels()
     if title:
         figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
@@ -264,9 +302,10 @@ def _draw_surface(axes: Axes, view: _View, y: Array, **style: Any) -> None:
     """The indenter's surface, with a vertical side where the indenter ends inside the window."""
     lo, hi = view.solution.scene.profile.domain
     x, wall = view.x, [4.0 * view.highest * _scaled(view.highest, view.units.length)[0]]
-    if view.left < lo:
+    corners = view.solution.scene.profile.ends_are_corners  # a trace just ends
+    if view.left < lo and corners[0]:
         x, y = np.concatenate((x[:1], x)), np.concatenate((wall, y))
-    if view.right > hi:
+    if view.right > hi and corners[1]:
         x, y = np.concatenate((x, x[-1:])), np.concatenate((y, wall))
     axes.plot(x * view.factor, y, solid_joinstyle="round", **style)
 

@@ -22,7 +22,7 @@ Smoothing = float | Literal["gcv"]
 INF = float("inf")
 
 FEWEST = 4  # points of a cubic
-SHOWN = 12  # points that are printed; a longer trace is summed up
+SHOWN = 60  # points that are printed; a longer trace is summed up
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
@@ -35,14 +35,14 @@ class Sampled(Profile):
                 "gcv": the same, λ chosen by generalised cross validation
     mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it
 
-    The slope is a quadratic polynomial on each piece. Beyond the trace's ends nothing is known: a contact that would reach an end is refused
-    (the end of a trace is not a corner of the indenter). Raises ValueError for anything that is not a trace.
+    The slope is a quadratic polynomial on each piece. Beyond the trace's ends nothing is known: a contact that would reach an end is
+    refused (the end of a trace is not a corner of the indenter). Raises ValueError for anything that is not a trace.
 
-    >>> x = np.linspace(-1.0, 1.0, 21)
+    >>> x = np.linspace(-1.0, 1.0, 201)
     >>> pad = Sampled(x, x**2 / 100.0)
     >>> pad
-    Sampled(x=<21 points from -1 to 1>, h=<from 0 to 0.01>)
-    >>> float(pad.slope(0.25))
+    Sampled(x=<201 points from -1 to 1>, h=<from 0 to 0.01>)
+    >>> round(float(pad.slope(0.25)), 12)
     0.005
     """
 
@@ -67,6 +67,7 @@ class Sampled(Profile):
         columns: tuple[Column, Column] = (0, 1),
         scale: float | tuple[float, float] = 1.0,
         skip: int = 0,
+        *,
         smoothing: Smoothing = 0.0,
         mend: bool = False,
     ) -> Sampled:
@@ -160,7 +161,7 @@ class Sampled(Profile):
         return Sampled(self.points, self.heights, smoothing)
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
-        """The trace less the least-squares line through it, or through the part of it between two x (a flat base, or the flat around a pad)."""
+        """The trace less the least-squares line through it, or through its part between two x (a flat base, or what is beside a pad)."""
         lo, hi = (-INF, INF) if between is None else (checks.real("between", end) for end in between)
         part = (self.points >= lo) & (self.points <= hi)
         if np.count_nonzero(part) < 2:

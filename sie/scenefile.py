@@ -5,6 +5,7 @@
 
     [units]      length = "mm"  force = "N/mm"  stress = "MPa"      labels only: nothing is converted, any consistent set works
     [profile]    kind and its parameters; mirrored, tilted, shifted, applied in this order
+                 (a trace: kind = "sampled" with path, a file seen from the scene file's folder, or with x and h)
     [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]   the same; without it the indenter is made of the body's material
@@ -40,6 +41,7 @@ from .material import RIGID, Body, Elastic
 from .path import Path
 from .plan import WANTS
 from .profile import Profile
+from .sampled import Sampled
 from .scene import Scene
 
 
@@ -67,6 +69,7 @@ class Units:
 
 
 UNITS = Units()
+HERE = pathlib.Path()
 
 
 @dataclass(frozen=True)
@@ -89,15 +92,15 @@ def read(path: str | pathlib.Path) -> SceneFile:
     if path.is_dir():
         raise SceneFileError(f"{path} is a directory: give a scene file, like scene.toml")
     try:
-        return parse(path.read_bytes(), path.name)
+        return parse(path.read_bytes(), path.name, path.parent)
     except FileNotFoundError:
         raise SceneFileError(f"{path} does not exist: write one with  sie example rounded-flat > {path.name}") from None
     except OSError as problem:
         raise SceneFileError(f"{path} cannot be read ({problem.strerror}): give a readable scene file") from None
 
 
-def parse(text: str | bytes, name: str = "scene") -> SceneFile:
-    """The scene in a TOML text; `name` is what messages call it. Raises SceneFileError."""
+def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
+    """The scene in a TOML text; `name` is what messages call it, `folder` where the files are that it names. Raises SceneFileError."""
     try:
         table = tomllib.loads(text if isinstance(text, str) else _decoded(text, name))
     except tomllib.TOMLDecodeError as problem:
@@ -105,7 +108,7 @@ def parse(text: str | bytes, name: str = "scene") -> SceneFile:
     except RecursionError:
         raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
     try:
-        return _scene_file(table)
+        return _scene_file(table, folder)
     except ValueError as problem:
         raise SceneFileError(f"{name}: {problem}") from None
 
@@ -187,6 +190,24 @@ def _texts(where: str, value: Any) -> tuple[str, ...]:
     return tuple(_text(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
 
 
+def _number_or_text(where: str, value: Any) -> float | str:
+    return value if isinstance(value, str) else _number(where, value)
+
+
+def _number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
+    return _numbers(where, value) if isinstance(value, list) else _number(where, value)
+
+
+def _whole(where: str, value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError(f"{where} = {_shown(value)} is not a whole number: write one, without quotes")
+    return value
+
+
+def _columns(where: str, value: Any) -> tuple[int | str, ...]:
+    return tuple(v if isinstance(v, str) else _whole(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
+
+
 def _table(where: str, value: Any) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
@@ -226,14 +247,19 @@ _PARAMETERS: dict[str, dict[str, Reader]] = {
     "polynomial": {"coefficients": _numbers},
     "piecewise": {"breaks": _numbers, "pieces": _rows},
     "function": {"slope": _text, "breaks": _numbers, "domain": _numbers, "parity": _text},
+    "sampled": {"x": _numbers, "h": _numbers, "smoothing": _number_or_text, "mend": _flag},
 }
-_OPTIONAL = {"function": {"breaks", "domain", "parity"}}
+_OPTIONAL = {"function": {"breaks", "domain", "parity"}, "sampled": {"smoothing", "mend"}}
+# Of kind "sampled" in place of x and h.
+_FILE: dict[str, Reader] = {
+    "path": _text, "columns": _columns, "scale": _number_or_pair, "skip": _whole, "smoothing": _number_or_text, "mend": _flag,
+}  # fmt: skip
 
 
 # -- from tables to a scene --------------------------------------------------------------------------------------------
 
 
-def _scene_file(top: dict[str, Any]) -> SceneFile:
+def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     for key in top:
         if key not in _TOP:
             raise ValueError(f'there is no key or table "{key}": {_remedy(key, _TOP, "")}')
@@ -243,7 +269,7 @@ def _scene_file(top: dict[str, Any]) -> SceneFile:
     loads = _taken("load", top["load"])
     path = _path(loads)
     return SceneFile(
-        scene=Scene(profile=_profile(top["profile"]), **_bodies(top), **loads),
+        scene=Scene(profile=_profile(top["profile"], folder), **_bodies(top), **loads),
         title=_text("title", top.get("title", "")),
         units=Units(**_taken("units", top.get("units", {}))),
         want=wants("want", _texts("want", top.get("want", []))),
@@ -284,18 +310,18 @@ def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> No
         raise ValueError(f"{where} lacks {' and '.join(missing)}: give {' and '.join(f'{name} = ...' for name in missing)}")
 
 
-def _profile(value: Any) -> Profile:
+def _profile(value: Any, folder: pathlib.Path) -> Profile:
     first = dict(_table("profile", value))
     plus = first.pop("plus", [])
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError("profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term")
-    total = _term("[profile]", first)
+    total = _term("[profile]", first, folder)
     for k, term in enumerate(plus, start=1):
-        total = total + _term("[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term)
+        total = total + _term("[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder)
     return total
 
 
-def _term(where: str, table: dict[str, Any]) -> Profile:
+def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted."""
     kinds = profile_kinds()
     if "kind" not in table:
@@ -306,13 +332,26 @@ def _term(where: str, table: dict[str, Any]) -> Profile:
     kind = _text(f"{where} kind", table["kind"])
     if kind not in kinds:
         raise ValueError(f'{where} kind = "{kind}" is not known: {_suggestion(kind, kinds)}')
-    readers = _PARAMETERS[kind]
+    measured = kind == "sampled" and not table.keys().isdisjoint(_FILE.keys() - _PARAMETERS[kind].keys())
+    readers = _FILE if measured else _PARAMETERS[kind]
     values = _values(where, table, {"kind": _text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"')
-    _required(f'{where} of kind "{kind}"', values, (name for name in readers if name not in _OPTIONAL.get(kind, ())))
+    _required(
+        f'{where} of kind "{kind}"', values, ["path"] if measured else (name for name in readers if name not in _OPTIONAL.get(kind, ()))
+    )
+    given = {name: v for name, v in values.items() if name in readers}
     with _Naming(where):
-        profile: Profile = kinds[kind](**{name: v for name, v in values.items() if name in readers})
+        profile: Profile = _measured(folder, **given) if measured else kinds[kind](**given)
         profile = profile.mirrored() if values.get("mirrored") else profile
         return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+
+
+def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
+    """A trace in a file, which is named from the scene file's folder."""
+    try:
+        return Sampled.read(folder / path, **options)
+    except OSError as problem:
+        why = "there is no such file" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
+        raise ValueError(f'path = "{path}" is not read, {why}: give the trace\'s file, from where the scene file is') from None
 
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:
@@ -396,7 +435,7 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
         if here and key == "plus":
             return "terms are not nested, write one [[profile.plus]] after the other"
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
-        homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _MODIFIERS)) else []
+        homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _FILE, _MODIFIERS)) else []
         if homes:
             return f"it belongs in {' or '.join(homes)}"
     return _suggestion(key, known)

@@ -11,7 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .check import Rule, ShearCertificate, composite_rule
+from .check import ShearCertificate
+from .composite import Rule, composite_rule
 from .density import SlopeDensity
 from .interval import Interval
 from .slope import Slope

@@ -186,6 +186,12 @@ class Slope:
         left, right = (self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0] for j in (k[:-1], k[1:]))
         return left, right
 
+    @cached_property
+    def corners(self) -> Array:
+        """What jumps at the inner breaks: Taylor coefficients of the polynomials there, from the right less from the left, (N - 1, D)."""
+        k, inner, width = np.arange(len(self.origins)), self.breaks[1:-1], self.coefficients.shape[1]
+        return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
+
     @property
     def domain(self) -> tuple[float, float]:
         return float(self.breaks[0]), float(self.breaks[-1])

@@ -4,11 +4,13 @@ The smoothing spline minimises, over all functions f on the trace's interval (Re
 
     Σ_i (h_i - f(x_i))² + λ ∫ f''² dx,          λ in units of length³
 
-It is a natural cubic spline with a knot at every point, and averages over a length of about (λ Δ)^(1/4), Δ the mean spacing. With thousands
-of points within that length a knot at every point costs digits (the equations' condition is the fourth power of the number) and buys nothing:
-then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's `smooth.spline`).
+It is a natural cubic spline with a knot at every point, and averages over a length of about (λ Δ)^(1/4), Δ the mean spacing. With
+thousands of points within that length a knot at every point costs digits (the equations' condition is the fourth power of the number) and
+buys nothing: then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's
+`smooth.spline`).
 
-λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to f(x).
+λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
+f(x).
 Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
 """
 
@@ -37,7 +39,8 @@ def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
     """(breaks, coefficients (N, 4), low order first, about the left end of each piece): not-a-knot, so that a cubic is reproduced."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
-    return x, CubicSpline(x, h).c.T[:, ::-1].copy()
+    c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
+    return x, c
 
 
 def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
@@ -95,7 +98,8 @@ class _Problem:
 
         basis = self.basis(lam)
         pieces = PPoly.from_spline(BSpline(basis.knots, basis.coefficients(lam), 3)).c[:, 3:-3]
-        return self.x[basis.chosen], pieces.T[:, ::-1] / self.length ** np.arange(4.0)
+        c: Array = pieces.T[:, ::-1] / self.length ** np.arange(4.0)
+        return self.x[basis.chosen], c
 
 
 @dataclass
@@ -146,8 +150,9 @@ class _Basis:
 
     @cached_property
     def _probes(self) -> tuple[Array, Array]:
-        signs = 2.0 * np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) - 1.0
-        return signs, self.values.T @ signs
+        signs: Array = np.where(np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0)
+        projected: Array = self.values.T @ signs
+        return signs, projected
 
     def _solved(self, lam: float, right: Array) -> Array:
         from scipy.linalg import solveh_banded  # noqa: PLC0415

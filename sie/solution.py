@@ -22,6 +22,7 @@ from .gap import gap
 from .jacobi_density import JacobiDensity
 from .material import Elastic
 from .normal import ECONOMY, Normal, normal_contact, pressure
+from .remedy import with_smoothing
 from .scene import Scene
 from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
@@ -68,6 +69,12 @@ class Solution:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        try:
+            return self._one_patch()
+        except ContactError as error:
+            raise with_smoothing(error, self.scene, lambda scene: Solution(scene, self.tol, self.economy)._one_patch()) from None
+
+    def _one_patch(self) -> Normal:
         try:
             found = normal_contact(self.scene, self.tol, self.economy)
         except LoadError:

@@ -1,16 +1,17 @@
 """Fast sums of Cauchy kernels, Σ_j q_j / (t_j - z) for many sources on the line and many targets in the plane.
 
-The sources come in rows, one for each piece of a slope, that ascend and do not overlap. Rows are gathered in leaves, leaves in pairs, and so
-on up to one root: a tree whose every node is an interval with centre c and half-length a. With u = (t - c)/a, s = (z - c)/a and
+The sources come in rows, one for each piece of a slope, that ascend and do not overlap. Rows are gathered in leaves, leaves in pairs, and
+so on up to one root: a tree whose every node is an interval with centre c and half-length a. With u = (t - c)/a, s = (z - c)/a and
 ρ = s + sqrt(s-1) sqrt(s+1) the kernel is a geometric series outside the interval,
 
     Σ q_j / (z - t_j) = 2 / (a sqrt(s-1) sqrt(s+1)) [A_0/2 + Σ_{n>=1} A_n ρ^-n],         A_n = Σ_j q_j T_n(u_j)
 
-of which TERMS terms leave rounding where |ρ| >= SEPARATION (s = ±2 on the line). A target takes every node's sum at the first level at which
-it is that far; what is left at the leaves are pairs (row, target), few for each target, that the caller knows exactly. So the cost grows like
-(sources + targets) log(sources), in a handful of array operations for each level and term.
+of which TERMS terms leave rounding where |ρ| >= SEPARATION (s = ±2 on the line). A target takes every node's sum at the first level at
+which it is that far; what is left at the leaves are pairs (row, target), few for each target, that the caller knows exactly. So the cost
+grows like (sources + targets) log(sources), in a handful of array operations for each level and term.
 
-Moments of a node come from its children's as from sources: the child's moments up to TERMS are those of TERMS charges on its Chebyshev points.
+Moments of a node come from its children's as from sources: a child's moments up to TERMS are those of TERMS charges on its Chebyshev
+points.
 
 Greengard & Rokhlin (1987), Barnes & Hut (1986) for the tree; Dutt, Gu & Rokhlin (1996) for Chebyshev series in one dimension;
 Mason & Handscomb, Chebyshev Polynomials (2003), eq. (1.51), for the series: ∫ over sources of the generating function of T_n.

@@ -31,13 +31,7 @@ def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, d
     Raises ValueError, naming the lines, where a value is missing or is no number; FileNotFoundError, OSError.
     """
     path = Path(path)
-    lines = _text(path).splitlines()[skip:]
-    separator = _separator(lines)
-    split = [_cells(line, separator) for line in lines]
-    start = next((k for k, cells in enumerate(split) if sum(_value(c, separator) is not None for c in cells) >= 2), None)
-    if start is None:
-        raise ValueError(f"{path.name} has no line with two numbers: give a text file with columns, or skip fewer lines")
-    header = next((cells for cells in split[start - 1 :: -1] if cells), []) if start else []
+    split, start, header, separator = _table(path, skip)
     wanted = [_index(path, column, header, len(split[start])) for column in columns]
     rows = [(k + skip + 1, cells) for k, cells in enumerate(split[start:], start) if cells]
     values = [[_value(cells[j], separator) if j < len(cells) else math.nan for j in wanted] for _, cells in rows]
@@ -50,6 +44,12 @@ def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, d
         lacking = [line for (line, _), is_bad in zip(rows, bad.tolist(), strict=True) if is_bad]
         raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: mend = True leaves such lines out")
     return tuple(table[~bad].T)
+
+
+def header_of(path: str | Path, skip: int = 0) -> tuple[list[str], int]:
+    """(names of the columns in lower case and without their units, none if there is no header; how many columns there are)."""
+    split, start, header, _ = _table(Path(path), skip)
+    return header, len(split[start])
 
 
 def read_topography(path: str | Path) -> tuple[Array, Array]:
@@ -76,6 +76,23 @@ def read_topography(path: str | Path) -> tuple[Array, Array]:
 
 def is_text(path: str | Path) -> bool:
     return Path(path).suffix.lower() in FORMATS
+
+
+def _table(path: Path, skip: int) -> tuple[list[list[str]], int, list[str], str]:
+    """(cells of every line, the first line with numbers, names of the columns, separator)."""
+    lines = _text(path).splitlines()[skip:]
+    separator = _separator(lines)
+    split = [_cells(line, separator) for line in lines]
+    start = next((k for k, cells in enumerate(split) if sum(_finite(c, separator) for c in cells) >= 2), None)
+    if start is None:
+        raise ValueError(f"{path.name} has no line with two numbers: give a text file with columns, or skip fewer lines")
+    header: list[str] = []
+    for line in lines[:start][::-1]:  # the last line before them that names as many columns, be it a comment
+        names = _cells(line.lstrip("#% "), separator)
+        if len(names) == len(split[start]):
+            header = [re.sub(r"[\[(].*", "", name).strip().lower() for name in names]
+            break
+    return split, start, header, separator
 
 
 def _text(path: Path) -> str:
@@ -120,13 +137,17 @@ def _value(cell: str, separator: str) -> float | None:
         return None
 
 
+def _finite(cell: str, separator: str) -> bool:
+    value = _value(cell, separator)
+    return value is not None and math.isfinite(value)
+
+
 def _index(path: Path, column: Column, header: list[str], width: int) -> int:
     if isinstance(column, str):
-        names = [name.lower() for name in header]
-        if column.lower() not in names:
+        if column.strip().lower() not in header:
             known = f"its header names {', '.join(header)}" if header else "it has no header"
             raise ValueError(f"{path.name} has no column {column!r}, {known}: give a name, or a number from 0 to {width - 1}")
-        return names.index(column.lower())
+        return header.index(column.strip().lower())
     if isinstance(column, bool) or not isinstance(column, int) or not 0 <= column < width:
         raise ValueError(
             f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header"

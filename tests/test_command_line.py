@@ -191,7 +191,8 @@ def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
     np.testing.assert_array_equal(p, solution.pressure(x))
     np.testing.assert_array_equal(gap, solution.gap(x))
     assert (np.diff(x) > 0).all()
-    assert {*solution.edges, *(b for b in file.scene.profile.breaks if x[0] < b < x[-1])} <= set(x.tolist())
+    breaks = file.scene.profile.breaks if kind != "sampled" else ()  # of a trace no break is a place of its own
+    assert {*solution.edges, *(b for b in breaks if x[0] < b < x[-1])} <= set(x.tolist())
 
 
 def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():

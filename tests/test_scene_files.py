@@ -124,7 +124,7 @@ def keys_of(table):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
-    for key in keys_of(tomllib.loads(example(kind))):
+    for key in filter(lambda key: len(key) > 3, keys_of(tomllib.loads(example(kind)))):
         typo = key[:2] + key[3] + key[2] + key[4:]
         lines = [typo + line[len(key) :] if line.startswith(key) else line for line in example(kind).splitlines()]
         assert typo == key or f'did you mean "{key}"?' in refusal("\n".join(lines))
