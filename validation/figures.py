@@ -1,0 +1,107 @@
+"""Drawing, apart from computing: Matplotlib figures in one style, and SVG that can stand inside a page, several of them together.
+
+Figures are drawn as narrow as a phone, so that their letters stay readable there.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .records import Curve, Map
+
+WIDTH, HEIGHT = 5.0, 3.7  # inches
+STYLE = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "validation",
+    "font.family": "sans-serif",
+    "font.size": 9.5,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "grid.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.0,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "figure.constrained_layout.use": True,
+}
+MARKERS = "osD^vP*X<>hp"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A drawing with its caption, which says what is seen, in which units, and where each curve comes from."""
+
+    name: str
+    drawing: Any
+    caption: str
+
+
+def axes(rows: int = 1, *, height: float = HEIGHT, **options: Any) -> tuple[Any, Any]:
+    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array)."""
+    import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
+    from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
+
+    with matplotlib.rc_context(STYLE):
+        drawing = Drawing(figsize=(WIDTH, height * rows), layout="constrained")
+        return drawing, drawing.subplots(rows, **options)
+
+
+def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
+    """Axis labels with units, logarithmic axes ("x", "y", "xy"), grid and title."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.set_title(title, fontsize=9.5, loc="left")
+    ax.grid(visible=True, alpha=0.3, linewidth=0.5)
+    ax.spines[["top", "right"]].set_visible(False)
+    if "x" in log:
+        ax.set_xscale("log")
+    if "y" in log:
+        ax.set_yscale("log")
+
+
+def draw(ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None) -> None:
+    """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for zero)."""
+    for k, curve in enumerate(curves):
+        y = np.array(curve.y, dtype=float)
+        y = y if floor is None else np.maximum(y, floor)
+        marker = MARKERS[k % len(MARKERS)]
+        shape = {"line": "-", "points": marker, "both": f"{marker}-", "dashed": "--"}[curve.style]
+        strong = curve.about.get("strong", False)
+        ax.plot(
+            curve.x, y, shape, label=curve.label or None, color=curve.about.get("colour", colour), mew=0.9, ms=7 if strong else 4,
+            mfc=None if strong else "none", zorder=3 if strong else 2,
+        )  # fmt: skip
+
+
+def legend(ax: Any, **options: Any) -> None:
+    ax.legend(fontsize=8, frameon=False, handlelength=1.6, **options)
+
+
+def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) -> None:
+    """A map of decimal logarithms."""
+    values = np.log10(np.maximum(np.array(found.values, dtype=float), 10.0**low))
+    mesh = ax.pcolormesh(found.x, found.y, values, cmap="viridis", vmin=low, vmax=high, shading="nearest", rasterized=False)
+    ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
+
+
+def svg(figure: Figure) -> str:
+    """The drawing as an <svg> element whose names no other figure on the page shares."""
+    import matplotlib  # noqa: PLC0415
+
+    text = io.StringIO()
+    with matplotlib.rc_context(STYLE):
+        figure.drawing.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    element = text.getvalue()
+    element = element[element.index("<svg") :]
+    element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
+    element = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{figure.name}-", element)
+    element = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", element, count=1)
+    return re.sub(r'(<svg[^>]*?) height="[^"]*"', r'\1 role="img"', element, count=1)
