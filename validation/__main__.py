@@ -20,7 +20,7 @@ from .records import kept
 from .report import Section, machine, number, page
 
 # Modules of this package, in the order of the page.
-TOPICS = ("paper", "appendix", "pressure", "work_precision", "growth", "stability", "economy", "mutation")
+TOPICS = ("paper", "appendix", "pressure", "work_precision", "growth", "stability", "certificate", "economy", "mutation")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -36,15 +36,21 @@ def erdogan_gupta(slope: Slope, lo: float, hi: float, n: int, x: Array, modulus:
     Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i),   t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2)),  by elimination;
     between the nodes the polynomial through them, in the barycentric form.
     """
+    matrix, t, at = erdogan_gupta_matrix(n)
+    m, r = 0.5 * (lo + hi), 0.5 * (hi - lo)
+    g = np.linalg.solve(matrix, 0.5 * modulus * slope(m + r * at))
+    s = (x - m) / r
+    apart = s[:, None] - t
+    weight = (-1.0) ** np.arange(n) * (1.0 - t) * (1.0 + t) / np.where(apart == 0.0, 1e-300, apart)
+    return np.sqrt((1.0 - s) * (1.0 + s)) * (weight @ g / weight.sum(axis=1))
+
+
+def erdogan_gupta_matrix(n: int) -> tuple[Array, Array, Array]:
+    """The square matrix, the nodes t and the collocation points."""
     j = np.arange(1, n + 1) * np.pi / (n + 1)
     i = (2 * np.delete(np.arange(1, n + 2), n // 2) - 1) * np.pi / (2 * n + 2)
     t, at = np.cos(j), np.cos(i)
-    m, r = 0.5 * (lo + hi), 0.5 * (hi - lo)
-    g = np.linalg.solve(np.sin(j) ** 2 / (n + 1) / (at[:, None] - t), 0.5 * modulus * slope(m + r * at))
-    s = (x - m) / r
-    apart = s[:, None] - t
-    weight = (-1.0) ** np.arange(n) * np.sin(j) ** 2 / np.where(apart == 0.0, 1e-300, apart)
-    return np.sqrt((1.0 - s) * (1.0 + s)) * (weight @ g / weight.sum(axis=1))
+    return np.sin(j) ** 2 / (n + 1) / (at[:, None] - t), t, at
 
 
 def boundary_elements(gap: Array, spacing: float, load: float, *, periodic: bool = False, modulus: float = 1.0) -> Array:
