@@ -1,7 +1,17 @@
 """Closed forms of plane elastic contact, as plain functions of floats, arrays or mpmath numbers.
 
-A rigid indenter, or one of the half-plane's own kind, is pressed without friction on an elastic half-plane y > 0.
-Each module is one indenter. All speak one notation:
+A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0. Each module is one
+indenter under one kind of load:
+
+    hertz, flat, rounded_flat, wedge, power               pressed without friction, or bodies alike
+    two_flats, two_parabolas                              two patches, one load
+    wavy, flat_row                                        a row of contacts that repeats
+    sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
+    bonded_flat                                           no slip at all, dissimilar bodies
+    cattaneo, cattaneo_rounded                            partial slip, bodies alike
+    cracks                                                what corresponds among cracks
+
+All speak one notation:
 
     word in a call    symbol      meaning
     x                 x           position on the surface
@@ -20,6 +30,21 @@ Each module is one indenter. All speak one notation:
     pressure          p >= 0      sigma_yy = -p on the surface
     height, slope     h, h'       gap between the undeformed surfaces, growing away from the contact
     potential         Fp          (1/pi) ∫ p(t)/(z-t) dt; on the contact, side = +1, it is E*/2 h' - i p
+    coupling          beta f      of dissimilar bodies that slide, < 0 for shear on the half-plane towards -x
+    dundurs           beta        Dundurs' second constant
+    friction          f           Coulomb's coefficient
+    shear             q           sigma_xy = -q on the surface; q > 0 pushes the half-plane towards +x
+    shear_load        Q           ∫ q dx
+    tangential_load   Q           the same, in partial slip; largest_load, least_load are where it turned
+    stick_half_width  c           of the stick zone; stick_rim = c - a, slip_width = b - c
+    slip              s           of the indenter over the half-plane towards +x
+    bulk_stress       sigma       tension along the surface of the half-plane
+    inner, outer      a, b        ends of the patch on x > 0; those on x < 0 mirror them (c1, c2 if they move)
+    distance          d           of the apexes from x = 0
+    wavelength        lambda      of a wave of `amplitude` D, h = D (1 - cos(2 pi x/lambda))
+    period            L, W        of a row
+    mean_pressure                 load over period
+    tension, K_I                  across cracks, and their stress intensity factor
     side              ±           +1: the limit from y > 0; -1: from y < 0
     lib                           numpy (arrays broadcast) or an mpmath context (scalars at its own precision)
 
@@ -30,6 +55,46 @@ Any consistent set of units will do: nothing depends on scale.
     0.307092424652
 """
 
-from analytic import flat, hertz, power, rounded_flat, wedge
+from analytic import (
+    bonded_flat,
+    cattaneo,
+    cattaneo_rounded,
+    cracks,
+    dissimilar,
+    flat,
+    flat_row,
+    hertz,
+    periodic,
+    power,
+    rounded_flat,
+    sliding_flat,
+    sliding_hertz,
+    sliding_rounded_flat,
+    two_flats,
+    two_parabolas,
+    two_punches,
+    wavy,
+    wedge,
+)
 
-__all__ = ["flat", "hertz", "power", "rounded_flat", "wedge"]
+__all__ = [
+    "bonded_flat",
+    "cattaneo",
+    "cattaneo_rounded",
+    "cracks",
+    "dissimilar",
+    "flat",
+    "flat_row",
+    "hertz",
+    "periodic",
+    "power",
+    "rounded_flat",
+    "sliding_flat",
+    "sliding_hertz",
+    "sliding_rounded_flat",
+    "two_flats",
+    "two_parabolas",
+    "two_punches",
+    "wavy",
+    "wedge",
+]

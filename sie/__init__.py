@@ -7,10 +7,15 @@ One notation for the whole package, its messages and its plots:
     [x1, x2]    the contact; m its centre, r its half-width; w(x) = sqrt((x - x1)(x2 - x))
     p(x), q(x)  contact pressure, >= 0; shear traction, q > 0 pushes the half-plane in +x
     P, Q, M     ∫p dx, ∫q dx, ∫p x dx (about x = 0), per unit length
-    E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant; f Coulomb's friction
+    E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant
     F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction
 
+    f, κ        Coulomb's coefficient of friction; q over p of a layer of the contact, |κ| <= f
+    [c1, c2]    the stick zone; ρ its half-width; p̂ the corrective pressure there, q = ± f (p - p̂)
+    g(x), σ, τ  slip: displacement of the indenter relative to the body along +x; bulk stress, E*/2 times the strain it causes
+
     (1)   E*/2 h'(x) = 1/π PV∫ p(ξ)/(x - ξ) dξ - β q(x)          in contact
+    (12)  E*/2 g'(x) = 1/π PV∫ q(ξ)/(x - ξ) dξ - τ               at β = 0; g = 0 where the bodies never slipped
 
 Units are free: any consistent set works, and nothing depends on scale.
 
@@ -24,8 +29,10 @@ Units are free: any consistent set works, and nothing depends on scale.
 from .density import ZERO, Density
 from .equation import CauchyEquation
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .history import History, follow
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
+from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
 from .scene import Scene
@@ -42,9 +49,11 @@ __all__ = [
     "Elastic",
     "Flat",
     "FromFunction",
+    "History",
     "InequalityError",
     "LoadError",
     "Parabola",
+    "Path",
     "Piecewise",
     "Plan",
     "Polynomial",
@@ -55,6 +64,7 @@ __all__ = [
     "Scene",
     "Solution",
     "Wedge",
+    "follow",
     "plan",
     "solve",
 ]

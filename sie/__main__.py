@@ -15,16 +15,18 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import pathlib
 import sys
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
 
 from . import __version__, export, scenefile
 from .errors import ContactError
+from .history import follow
+from .path import Path
 from .plan import WANTS, plan
 from .scenefile import SceneFile
 from .solution import Solution, solve
@@ -34,6 +36,7 @@ COMMANDS = ("solve", "plan", "example")
 OPTIONS = ("--want", "--plot", "--csv", "--json", "--points", "--tol", "--help", "--version")
 STANDARD = "-"
 MOST_POINTS = 10**6
+TOL = 1e-13
 # For a terminal without block elements.
 PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)}
 
@@ -66,9 +69,9 @@ def _solve(arguments: argparse.Namespace) -> int:
     """Everything is checked, then everything is computed, then the files are written."""
     outputs = _outputs(arguments)
     file = _scene(arguments)
-    solution = solve(file.scene, tol=arguments.tol)
+    solution = _solution(file, arguments.tol)
     contents = {path: _content(kind, path, solution, file, arguments.points) for kind, path in outputs.items()}
-    shown = contents.pop(Path(STANDARD), None)
+    shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
     export.write_files(contents)
@@ -78,9 +81,14 @@ def _solve(arguments: argparse.Namespace) -> int:
     return CERTIFIED if certified else NOT_CERTIFIED
 
 
+def _solution(file: SceneFile, tol: float) -> Solution:
+    """The solution of the scene, or of the last point of its path."""
+    return follow(file.scene, Path(file.path), tol=tol)[-1] if file.path else solve(file.scene, tol=tol)
+
+
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
-    solve(file.scene)  # computes nothing, but refuses what is not covered
+    _solution(file, TOL)  # computes nothing, but refuses what is not covered
     _print(f"{plan(file.scene, file.want)}\n")
     return CERTIFIED
 
@@ -109,26 +117,26 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
     return replace(file, want=want or export.wanted(file))
 
 
-def _outputs(arguments: argparse.Namespace) -> dict[str, Path]:
+def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """Where each kind of output goes. Raises ValueError unless all of them can be written."""
     given = ((kind, getattr(arguments, kind)) for kind in ("plot", "csv", "json"))
-    outputs = {kind: Path(name) for kind, name in given if name is not None}
+    outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
     if "plot" in outputs:
         _check_picture(outputs["plot"])
-    taken = {Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
+    taken = {pathlib.Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
     for kind, path in outputs.items():
         place = path.resolve()
-        if place in taken and path == Path(STANDARD):
+        if place in taken and path == pathlib.Path(STANDARD):
             raise ValueError("--csv and --json cannot both go to standard output: give one of them a file")
         if place in taken:
             raise ValueError(f"--{kind} {path} would overwrite {taken[place]}: give another name")
         taken[place] = f"what --{kind} writes"
-        if path != Path(STANDARD):
+        if path != pathlib.Path(STANDARD):
             export.writable(path)
     return outputs
 
 
-def _check_picture(path: Path) -> None:
+def _check_picture(path: pathlib.Path) -> None:
     known = _pictures().suffixes()
     if path.suffix[1:].lower() not in known:
         raise ValueError(f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: use .{", .".join(known)}')
@@ -146,7 +154,7 @@ def _pictures() -> ModuleType:
 # -- what is given back ------------------------------------------------------------------------------------------------
 
 
-def _content(kind: str, path: Path, solution: Solution, file: SceneFile, points: int) -> bytes:
+def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile, points: int) -> bytes:
     if kind == "csv":
         return export.csv_text(solution, file, points).encode()
     if kind == "json":
@@ -158,7 +166,7 @@ def _content(kind: str, path: Path, solution: Solution, file: SceneFile, points:
     return data
 
 
-def _report(solution: Solution, file: SceneFile, written: Iterable[Path]) -> str:
+def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
     paragraphs = [export.summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
@@ -221,11 +229,11 @@ def _parser() -> argparse.ArgumentParser:
     for command in (solving, planning):
         command.add_argument("scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input")
         command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} (all)")
-    solving.add_argument("--plot", metavar="FILE", help="draw pressure and gap: .png, .pdf, .svg ... (needs Matplotlib)")
-    solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap")
+    solving.add_argument("--plot", metavar="FILE", help="draw pressure, gap and shear: .png, .pdf, .svg ... (needs Matplotlib)")
+    solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap, shear, slip")
     solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
     solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
-    solving.add_argument("--tol", metavar="T", type=float, default=1e-13, help="relative accuracy to certify (%(default)s)")
+    solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
     showing.add_argument("name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list")
     for command, run in ((solving, _solve), (planning, _plan), (showing, _example)):
         command.set_defaults(run=run)

@@ -64,6 +64,7 @@ class Certificate:
     lowest_gap: float
     abscissae: float
     tol: float
+    shear: ShearCertificate | None = None
 
     @property
     def error(self) -> float:
@@ -74,10 +75,13 @@ class Certificate:
     def ok(self) -> bool:
         """Every defect within tol, but for what rounding of the abscissae explains."""
         allowed = self.tol + EXPLAINED * self.abscissae
+        if self.shear is not None and not self.shear.ok:
+            return False
         return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {"error": self.error, "ok": self.ok}
+        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
 
     def __str__(self) -> str:
         rows = (
@@ -91,7 +95,56 @@ class Certificate:
             ("estimated relative error of the pressure", f"{self.error:.1e}"),
         )
         verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
-        return "\n".join([f"{name:<48} {value:>9}" for name, value in rows] + [verdict])
+        lines = [f"{name:<48} {value:>9}" for name, value in (*rows, *(self.shear.rows if self.shear is not None else ()))]
+        return "\n".join([*lines, *(self.shear.remarks if self.shear is not None else ()), verdict])
+
+
+@dataclass(frozen=True)
+class ShearCertificate:
+    """What was measured on a shear traction (see `slipcheck`). Relative to the largest |q|, to ∫|q| dx, to f times the peak pressure.
+
+    condition     how much larger the relative error of the load on the stick zone is than that of P or Q
+    advancing     whether the zones of slip only grow on the way to this state
+    """
+
+    residual: float
+    equilibrium: float
+    excess: float
+    opposing: float
+    abscissae: float
+    condition: float
+    advancing: bool
+    kind: str
+    tol: float
+
+    @property
+    def error(self) -> float:
+        return max(2.0 * EPS, *(float("inf") if math.isnan(d) else d for d in (self.residual, self.equilibrium, self.excess)))
+
+    @property
+    def ok(self) -> bool:
+        allowed = self.tol + EXPLAINED * self.abscissae
+        return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
+
+    def as_dict(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+
+    @property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        return (
+            ("shear equation (12) in stick, residual / peak", f"{self.residual:.1e}"),
+            ("equilibrium, |∫q - Q| / ∫|q|", f"{self.equilibrium:.1e}"),
+            ("friction, largest |q| - f p / peak of f p", f"{self.excess:+.1e}"),
+            ("lowest slip along q / largest slip", f"{self.opposing:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("error of the stick zone's load over one of Q", f"{self.condition:.1e}"),
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        if self.advancing:
+            return (f"slip: {self.kind}",)
+        return (f"slip: {self.kind}, in total displacements: with Q and σ in proportion the zones of slip would retreat on the way here",)
 
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
@@ -102,7 +155,7 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
-    rule = _rule(contact, slope, density.epsilon)
+    rule = composite_rule(contact, slope, epsilon=density.epsilon)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
     peak = float(p.max())
@@ -167,7 +220,7 @@ def _inner_breaks(contact: Interval, slope: Slope) -> Array:
     return inner
 
 
-class _Rule(NamedTuple):
+class Rule(NamedTuple):
     """Nodes x, weights of ∫ dx, and ends of large panels, which no node is near; `inner` nodes, in `ends`, are not next to an edge."""
 
     x: Array
@@ -177,13 +230,13 @@ class _Rule(NamedTuple):
     ends: Interval
 
 
-def _rule(contact: Interval, slope: Slope, epsilon: float = 0.0) -> _Rule:
-    """The composite rule.
+def composite_rule(contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0) -> Rule:
+    """The composite rule; `also` are places inside to be treated as breaks.
 
     Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
     edges take the powers ψ^(±2ε) of sliding into their weights.
     """
-    edges = _panels(contact, slope)
+    edges = _panels(contact, slope, np.zeros(0) if also is None else also)
     g, w = chebyshev.gauss_legendre(NODES)
     length = np.diff(edges)
     angle = edges[:-1, None] + length[:, None] * g
@@ -200,19 +253,19 @@ def _rule(contact: Interval, slope: Slope, epsilon: float = 0.0) -> _Rule:
     best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
     chosen = sorted(best.values())
     if not epsilon:
-        return _Rule(_position(contact, angle), weight, _position(contact, edges[1:-1][chosen]), slice(None), contact)
+        return Rule(_position(contact, angle), weight, _position(contact, edges[1:-1][chosen]), slice(None), contact)
     large = edges[1:-1][[i for i in chosen if 0 < i < len(edges) - 3]]
     x2, x1 = _position(contact, edges[[1, -2]]).tolist()
-    return _Rule(_position(contact, angle), weight, _position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
+    return Rule(_position(contact, angle), weight, _position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
 
 
-def _panels(contact: Interval, slope: Slope) -> Array:
+def _panels(contact: Interval, slope: Slope, also: Array) -> Array:
     """The ends of the panels, as angles from the right edge."""
     levels = KINK_LEVELS if slope.continuous else LEVELS
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
-    cut = _angles(contact, _inner_breaks(contact, resolution))
+    cut = _angles(contact, np.union1d(_inner_breaks(contact, resolution), also))
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
-    towards = cut if len(cut) <= FEW_BREAKS else _angles(contact, _inner_breaks(contact, slope))
+    towards = cut if len(cut) <= FEW_BREAKS else _angles(contact, np.union1d(_inner_breaks(contact, slope), also))
     ends = np.concatenate(([0.0], towards, [np.pi]))
     cuts = [cut]
     graded = GRADING ** np.arange(levels, 0, -1)
@@ -248,7 +301,7 @@ def _position(contact: Interval, angle: Array) -> Array:
     return np.where(angle < 0.5 * np.pi, right, left)
 
 
-def _residual(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> Array:
+def _residual(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> Array:
     """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
     at, inner = rule.between, rule.inner
     values = density(at)
@@ -273,7 +326,7 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
     return float(np.abs(np.sin(np.outer(grid, n)) @ r).max() + MISPLACED * abs(r[0]))
 
 
-def _rounding(density: SlopeDensity, slope: Slope, rule: _Rule, p: Array) -> tuple[float, float]:
+def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tuple[float, float]:
     """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the nodes, as a stress.
 
     |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p itself must not excuse itself.

@@ -55,6 +55,9 @@ KRYLOV = 120
 INCONSISTENT = 1e-9
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to rounding.
 SINGULAR = 1e10
+# Of a kernel's coefficients in t: the first and the last ones are looked at, and below this they are rounding.
+_FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
+NEGLIGIBLE = 64.0 * EPS
 
 
 class Condition(NamedTuple):
@@ -100,7 +103,8 @@ def _indicator(x1: float, x2: float, x: Array) -> Array:
 
 
 class Attempt(NamedTuple):
-    """A density; by intervals how far its coefficients decayed, residual and rounding; the constant that g lacks: all relative."""
+    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to) and rounding; the constant that g
+    lacks: all relative."""
 
     density: JacobiDensity
     tails: Array
@@ -171,7 +175,7 @@ def _by_transform(problem: Problem, n: int) -> Attempt:
     multiples = np.concatenate(([1.0], unknown))
     wanted = multiples @ sampled
     left_over = constant * jacobi.evaluate(weight.inverse, multiples @ second, PROBES) - wanted[m:]
-    return _attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0])])
+    return _attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0)])
 
 
 def _closed(c: Array, defects: Array, rows: Array, values: Array, kappa: int) -> tuple[Array, Array]:
@@ -367,6 +371,20 @@ class System:
     def solution(self) -> Array:
         return _solved(self.matrix(), self.rhs) if len(self.rhs) <= DENSE else self._by_gmres()
 
+    def _aliased(self, c: Array, sizes: Array) -> list[float]:
+        """For each interval, what its nodes miss of the integrals over it, relative to the terms' sizes at the rows.
+
+        The residual is blind to it, as it integrates by the same nodes. The coefficients of k(x, ·) tell: n Gauss nodes mistake those
+        beyond 2n - m for the m-th; for complex exponents, where nodes are not Gauss's, all beyond n.
+        """
+        missed = []
+        for block, weight, at in zip(self.blocks, self.problem.weights, self._column_slices, strict=True):
+            first, last = (np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) / sizes for part in (_FIRST, _LAST))
+            tail, largest = float(last.max()), max(float(first.max()), float(last.max()))
+            decay = tail / _positive(largest)
+            missed.append(float(np.abs(c[at]).max()) * tail * (decay if weight.is_real else float(decay > NEGLIGIBLE)))
+        return missed
+
     def _by_gmres(self) -> Array:
         from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
 
@@ -384,12 +402,14 @@ class System:
         c, d = unknown[:N], unknown[N:] / self._free_columns[1]
         smooth = self.kernel @ self._weighted(c)
         wanted = np.concatenate(([1.0], d)) @ self.sampled
+        size = [_positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max()) for rows in self._row_slices]
+        aliased = self._aliased(c, np.repeat(size, [len(b.x) for b in self.blocks]))
         terms = []
         for i, (block, rows, at) in enumerate(zip(self.blocks, self._row_slices, self._column_slices, strict=True)):
             weight, probes = self.problem.weights[i], slice(rows.stop - len(PROBES), rows.stop)
             second = _constant(self.problem, weight) * jacobi.evaluate(weight.inverse, _moved(c[at], block.kappa), PROBES)
             left_over = second + smooth[probes] - wanted[probes]
-            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows]))
+            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i]))
         return _attempted(self.problem, [c[at] for at in self._column_slices], d, terms)
 
 
@@ -423,11 +443,14 @@ def _real_if_real(value: complex) -> Any:
 
 def _functionals(interval: Map, weight: Weight, n: int) -> tuple[Array, Array]:
     """(2, n): what ∫ φ dx and ∫ φ x dx are of the coefficients."""
-    sigma, quadrature = jacobi.analysis(weight, n)
-    x = _positions(interval, 1.0 - sigma, 1.0 + sigma)[0]
-    total = np.zeros(n, dtype=quadrature.dtype)
+    total = np.zeros(n, dtype=weight.kind)
     total[0] = 1.0 / jacobi.recurrence(weight, 1).first
-    return total, x @ quadrature
+    if isinstance(interval, Affine):
+        moment = interval.x1 * total
+        moment[:2] += interval.r * np.array(jacobi.first_moment(weight))
+        return total, moment
+    sigma, quadrature = jacobi.analysis(weight, n)
+    return total, _positions(interval, 1.0 - sigma, 1.0 + sigma)[0] @ quadrature
 
 
 def _rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> tuple[Array, Array]:
@@ -498,12 +521,14 @@ def _solved(matrix: Array, rhs: Array) -> Array:
 
 
 class Terms(NamedTuple):
-    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it everywhere; times dx/ds."""
+    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it everywhere; times dx/ds.
+    And what its nodes miss of the integrals over it, relative."""
 
     n: int
     left_over: Array
     wanted: Array
     other: Array
+    aliased: float
 
 
 def _attempted(problem: Problem, coefficients: list[Array], unknown: Array, terms: list[Terms]) -> Attempt:
@@ -537,7 +562,7 @@ def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> 
     term = _positive(np.abs(of.wanted).max(), np.abs(of.other).max())
     inverse = weight.inverse
     norm = (1.0 - PROBES) ** (0.5 * inverse.alpha.real + 0.25) * (1.0 + PROBES) ** (0.5 * inverse.beta.real + 0.25)
-    residual = float((np.abs(of.left_over) * norm).max() / (term * norm.max()))
+    residual = max(float((np.abs(of.left_over) * norm).max() / (term * norm.max())), of.aliased)
     rounding = ROUNDING * term * abs(inverse.total) ** 0.5 / (abs(_constant(problem, weight)) * scale)
     part = Part(interval, weight, c[: chebyshev.chopped_length(c, 0.25 * EPS * scale)])
     middle = interval.distances(np.ones(1), np.ones(1))[2]

@@ -13,6 +13,7 @@ Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell 
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -77,6 +78,10 @@ class Density(ABC):
     def hilbert(self, x: ArrayLike) -> Array:
         """1/π PV∫ p(t)/(x - t) dt at real x, same shape as x."""
 
+    def strength(self, x: float) -> float:
+        """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
+        return 0.0
+
 
 @dataclass(frozen=True)
 class Zero(Density):
@@ -100,6 +105,70 @@ class Zero(Density):
 
 
 ZERO = Zero()
+
+# How far beside a place where infinite terms cancel their finite sum is looked at: the difference of both sides is the square of this.
+BESIDE = 1e-7
+CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class Combination(Density):
+    """Σ factor density, each zero outside its own interval; `resultant` and `moment` are theirs, summed.
+
+    >>> Combination(((2.0, ZERO),)).resultant
+    0.0
+    """
+
+    terms: tuple[tuple[float, Density], ...]
+
+    @cached_property
+    def resultant(self) -> float:  # type: ignore[override]
+        return sum(factor * density.resultant for factor, density in self.terms)
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        return sum(factor * density.moment for factor, density in self.terms)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        ends = [density.interval for _, density in self.terms]
+        return min(lo for lo, _ in ends), max(hi for _, hi in ends)
+
+    def __call__(self, x: ArrayLike) -> Array:
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        with np.errstate(invalid="ignore"):  # infinities that cancel are looked at below
+            total = np.zeros(flat.shape)
+            for factor, density in self.terms:
+                total += factor * density(flat)
+        for k in np.flatnonzero(~np.isfinite(total)):
+            total[k] = self._at_infinity(float(flat[k]))
+        return total.reshape(x.shape)
+
+    def _at_infinity(self, x: float) -> float:
+        """The sum where terms are infinite: finite where their strengths cancel."""
+        total, size = self.strength(x), sum(abs(factor * density.strength(x)) for factor, density in self.terms)
+        if abs(total) > CANCELLED * size:
+            return math.copysign(math.inf, total)
+        lo, hi = self.interval
+        step = BESIDE * (hi - lo)
+        sides = np.array([y for y in (x - step, x + step) if lo < y < hi])
+        return float(np.mean(self(sides)))
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        total = np.zeros(np.shape(z), dtype=complex)
+        for factor, density in self.terms:
+            total = total + factor * density.cauchy(z, side)
+        return total
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        total = np.zeros(np.shape(x))
+        for factor, density in self.terms:
+            total = total + factor * density.hilbert(x)
+        return total
+
+    def strength(self, x: float) -> float:
+        return sum(factor * density.strength(x) for factor, density in self.terms)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +224,16 @@ class SlopeDensity(Density):
     @abstractmethod
     def slope_scale(self) -> float:
         """The largest |H| in the contact, about."""
+
+    def strength(self, x: float) -> float:
+        """k1, k2 at a sharp edge; ±1 under a corner of the profile, whose strength no load changes."""
+        for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
+            if x == edge and k:
+                return k
+        return self._corner(x)
+
+    def _corner(self, x: float) -> float:
+        return 0.0
 
     # What a form must know, on 1-d arrays, in units of E*/2 and without the singular ends.
     @abstractmethod
@@ -324,3 +403,6 @@ class PanelDensity(SlopeDensity):
 
     def _off_axis(self, z: Complex) -> Complex:
         return self.panels.off_axis(z) / -np.pi
+
+    def _corner(self, x: float) -> float:
+        return next((math.copysign(1.0, infinite) for e, infinite in self.panels.jumps if e == x), 0.0)

@@ -40,6 +40,8 @@ POLISHED = 4.0 * EPS
 FARTHEST = 0.5  # of r: a longer step in polishing means that the profile is not convex there
 SETTLED = 1e-12  # below this fraction of r steps that no longer shrink are rounding
 MAX_STEPS = 200
+# Newton from a neighbouring contact is given up unless its first step is below this fraction of the distance, and so many steps settle it.
+NEAR, NEAR_STEPS = 0.25, 5
 # Steps of the logarithmic search are capped at a factor e^20, so that one bad derivative cannot throw it out of range.
 MAX_LOG_STEP = 20.0
 SMALLEST, HUGE = 1e-300, 1e300
@@ -164,6 +166,22 @@ class Search:
             if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance:
                 break
         return contact, (False, False)
+
+    def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
+        """The same by Newton alone, from the contact under a load that is not much different; None if that does not settle at once."""
+        target, z, previous = load / self.half_modulus, self.touch()[1], NEAR
+        for _ in range(NEAR_STEPS):
+            k = self.moments(contact)
+            rise = contact.r * k.JR
+            distance = (contact.x2 - z) + contact.tail2
+            step = (target - contact.r * k.I1) / rise if rise > 0.0 else math.inf
+            if not abs(step) <= previous * distance:
+                return None
+            contact = contact.moved(-step, step)
+            if step * step <= EPS * distance * distance:
+                return contact
+            previous = 0.25 * abs(step) / distance
+        return None
 
     def _first_guess(self, z: float, hi: float, target: float) -> float:
         if math.isfinite(hi):

@@ -67,6 +67,8 @@ class CauchyEquation:
     def __post_init__(self) -> None:
         for name, value in (("interval", self._intervals()), ("a", _constant("a", self.a)), ("b", _constant("b", self.b))):
             object.__setattr__(self, name, value)
+        if not isinstance(self.free, Sequence):
+            raise ValueError(f"free = {self.free!r}: give a sequence of functions or numbers, such as (1.0,)")
         object.__setattr__(self, "free", tuple(self.free))
         for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
             if not callable(function):
@@ -106,18 +108,16 @@ class CauchyEquation:
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
         ends, n = self.ends, len(self.interval)
-        if isinstance(ends, str):
-            ends = ((ends, ends),) * n
-        elif len(ends) == 2 and all(isinstance(e, str) for e in ends):
-            ends = (tuple(ends),) * n
-        ends = tuple(tuple(pair) if not isinstance(pair, str) else (pair, pair) for pair in ends)
-        if len(ends) != n:
-            raise ValueError(f"ends are given for {len(ends)} intervals, but there are {n}: give one pair for each, or one for all")
-        for pair in ends:
-            for e in pair:
-                if e not in ("singular", "bounded") or len(pair) != 2:
-                    raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
-        return ends
+        if isinstance(ends, str) or (np.shape(ends) == (2,) and all(isinstance(e, str) for e in ends)):
+            ends = (ends,) * n
+        if not isinstance(ends, Sequence) or len(ends) != n:
+            given = f"given for {len(ends)} intervals, but there are {n}" if isinstance(ends, Sequence) else f"{ends!r}"
+            raise ValueError(f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval")
+        pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
+        for pair in pairs:
+            if not isinstance(pair, Sequence) or len(pair) != 2 or not set(pair) <= {"singular", "bounded"}:
+                raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
+        return tuple((left, right) for left, right in pairs)
 
     def _given(self, name: str) -> tuple[Any, ...] | complex | None:
         value = getattr(self, name)

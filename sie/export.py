@@ -1,12 +1,16 @@
 """An answer as text: a summary to read, CSV and JSON for other programs, and files that are written whole or not at all.
 
     CSV    4 comment lines (#): title and version, scene, units, edges and load;  then  x,p,gap  and one row per point
+           with shear also the columns q and slip
            pandas.read_csv(file, comment="#")      numpy.loadtxt(file, delimiter=",", skiprows=5)
 
     JSON   sie, title, units {length, force, stress, moment}, scene (the code that rebuilds it), modulus E*, dundurs β        always
            edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt                                     always
            pressure {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}                                         if wanted
            gap {x: [..], gap: [..]}                                                                                  if wanted
+           shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost, x: [..], q: [..],
+                  slip: [..]}                                                                                        if wanted
+           path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
            check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, error, ok}                   if wanted
 
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the string "Infinity" or "-Infinity", which
@@ -29,6 +33,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import __version__
+from .errors import ContactError
+from .history import Followed
 from .interval import EPS
 from .plan import WANTS
 from .scenefile import SceneFile, Units
@@ -152,14 +158,17 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, whatever is wanted, as the module's docstring describes."""
     x = abscissae(solution, points)
     units, (x1, x2) = file.units, solution.edges
-    head = (
+    head: tuple[str, ...] = (
         f"# {file.title or 'plane contact'} (sie {__version__})",
         f"# {solution.scene!r}",
         f"# x and gap in {units.length}, p in {units.stress}, load in {units.force}",
         f"# contact from x1 = {x1!r} to x2 = {x2!r}, load {solution.normal_load!r}",
-        "x,p,gap",
     )
-    rows = zip(x.tolist(), solution.pressure(x).tolist(), solution.gap(x).tolist(), strict=True)
+    columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
+    if solution.sheared:
+        columns |= {"q": solution.shear(x)} | slip_of(solution, x)
+    head = (*head, ",".join(columns))
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     return "\n".join((*head, *(",".join(map(repr, row)) for row in rows))) + "\n"
 
 
@@ -186,7 +195,9 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "moment": solution.moment,
         "tilt": solution.tilt,
     }
-    sections = {"pressure": _pressure, "gap": _gap, "check": _check}
+    sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
+    if isinstance(solution, Followed):
+        out["path"] = _path(solution)
     return out | {name: section(solution, points) for name, section in sections.items() if name in wanted(file)}
 
 
@@ -200,6 +211,37 @@ def _gap(solution: Solution, points: int) -> dict[str, Any]:
     left, right = beside(solution, points)
     x = np.concatenate((left, solution.edges, right))
     return {"x": x.tolist(), "gap": solution.gap(x).tolist()}
+
+
+def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
+    """The slip at x, {} where a path leaves it open (points that came into contact while slipping)."""
+    try:
+        return {"slip": solution.slip(x)}
+    except ContactError:
+        return {}
+
+
+def _shear(solution: Solution, points: int) -> dict[str, Any]:
+    x, q = inside(solution, points), solution.shear
+    return {
+        "stick": [list(zone) for zone in solution.stick],
+        "slipping": [list(zone) for zone in solution.tangential.slipped] if solution.sheared else [],
+        "resultant": q.resultant,
+        "moment": q.moment,
+        "energy_lost": solution.energy_lost,
+        "x": x.tolist(),
+        "q": q(x).tolist(),
+    } | {name: values.tolist() for name, values in slip_of(solution, x).items()}
+
+
+def _path(solution: Followed) -> list[dict[str, Any]]:
+    names = ("normal_load", "tangential_load", "bulk_stress")
+    points = zip(solution.history.path.points, solution.history, strict=True)
+    return [
+        dict(zip(names, loads, strict=True))
+        | ({"stick": [list(zone) for zone in at.stick], "energy_lost": at.energy_lost} if loads[0] else {"stick": [], "energy_lost": 0.0})
+        for loads, at in points
+    ]
 
 
 def _check(solution: Solution, _points: int) -> dict[str, Any]:
@@ -222,7 +264,7 @@ def _finite(value: Any) -> Any:
 
 def summary(solution: Solution, file: SceneFile) -> str:
     """What the file wants, for the eye: rounded to six digits, with a picture of the pressure in text."""
-    sections = {"edges": edges_summary, "pressure": pressure_summary, "gap": gap_summary, "check": check_summary}
+    sections = {"edges": edges_summary, "pressure": pressure_summary, "gap": gap_summary, "shear": shear_summary, "check": check_summary}
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     parts = [section(solution, file.units) for name, section in sections.items() if name in wanted(file)]
     return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts])
@@ -256,6 +298,32 @@ def gap_summary(solution: Solution, units: Units) -> str:
     x = np.array([x1 - 0.5 * r, x2 + 0.5 * r])
     values = (f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter" for g in solution.gap(x).tolist())
     return _rows(("gap", ";  ".join(f"{value} at x = {_number(at)}" for value, at in zip(values, x.tolist(), strict=True))))
+
+
+def shear_summary(solution: Solution, units: Units) -> str:
+    """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
+    if not solution.sheared:
+        return _rows(("shear", "none"))
+    scene, r = solution.scene, solution.half_width
+    rows = [("shear load", f"Q = {_number(scene.tangential_load)} {units.force}; f P = {_number(scene.friction * solution.normal_load)}")]
+    rows += [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")] if scene.bulk_stress else []
+    rows += [("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}") for lo, hi in solution.stick] or [("stick", "none")]
+    for lo, hi, sign in solution.tangential.slipped:
+        rows.append(("slip", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p"))
+    rows.append(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
+    table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
+    return "\n\n".join([_rows(*rows), *table])
+
+
+def _path_table(solution: Followed, units: Units) -> str:
+    head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
+    lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
+    for point in _path(solution):
+        lo, hi = point["stick"][0] if point["stick"] else ("-", "-")
+        cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], lo, hi)
+        shown = "".join(f"{c:>14}" if isinstance(c, str) else f"{_number(c):>14}" for c in cells)
+        lines.append(f"{shown}   {_number(point['energy_lost'])}")
+    return "\n".join(lines)
 
 
 def check_summary(solution: Solution, _units: Units) -> str:

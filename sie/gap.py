@@ -8,6 +8,8 @@ x = m + r cosh θ, in which the square root disappears; panels are graded by the
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,20 +20,24 @@ from .interval import EPS, Interval
 from .slope import Slope
 
 Array = NDArray[np.float64]
+More = Callable[[Array, float], Array] | None
 
 NODES = 20
 LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
 
 
-def gap(x: Array, density: SlopeDensity, slope: Slope) -> Array:
-    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the tilt."""
+def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
+    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the tilt.
+
+    `more(x, side)` is added to the outward derivative of the gap: what else opens it.
+    """
     out = np.zeros(x.shape)
     lo, hi = slope.domain
     out[(x < lo) | (x > hi)] = np.inf
     contact = density.contact
     for side, outside in ((1.0, (contact.from_right(x) < 0.0) & (x <= hi)), (-1.0, (contact.from_left(x) < 0.0) & (x >= lo))):
         if outside.any():
-            out[outside] = _on_one_side(x[outside], side, density, slope)
+            out[outside] = _on_one_side(x[outside], side, density, slope, more)
     return out
 
 
@@ -45,7 +51,7 @@ def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
     return difference + G
 
 
-def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> Array:
+def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
     contact = density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
     theta = 2.0 * np.arcsinh(np.sqrt(distance / (2.0 * contact.r)))
@@ -60,7 +66,10 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope) -> 
         d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
         right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1
         at = np.maximum(right, beyond) if side > 0.0 else np.minimum(left, beyond)
-        values = side * gap_slope(at.ravel(), density, slope).reshape(t.shape) * (contact.r * np.sinh(t))
+        opening = side * gap_slope(at.ravel(), density, slope)
+        if more is not None:
+            opening = opening + more(at.ravel(), side)
+        values = opening.reshape(t.shape) * (contact.r * np.sinh(t))
         return length * (values @ w)
 
     until = np.concatenate(([0.0], np.cumsum(integral(cuts[:-1], np.diff(cuts)))))

@@ -29,6 +29,20 @@ def two_sum(a: float, b: float) -> tuple[float, float]:
     return s, (a - (s - c)) + (b - c)
 
 
+SPLITTER = 2.0**27 + 1.0  # halves a double's digits
+
+
+def two_product(a: float, b: float) -> tuple[float, float]:
+    """a b as the nearest double and the exact remainder (Dekker 1971)."""
+    p = a * b
+    t = SPLITTER * a
+    a1 = t - (t - a)
+    t = SPLITTER * b
+    b1 = t - (t - b)
+    a2, b2 = a - a1, b - b1
+    return p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2
+
+
 class Interval(NamedTuple):
     """The contact [x1 + tail1, x2 + tail2]."""
 

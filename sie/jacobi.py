@@ -62,21 +62,24 @@ class Weight(NamedTuple):
 
     @property
     def sine(self) -> Exponent:
-        """sin πα."""
+        """sin πα, from the smaller exponent: next to ±1 the other has lost its digits."""
+        if abs(self.beta) < abs(self.alpha):
+            return _sin_pi(self.beta)  # κ = 0 has |α| = |β|
         return _sin_pi(self.alpha)
 
     @property
     def cotangent(self) -> Exponent:
         """cot πα."""
-        return _sin_pi(self.alpha + 0.5) / _sin_pi(self.alpha)
+        return _sin_pi(self.alpha + 0.5) / self.sine
 
     @property
     def total(self) -> Exponent:
         """∫ w ds, by the reflection formula of Γ."""
-        a = self.alpha
         if self.kappa == 1:
             return -math.pi / self.sine
-        return (2.0 if self.kappa == 0 else 2.0 * (1.0 - a)) * (math.pi * a / self.sine)
+        if self.alpha == 0.0:  # the modulus of a weight with imaginary exponents
+            return 2.0
+        return (2.0 if self.kappa == 0 else 2.0 * self.beta) * (math.pi * self.alpha / self.sine)
 
     def __call__(self, right: Array, left: Array) -> Array:
         """w from the distances 1 - s and 1 + s."""
@@ -111,10 +114,9 @@ def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | No
 
 def _end(theta: Exponent, bounded: bool) -> Exponent | None:
     """theta + N in [0, 1) if bounded, in (-1, 0) if not."""
-    up = theta - math.floor(theta.real)
     if bounded:
-        return up
-    return up - 1.0 if up.real > 0.0 else None
+        return theta - math.floor(theta.real)
+    return theta - math.ceil(theta.real) if theta.real != math.ceil(theta.real) else None
 
 
 class Recurrence(NamedTuple):
@@ -136,11 +138,16 @@ def recurrence(weight: Weight, n: int) -> Recurrence:
 def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
     kind: Any = np.longdouble if weight.is_real else np.clongdouble
     alpha, beta, total = kind(weight.alpha), kind(weight.beta), -weight.kappa
-    a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1)
+    if abs(alpha) < abs(beta):  # the smaller one has more digits
+        beta = total - alpha
+    else:
+        alpha = total - beta
+    a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
     a[0] = (beta - alpha) / (total + 2)
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        square[1] = 4 * (1 + alpha) * (1 + beta) / ((2 + total) ** 2 * (3 + total))
+        ends = alpha * beta if weight.kappa == 1 else (1 + alpha) * (1 + beta)  # the same, but that 1 + β cancels next to -1
+        square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
         square[2:] = 4 * k * (k + alpha) * (k + beta) * (k + total) / ((2 * k + total) ** 2 * (2 * k + total + 1) * (2 * k + total - 1))
     return Recurrence(a, np.sqrt(square), 1 / np.sqrt(kind(weight.total)))
@@ -155,9 +162,16 @@ def second_sign(weight: Weight) -> float:
     return float(round((1.0 / (recurrence(high, 1).first * norm)).real))
 
 
+def first_moment(weight: Weight) -> tuple[Any, Any]:
+    """∫ w p_n (1 + s) ds for n = 0 and 1; those of higher n vanish."""
+    r = recurrence(weight, 1)
+    return (1.0 + r.a[0]) / r.first, r.b[1] / r.first
+
+
 def polynomials(weight: Weight, n: int, s: Array) -> Array:
-    """p_0(s) ... p_{n-1}(s), stacked along a new first axis."""
-    r = recurrence(weight, n)
+    """p_0(s) ... p_{n-1}(s), stacked along a new first axis; in extended precision if s is."""
+    extended = s.dtype in (np.longdouble, np.clongdouble)
+    r = _extended_recurrence(weight, n) if extended else recurrence(weight, n)
     p = np.empty((n, *s.shape), dtype=np.result_type(r.a, s))
     if n:
         p[0] = r.first
@@ -194,7 +208,16 @@ def conjugate(weight: Weight, c: Array) -> Array:
 
 @lru_cache(maxsize=64)
 def gauss(weight: Weight, n: int) -> tuple[Array, Array]:
-    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding; both complex for complex exponents.
+    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding; both complex for complex exponents."""
+    s, w = _extended_gauss(weight, n)
+    nodes, weights = s.astype(weight.kind), w.astype(weight.kind)
+    nodes.flags.writeable = weights.flags.writeable = False
+    return nodes, weights
+
+
+@lru_cache(maxsize=32)
+def _extended_gauss(weight: Weight, n: int) -> tuple[Array, Array]:
+    """The same before rounding.
 
     Asymptotic guesses; Ehrlich-Aberth sweeps, in which no two can fall on the same root; a last Newton step and Christoffel's weights
     1 / Σ p_k² in extended precision.
@@ -216,21 +239,16 @@ def gauss(weight: Weight, n: int) -> tuple[Array, Array]:
     s = s.astype(fine.a.dtype)
     value, slope, _ = _value_and_slope(fine, n, s)
     s = s - value / slope
-    nodes, weights = s.astype(weight.kind), (1.0 / _value_and_slope(fine, n, s)[2]).astype(weight.kind)
-    nodes.flags.writeable = weights.flags.writeable = False
-    return nodes, weights
+    return s, 1.0 / _value_and_slope(fine, n, s)[2]
 
 
 def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
     """The four Chebyshev rules: zeros at equal angles, as sines so that they are symmetric where the weight is."""
     a, b = weight.alpha.real, weight.beta.real
-    angle = np.pi * (np.arange(n) + 0.75 + 0.5 * b) / (n + 0.5 * (a + b + 1.0))  # from the left end
-    nodes = np.sin(angle - 0.5 * np.pi)
-    weights = (
-        (np.pi / (n + 0.5 * (a + b + 1.0))) * (2.0 * np.sin(0.5 * angle) ** 2) ** (b + 0.5) * (2.0 * np.cos(0.5 * angle) ** 2) ** (a + 0.5)
-    )
-    nodes.flags.writeable = weights.flags.writeable = False
-    return nodes, weights
+    step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
+    from_left, from_middle = step * (np.arange(n) + (0.75 + 0.5 * b)), step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a))
+    ends = (2.0 * np.sin(0.5 * from_left) ** 2) ** (b + 0.5) * (2.0 * np.cos(0.5 * from_left) ** 2) ** (a + 0.5)
+    return np.sin(from_middle), step * ends
 
 
 def _value_and_slope(r: Recurrence, n: int, s: Array) -> tuple[Array, Array, Array]:
@@ -253,12 +271,16 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
 
     The same sums are the coefficients of the interpolant, f = Σ_k p_k Σ_i f(s_i) A_ik. For real exponents A_ik = w_i p_k(s_i), of Gauss.
     For complex ones the nodes are those of |w|, and complex Gauss quadrature turns the one family of polynomials into the other.
+    Nodes and polynomials are rounded at the end only: next to an end a rounded node costs n² digits of p_n, but none of f.
     """
-    nodes, weights = gauss(weight.real, n)
-    A = weights[:, None] * polynomials(weight.real, n, nodes).T
+    s, w = _extended_gauss(weight.real, n)
+    A = (w[:, None] * polynomials(weight.real, n, s).T).astype(float)
     if not weight.is_real:
-        at, w = gauss(weight, n)
-        A = A @ ((w * polynomials(weight.real, n, at)) @ polynomials(weight, n, at).T)
+        at, w = _extended_gauss(weight, n)
+        real, own = (w * polynomials(weight.real, n, at)).astype(complex), polynomials(weight, n, at).astype(complex)
+        A = A @ (real @ own.T)
+    nodes = s.astype(float)
+    nodes.flags.writeable = False
     A.flags.writeable = False
     return nodes, A
 
@@ -266,11 +288,33 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
 # -- Cauchy integrals -------------------------------------------------------------------------------------------------
 
 
-def hilbert(weight: Weight, c: Array, s: Array, value: Array) -> Array:
-    """1/π PV∫ φ/(s - t) dt inside the interval, given φ = w Σ c_n p_n there."""
+def second(weight: Weight, c: Array, s: Array) -> Array:
+    """cosec(πα) Σ c_n p̃_{n-κ}: the part of the Cauchy integral of w Σ c_n p_n that has no cut."""
     out: Array = evaluate(weight.inverse, conjugate(weight, c), s) / weight.sine
-    cotangent = weight.cotangent
-    return out - cotangent * value if cotangent else out  # at a singular end value is infinite
+    return out
+
+
+def cut(weight: Weight, value: Array, side: int) -> Array:
+    """cot(πα) φ + i side φ: what is subtracted from it on the interval, from y > 0 (side 1), y < 0 (-1), or for the principal value (0)."""
+    factor = weight.cotangent + 1j * side if side else weight.cotangent
+    return _product(factor, value) if factor else np.zeros_like(value)
+
+
+def _product(factor: Exponent, value: Array) -> Array:
+    """factor times value, which is infinite in some of its parts at a singular end."""
+    finite = np.isfinite(value)
+    out: Array = factor * np.where(finite, value, 0.0)
+    if not finite.all():
+        endless = value[~finite]
+        out[~finite] = infinite(factor * np.sign(endless.view(float)).view(endless.dtype))
+    return out
+
+
+def infinite(direction: Array) -> Array:
+    """Infinity in each part, real and imaginary, of `direction` that is not zero: a product would make nan of the others."""
+    parts = np.ascontiguousarray(direction).view(float)
+    out: Array = np.where(parts == 0.0, 0.0, np.copysign(np.inf, parts)).view(direction.dtype)
+    return out
 
 
 def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Array:
@@ -280,16 +324,21 @@ def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Arr
     the functions of the second kind.
     """
     out = np.empty(z.shape, dtype=complex)
-    rho = np.abs(z + np.sqrt(right) * np.sqrt(left))
-    near = rho ** (len(c) + 1) <= GROWTH
+    rho = bernstein(z, right, left)
+    near = np.log(rho) <= math.log(GROWTH) / (len(c) + 1)
     if near.any():
-        root = right[near] ** weight.alpha * left[near] ** weight.beta
-        z_near = z[near]
-        second = evaluate(weight.inverse, conjugate(weight, c), z_near)
-        out[near] = (second - root * evaluate(weight, c, z_near)) / weight.sine
+        z_near, left_near = z[near], left[near]
+        root = (right[near] / left_near) ** weight.alpha * left_near**-weight.kappa
+        out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
     if not near.all():
         out[~near] = _continued_fraction(weight, c, z[~near], float(rho[~near].min())) / np.pi
     return out
+
+
+def bernstein(z: Array, right: Array, left: Array) -> Array:
+    """The parameter ρ > 1 of the ellipse with foci ±1 through z. A ratio is negative on the interval only, whatever the signs of zeros."""
+    rho: Array = np.abs(z + left * np.sqrt(right / left))
+    return rho
 
 
 def _continued_fraction(weight: Weight, c: Array, z: Array, rho: float) -> Array:

@@ -49,7 +49,7 @@ class Part:
         for distance, exponent in ((right, self.weight.alpha), (left, self.weight.beta)):
             end = distance <= 0.0
             if end.any():
-                out[end] = 0.0 if exponent.real > 0.0 else np.where(psi[end] == 0.0, 0.0, np.inf * np.sign(psi[end].real))
+                out[end] = 0.0 if exponent.real >= 0.0 else jacobi.infinite(psi[end])
         return out
 
     @cached_property
@@ -70,10 +70,12 @@ class Part:
         n = self._quadrature_size
         s, A = jacobi.analysis(self.weight, n)
         _, to_left, _ = self.map.distances(1.0 - s, 1.0 + s)
-        return s, to_left, A[:, : len(self.coefficients)] @ self.coefficients
+        c = self.coefficients[:n]  # what is left out is orthogonal to all that n nodes resolve
+        return s, to_left, A[:, : len(c)] @ c
 
     @property
     def _quadrature_size(self) -> int:
+        """So many that they integrate the coefficients times a kernel with its poles at HALFWAY."""
         n = len(self.coefficients)
         if isinstance(self.map, Affine):
             return n + 1
@@ -87,16 +89,21 @@ class Part:
     @cached_property
     def moment(self) -> Any:
         """∫ φ x dx about x = 0."""
+        if isinstance(self.map, Affine):
+            c = self.coefficients[:2]
+            about_left = (c @ np.array(jacobi.first_moment(self.weight))[: len(c)]).item()
+            return self.map.x1 * self.resultant + self.map.r * about_left
         _, to_left, values = self.nodes
         return self.map.x1 * self.resultant + (to_left @ values).item()
 
     # -- Cauchy integrals -----------------------------------------------------------------------------------------------
 
-    def hilbert_inside(self, to_right: Array, to_left: Array, value: Array) -> Array:
-        """1/π PV∫ φ/(x - t) dt inside; `value` is φ there."""
+    def cauchy_inside(self, to_right: Array, to_left: Array, side: int) -> Array:
+        """1/π PV∫ φ/(x - t) dt inside (side 0), or the limit from one side."""
         right, left, stretch = self.map.inverse(to_right, to_left)
-        out = jacobi.hilbert(self.weight, self.coefficients, 0.5 * (left - right), value * stretch)
-        return (out - self._smooth(right, left)) / stretch
+        regular = jacobi.second(self.weight, self.coefficients, 0.5 * (left - right)) - self._smooth(right, left)
+        out: Array = regular / stretch - jacobi.cut(self.weight, self.value(to_right, to_left), side)
+        return out
 
     def cauchy_outside(self, z: Array) -> Array:
         """1/π ∫ φ/(z - t) dt off the interval."""
@@ -128,7 +135,7 @@ class Part:
         right, left, _ = self.map.inverse(np.where(poles, 0.5 * self.map.length, to_right), at)
         s = 0.5 * (left - right)
         height = HALFWAY / self.map.h
-        near: Array = np.abs(s + np.sqrt(-right) * np.sqrt(left)) < height + math.sqrt(1.0 + height * height)
+        near: Array = jacobi.bernstein(s, -right, left) < height + math.sqrt(1.0 + height * height)
         return near & ~poles
 
     def _smooth(self, right: Array, left: Array) -> Array:
@@ -214,12 +221,7 @@ def _cauchy(part: Part, z: Array, side: int) -> Array:
     to_right, to_left = part.map.x2 - z.real, z.real - part.map.x1
     on = (z.imag == 0.0) & (to_right >= 0.0) & (to_left >= 0.0)
     if on.any():
-        value = part.value(to_right[on], to_left[on])
-        out[on] = part.hilbert_inside(to_right[on], to_left[on], value)
-        if side and np.iscomplexobj(value):
-            out[on] -= 1j * side * value
-        elif side:
-            out.imag[on] -= side * value  # a product with 1j would make nan of an infinite value
+        out[on] = part.cauchy_inside(to_right[on], to_left[on], side)
     if not on.all():
         out[~on] = part.cauchy_outside(z[~on])
     return out

@@ -71,6 +71,13 @@ def dundurs(body: Body, indenter: Body) -> float:
     return (_compliance(body, -1.0) - _compliance(indenter, -1.0)) / (_compliance(body, 1.0) + _compliance(indenter, 1.0))
 
 
+def share(body: Body, indenter: Body) -> float:
+    """The body's part of the compliance 1/E*: 1/2 for similar bodies."""
+    if body == indenter:
+        return 0.5
+    return _compliance(body, 1.0) / (_compliance(body, 1.0) + _compliance(indenter, 1.0))
+
+
 def _compliance(body: Body, sign: float) -> float:
     """(κ ± 1) / (8 μ)."""
     return (body.kolosov + sign) / (8.0 * body.shear_modulus) if isinstance(body, Elastic) else 0.0

@@ -26,7 +26,7 @@ from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
-ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity"})
+ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
 # A window of a function's slope is refitted while it is longer than the contact by more than this factor ...
 WINDOW = 1.6
@@ -85,6 +85,19 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
             return found
         shrunk += 1
         lo, hi = fitted
+
+
+def contact_under(
+    load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, *, near: Interval | None = None
+) -> Normal:
+    """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
+    profile = scene.profile
+    if near is not None and profile.axis is not None and tilt == 0.0 and "symmetry" in economy and not profile.pieces.functions:
+        search = Search(profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy)
+        contact = search.symmetric_near(load, near)
+        if contact is not None:
+            return Normal(search.finished(contact, load, 0.0, (False, False)), True)
+    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy)
 
 
 def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:

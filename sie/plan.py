@@ -7,13 +7,24 @@ from dataclasses import dataclass
 
 from .normal import ECONOMY
 from .scene import Scene
+from .slip import sheared
 
 # What can be asked for, and the stages of `Solution` that answer it.
 WANTS: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
-    "check": ("normal", "pressure", "certificate"),
+    "shear": ("normal", "pressure", "tangential"),
+    "check": ("normal", "pressure", "tangential", "certificate"),
+}
+
+# The same for a bonded punch, whose one equation answers pressure and shear alike.
+BONDED: dict[str, tuple[str, ...]] = {
+    "edges": ("normal",),
+    "pressure": ("normal", "pressure"),
+    "gap": ("normal",),
+    "shear": ("normal",),
+    "check": ("normal", "certificate"),
 }
 
 
@@ -42,10 +53,11 @@ class Plan:
 
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
-    """The steps for what is wanted ("edges", "pressure", "gap", "check"), as a printable Plan. Computes nothing."""
-    stages = {stage for w in wanted(want) for stage in WANTS[w]}
+    """The steps for what is wanted ("edges", "pressure", "gap", "shear", "check"), as a printable Plan. Computes nothing."""
+    needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
+    stages = {stage for w in wanted(want) for stage in needed[w]}
     if scene.bonded:
-        return _of_bonded(scene, stages)
+        return _of_bonded(scene, {stage for w in wanted(want) for stage in BONDED[w]})
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -58,7 +70,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in WANTS[w] for w in wanted(want)) else "needed for the inequalities: "
+        why = "" if any("pressure" in needed[w] for w in wanted(want)) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
@@ -67,7 +79,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     else:
         why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
         steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
-    steps += [_coupling(scene), _slip(scene), _certificate(stages)]
+    steps += [_coupling(scene), _slip(scene, "tangential" in stages, economy), _corrective(scene, economy), _certificate(stages)]
     return Plan(tuple(steps))
 
 
@@ -162,11 +174,27 @@ def _coupling(scene: Scene) -> Step:
     return Step("coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure")
 
 
-def _slip(scene: Scene) -> Step:
-    if scene.slides:
-        return Step("slip", False, "full sliding: the shear traction is f times the pressure, nothing to solve")
-    return Step(
-        "slip",
-        False,
-        "f = 0: there is no shear traction" if scene.friction == 0.0 else "Q = 0 and no bulk stress: there is no shear traction",
-    )
+def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
+    if scene.friction == 0.0:
+        return Step("slip", False, "f = 0: there is no shear traction", "tangential")
+    if scene.epsilon:
+        return Step("slip", False, "full sliding: the shear traction is f times the pressure, nothing to solve", "tangential")
+    if not sheared(scene, economy):
+        return Step("slip", False, "Q = 0 and no bulk stress: there is no shear traction", "tangential")
+    if not asked:
+        return Step("slip", False, "not asked for", "tangential")
+    if scene.tau == 0.0:
+        return Step("slip", True, "zones of stick and slip for Q at constant P, slip in one direction", "tangential")
+    return Step("slip", True, "zones of stick and slip for Q and σ in proportion: one direction or two, by the inequalities", "tangential")
+
+
+def _corrective(scene: Scene, economy: Collection[str]) -> Step:
+    """A decision inside the slip stage."""
+    name = "corrective"
+    if not sheared(scene, economy):
+        return Step(name, False, "there is no shear traction")
+    if scene.slides and "sliding" in economy:
+        return Step(name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve")
+    zero = scene.profile.pieces.has_zero and scene.tau == 0.0
+    never = "; never inside the flat base, which nothing corrects" if zero else ""
+    return Step(name, True, f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways")

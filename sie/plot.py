@@ -4,6 +4,8 @@
     lower panel     in the frame of the half-plane's deformed surface: the gap of the unloaded indenter that just touches, h(x) + tilt x
                     less its lowest value, and the gap under load, 0 in contact. Neither depends on the approach of the bodies, which
                     plane elasticity leaves undetermined: nothing in the panel is arbitrary.
+    with shear      q(x) between the limits ± f p, the stick zones shaded; and after a path the loop of Q over the shift that slip allows,
+                    a dot on each turning point
 
 Dotted lines through both panels are the edges x1 and x2. This file alone imports Matplotlib, and nothing imports it before a picture is
 asked for; `pyplot` is not used, and no global setting is changed.
@@ -16,12 +18,15 @@ import math
 import textwrap
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .export import REACH, abscissae, ceiling, peak, summits
+from .history import Followed, follow
+from .path import Path
 from .scenefile import UNITS, Units
 from .solution import Solution
 
@@ -54,6 +59,7 @@ DASHED, DOTTED = (0, (5, 2.5)), (0, (1, 2))
 ARROW = {"arrowstyle": "-|>", "color": BLUE, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6}
 
 HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for the label
+LOOP_POINTS = 24  # from one turning point to the next
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 DIGITS = 4
 # A length in mm may be read in these; in other units a power of ten stands before the unit.
@@ -62,24 +68,35 @@ READABLE = (0.1, 1e4)  # largest values that need no other unit
 
 
 def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
-    """A Matplotlib figure of the pressure and the gap.
+    """A Matplotlib figure of the pressure and the gap, and of the shear if there is any.
 
     `units` are labels. The figure is not known to pyplot: save it with figure.savefig("contact.pdf"), or leave it as the last line of a
     notebook's cell.
     """
     view = _View(solution, units)
-    figure = Figure(figsize=(WIDTH, HEIGHT), dpi=DPI, layout="constrained")
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
+    rows = ["pressure", "gap", *(["shear"] if solution.sheared else []), *(["loop"] if _has_loop(solution) else [])]
+    figure = Figure(figsize=(WIDTH, HEIGHT * len(rows) / 2.0), dpi=DPI, layout="constrained")
+    grid = figure.add_gridspec(len(rows), 1, height_ratios=[1.2 if name == "pressure" else 1.0 for name in rows])
+    upper = figure.add_subplot(grid[0])
+    shared = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 3 if solution.sheared else 2))]
+    lower = shared[-1]
     _draw_pressure(upper, view)
-    _draw_gap(lower, view)
-    for axes in (upper, lower):
+    _draw_gap(shared[1], view)
+    if solution.sheared:
+        _draw_shear(lower, view)
+    if _has_loop(solution):
+        loop = figure.add_subplot(grid[-1])
+        _draw_loop(loop, solution, units)
+        _plain(loop)
+    for axes in shared:
         for edge in solution.edges:
             axes.axvline(edge * view.factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=2.5)
         _plain(axes)
     lower.set_xlim(view.left * view.factor, view.right * view.factor)
     lower.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
     lower.set_xlabel(f"$x$ ({view.length})", fontproperties=_font())
-    upper.tick_params(labelbottom=False)
+    for axes in shared[:-1]:
+        axes.tick_params(labelbottom=False)
     figure.align_ylabels()
     if title:
         figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
@@ -190,6 +207,57 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
     axes.legend(**place, ncols=2, prop=_font(SMALL), frameon=False, handlelength=2.4)
     _name_bodies(axes, view)
+
+
+def _draw_shear(axes: Axes, view: _View) -> None:
+    """q between ± f p; where |q| would leave the panel (sharp edges) it is cut like the pressure."""
+    solution, (x1, x2) = view.solution, view.solution.edges
+    f, largest = solution.scene.friction, solution.scene.friction * view.shown
+    scale, stress = _scaled(largest, view.units.stress)
+    inner = [end for lo, hi in solution.stick for end in (lo, hi)]
+    x = np.unique(np.concatenate((view.x[(view.x >= x1) & (view.x <= x2)], inner)))
+    limit = np.minimum(f * solution.pressure(x), 4.0 * largest)
+    q = np.clip(solution.shear(x), -4.0 * largest, 4.0 * largest)
+    for k, (lo, hi) in enumerate(solution.stick):
+        axes.axvspan(lo * view.factor, hi * view.factor, color=PALE_BLUE, linewidth=0.0, zorder=0, label="" if k else "stick")
+    for sign in (1.0, -1.0):
+        label = r"$\pm f p$" if sign > 0.0 else ""
+        axes.plot(x * view.factor, sign * limit * scale, color=INK, linewidth=0.8, linestyle=DASHED, zorder=2, label=label)
+    axes.plot(x * view.factor, q * scale, color=VERMILLION, linewidth=1.3, solid_joinstyle="round", zorder=3, label="$q$")
+    axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
+    top = HEADROOM * largest * scale
+    axes.set_ylim(-top if q.min() < -1e-9 * largest else min(-0.1 * top, 0.0), top)
+    axes.set_ylabel(f"$q$ ({stress})", fontproperties=_font())
+    place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
+    axes.legend(**place, ncols=3, prop=_font(SMALL), frameon=False, handlelength=2.0)
+
+
+def _has_loop(solution: Solution) -> bool:
+    """Whether there is a path of more than one point at constant P, over which something slips."""
+    if not isinstance(solution, Followed) or len(solution.history) < 2 or not solution.sheared:
+        return False
+    loads = solution.history.path.points
+    return len({P for P, _, _ in loads}) == 1 and any(Q != 0.0 for _, Q, _ in loads)
+
+
+def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
+    assert isinstance(solution, Followed)
+    history = solution.history
+    turning = np.array([(history.path.points[0][0], 0.0, 0.0), *history.path.points])
+    t = np.linspace(0.0, 1.0, LOOP_POINTS + 1)[1:, None]
+    between = np.concatenate([lo + (hi - lo) * t for lo, hi in pairwise(turning)])
+    finer = follow(history.scene, Path(between.tolist()), history.tol, history.economy)
+    shift = np.concatenate(([0.0], [point.shift for point in finer]))
+    Q = np.concatenate(([0.0], between[:, 1]))
+    (along, length), (up, force) = _scaled(float(np.abs(shift).max()) or 1.0, units.length), _scaled(float(np.abs(Q).max()), units.force)
+    axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
+    axes.axvline(0.0, color=INK, linewidth=0.6, zorder=1)
+    axes.plot(shift * along, Q * up, color=BLUE, linewidth=1.2, solid_joinstyle="round", zorder=3)
+    dots = slice(LOOP_POINTS, None, LOOP_POINTS)
+    axes.plot(shift[dots] * along, Q[dots] * up, "o", color=BLUE, markersize=2.2, zorder=4)
+    axes.plot(shift[-1:] * along, Q[-1:] * up, "o", color=VERMILLION, markersize=3.0, zorder=5)
+    axes.set_xlabel(f"shift of the indenter by slip ({length})", fontproperties=_font())
+    axes.set_ylabel(f"$Q$ ({force})", fontproperties=_font())
 
 
 def _draw_surface(axes: Axes, view: _View, y: Array, **style: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import checks
 from .interval import EPS
-from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus
+from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus, share
 from .profile import Profile
 
 
@@ -22,7 +22,7 @@ class Scene:
     normal_load        P, force per length;  or half_width, length: exactly one of the two
     tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
     friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
-    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body
+    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body. Both grow in proportion, after P is applied
     sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
 
     Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
@@ -146,3 +146,13 @@ class Scene:
             return self.dundurs
         assert self.body is not None and self.indenter is not None
         return dundurs(self.body, self.indenter)
+
+    @property
+    def tau(self) -> float:
+        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4 for similar bodies.
+
+        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E* the bodies are taken as similar.
+        """
+        if self.body is None or self.indenter is None:
+            return 0.25 * self.bulk_stress
+        return 0.5 * self.bulk_stress * share(self.body, self.indenter)

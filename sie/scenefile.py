@@ -9,7 +9,8 @@
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]   the same; without it the indenter is made of the body's material
     [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]
-    [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress
+    [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress;  or, in place of the loads,
+                 path = [[P, Q, σ], ...]: turning points, σ may be left out; the scene is that of the last one
 
 `sie example` lists commented files to start from. Whatever does not fit is refused in one sentence, a `SceneFileError`, that names the
 file, the table, the value and the remedy; a name that is not known is answered with the nearest that is.
@@ -27,15 +28,16 @@ from __future__ import annotations
 
 import codecs
 import difflib
+import pathlib
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
-from pathlib import Path
 from typing import Any
 
 from .indenters import profile_kinds
 from .material import RIGID, Body, Elastic
+from .path import Path
 from .plan import WANTS
 from .profile import Profile
 from .scene import Scene
@@ -75,14 +77,15 @@ class SceneFile:
     title: str = ""
     units: Units = UNITS
     want: tuple[str, ...] = ()
+    path: tuple[tuple[float, float, float], ...] = ()
 
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 
 
-def read(path: str | Path) -> SceneFile:
+def read(path: str | pathlib.Path) -> SceneFile:
     """The scene in a TOML file. Raises SceneFileError if there is none."""
-    path = Path(path)
+    path = pathlib.Path(path)
     if path.is_dir():
         raise SceneFileError(f"{path} is a directory: give a scene file, like scene.toml")
     try:
@@ -120,15 +123,22 @@ def _decoded(data: bytes, name: str) -> str:
 
 
 def example(kind: str) -> str:
-    """The commented example of a profile kind, as TOML text. Raises ValueError, with the nearest name, for one that is not known."""
-    if kind not in profile_kinds():
-        raise ValueError(f'there is no example "{kind}": {_suggestion(kind, profile_kinds())}')
+    """The commented example of a profile kind, or of a kind of loading, as TOML text.
+
+    Raises ValueError, with the nearest name, for one that is not known.
+    """
+    if kind not in _examples():
+        raise ValueError(f'there is no example "{kind}": {_suggestion(kind, _examples())}')
     return (resources.files(__package__) / "examples" / f"{kind}.toml").read_text(encoding="utf-8")
 
 
 def examples() -> dict[str, str]:
     """The name of each example and its title."""
-    return {kind: parse(example(kind), f"{kind}.toml").title for kind in profile_kinds()}
+    return {kind: parse(example(kind), f"{kind}.toml").title for kind in _examples()}
+
+
+def _examples() -> tuple[str, ...]:
+    return (*profile_kinds(), "partial-slip", "fretting-cycle")
 
 
 # -- values, each with the sentence that refuses it --------------------------------------------------------------------
@@ -196,12 +206,13 @@ def _shown(value: Any) -> str:
 
 _BODY: dict[str, Reader] = {"young": _number, "poisson": _number, "plane": _text, "rigid": _flag}
 _LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "sliding", "bulk_stress")
+_PATH_REPLACES = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
 _TABLES: dict[str, dict[str, Reader]] = {
     "units": {"length": _text, "force": _text, "stress": _text},
     "body": _BODY,
     "indenter": _BODY,
     "pair": {"modulus": _number, "dundurs": _number, "poisson": _number},
-    "load": dict.fromkeys(_LOAD_KEYS, _number),
+    "load": dict.fromkeys(_LOAD_KEYS, _number) | {"path": _rows},
 }
 _TOP: tuple[str, ...] = ("title", "want", "profile", *_TABLES)
 _MODIFIERS: dict[str, Reader] = {"mirrored": _flag, "tilted": _number, "shifted": _number}
@@ -229,12 +240,30 @@ def _scene_file(top: dict[str, Any]) -> SceneFile:
     for name, content in (("profile", 'kind = "parabola" or another'), ("load", "normal_load or half_width")):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+    loads = _taken("load", top["load"])
+    path = _path(loads)
     return SceneFile(
-        scene=Scene(profile=_profile(top["profile"]), **_bodies(top), **_taken("load", top["load"])),
+        scene=Scene(profile=_profile(top["profile"]), **_bodies(top), **loads),
         title=_text("title", top.get("title", "")),
         units=Units(**_taken("units", top.get("units", {}))),
         want=wants("want", _texts("want", top.get("want", []))),
+        path=path,
     )
+
+
+def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
+    """The turning points of [load] path; in `loads` the last of them takes its place."""
+    if "path" not in loads:
+        return ()
+    both = [name for name in _PATH_REPLACES if name in loads]
+    if both:
+        raise ValueError(f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out")
+    with _Naming("[load]"):
+        points = Path(loads.pop("path")).points
+    if points[-1][0] == 0.0:
+        raise ValueError("[load] path has no load: give points [P, Q] with P > 0")
+    loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), points[-1], strict=True))
+    return points
 
 
 def _taken(name: str, value: Any) -> dict[str, Any]:

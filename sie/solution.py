@@ -21,16 +21,20 @@ from .gap import gap
 from .jacobi_density import JacobiDensity
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
+from .slip import refuse_sliding, sheared, slip
+from .slipcheck import shear_certificate
 from .slope import Slope
+from .states import Slip, Step
 
 Array = NDArray[np.float64]
 
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
-_NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment"})
-# ... and what couples them to friction: `epsilon` of the scene.
+_NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment", "epsilon", "bonded"})
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_STAGES = ("bonded", "normal", "pressure", "inequalities", "certificate")
+_SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "sliding", "bulk_stress"}
+_STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
+_STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
 
 
 class Solution:
@@ -38,6 +42,7 @@ class Solution:
 
     edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
     pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
+    shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
     gap(x)       the gap between the deformed bodies, 0 in contact
     check()      Certificate
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
@@ -73,6 +78,12 @@ class Solution:
         return bonded_contact(self.scene, self.tol)
 
     @property
+    def normal_and_shear(self) -> JacobiDensity:
+        """p + i q of a bonded punch."""
+        _ = self.normal
+        return self.bonded[1]
+
+    @property
     def _may_not_be_convex(self) -> bool:
         return not (self.scene.profile.convex and "convexity" in self.economy)
 
@@ -94,19 +105,36 @@ class Solution:
     def pressure(self) -> SlopeDensity | Component:
         """The contact pressure p(x)."""
         if self.scene.bonded:
-            return Component(self.bonded[1], imaginary=False)
+            return Component(self.normal_and_shear, imaginary=False)
         normal = self.normal
         verified: SlopeDensity | None = self.__dict__.get("pressure")
         return verified or pressure(normal, self.scene, self.tol, self.economy)
 
+    @property
+    def _loads(self) -> tuple[float, float]:
+        return self.tangential_load, self.scene.tau if self.scene.friction else 0.0
+
+    @property
+    def sheared(self) -> bool:
+        """Whether there is friction, and a load that shears, and not pressure and shear are one problem."""
+        return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
+
+    @cached_property
+    def tangential(self) -> Slip:
+        """Zones of stick and slip, and the shear."""
+        return slip(Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy))
+
     @cached_property
     def certificate(self) -> Certificate:
         if self.scene.bonded:
-            return bonded_certificate(*self.bonded, self.scene, self.tol)
-        return certificate(self._slope_density, self._slope, self.tol)
+            return bonded_certificate(self.normal.edges, self.normal_and_shear, self.scene, self.tol)
+        found = certificate(self.slope_density, self._slope, self.tol)
+        if not self.sheared:
+            return found
+        return replace(found, shear=shear_certificate(self.tangential, self.slope_density, self._loads, self._slope, self.tol))
 
     @property
-    def _slope_density(self) -> SlopeDensity:
+    def slope_density(self) -> SlopeDensity:
         assert isinstance(self.pressure, SlopeDensity)
         return self.pressure
 
@@ -151,12 +179,22 @@ class Solution:
         return self.normal.edges.sharp
 
     @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The stick zones as (lo, hi): the contact where no tangential load came, () in full sliding and without friction."""
+        if self.scene.epsilon:
+            return ()
+        if self.sheared:
+            return self.tangential.stick
+        return (self.edges,) if self.scene.friction else ()
+
+    @property
     def shear(self) -> Density:
-        """The shear traction q(x): ±f p in full sliding, that of full stick, zero without tangential load; others are not covered yet."""
+        """The shear traction q(x), which acts on the body in +x."""
         if self.scene.bonded:
-            return Component(self.bonded[1], imaginary=True)
-        slides = self.scene.slides
-        return Scaled(self.pressure, slides * self.scene.friction) if slides else ZERO
+            return Component(self.normal_and_shear, imaginary=True)
+        if self.scene.epsilon:
+            return Scaled(self.pressure, self.scene.slides * self.scene.friction)
+        return self.tangential.shear if self.sheared else ZERO
 
     @property
     def tangential_load(self) -> float:
@@ -164,12 +202,44 @@ class Solution:
         slides = self.scene.slides
         return slides * self.scene.friction * self.normal_load if slides else self.scene.tangential_load
 
+    def slip(self, x: ArrayLike) -> Array:
+        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
+
+        It has the sign of q. In full sliding: what it is when the last point lets go. ContactError for dissimilar bodies that slide:
+        that takes their partial slip before.
+        """
+        self._refuse_unknown_slip()
+        x = np.asarray(x, dtype=float)
+        return self.tangential.slip(x.ravel()).reshape(x.shape) if self.sheared else np.zeros(x.shape)
+
+    @property
+    def energy_lost(self) -> float:
+        """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
+        self._refuse_unknown_slip()
+        return self.tangential.energy if self.sheared else 0.0
+
+    @property
+    def shift(self) -> float:
+        """How far slip lets the indenter move along x, beyond what the same loads would move it if nothing slipped.
+
+        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it undetermined (Johnson 1985, § 2.2).
+        """
+        self._refuse_unknown_slip()
+        return self.tangential.shift if self.sheared else 0.0
+
+    def _refuse_unknown_slip(self) -> None:
+        if self.scene.epsilon:
+            raise ContactError(
+                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is a matter of partial slip, "
+                "which is not covered for them yet: pressure, shear and stresses are"
+            )
+
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
         x = np.asarray(x, dtype=float)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, 0.0)
-        return gap(x.ravel(), self._slope_density, self._slope).reshape(x.shape)
+        return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""
@@ -189,9 +259,12 @@ class Solution:
             changes = {"body": None, "indenter": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        decisive = (*_NORMAL_FIELDS, "epsilon", "bonded", *(("tangential_load",) if self.scene.bonded else ()))
-        if all(getattr(new.scene, name) == getattr(self.scene, name) for name in decisive):
-            new.__dict__.update({stage: self.__dict__[stage] for stage in _STAGES if stage in self.__dict__})
+        changed = {name for name in known if getattr(new.scene, name) != getattr(self.scene, name)}
+        changed |= {name for name in ("epsilon", "bonded") if getattr(new.scene, name) != getattr(self.scene, name)}
+        if self.scene.bonded and changed & _SHEAR_FIELDS:
+            changed.add("bonded")
+        kept = [stage for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs]
+        new.__dict__.update({stage: self.__dict__[stage] for stage in kept})
         return new
 
     def __repr__(self) -> str:
@@ -222,10 +295,12 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
 def _refuse_uncovered(scene: Scene) -> None:
     if scene.bonded and scene.bulk_stress == 0.0:
         return
-    if scene.bulk_stress != 0.0 or (scene.tangential_load != 0.0 and not scene.slides and scene.beta == 0.0):
+    if scene.normal_load is not None and not scene.slides:
+        refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
+    if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
-            f"tangential_load = {scene.tangential_load:g} and bulk_stress = {scene.bulk_stress:g} are not covered yet: "
-            "set both to 0 for the normal contact, or let the bodies slide"
+            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) with friction is not covered yet: "
+            "set bulk_stress = 0, or friction = 0"
         )
     if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
         raise ContactError(

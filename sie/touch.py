@@ -144,3 +144,25 @@ def _height(slope: Slope, ends: Array, z: float) -> float:
     length = hi - lo
     H = slope.local(np.arange(len(lo)), lo, np.zeros(len(lo)), length[:, None] * g)
     return float((length * (H @ w)).sum())
+
+
+def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
+    """h(x) over its lowest value, by Gauss-Legendre from the lowest points on every piece: to relative accuracy."""
+    z1, z2 = touch
+    pieces = slope.split_at(z1).split_at(z2)
+    g, w = chebyshev.gauss_legendre(2 + pieces.degree // 2)
+    k = np.clip(np.searchsorted(pieces.breaks, x, side="right") - 1, 0, len(pieces.origins) - 1)
+    out = np.zeros(x.shape)
+    for j in range(len(pieces.origins)):
+        a, b = pieces.breaks[j], pieces.breaks[j + 1]
+        right = a >= z2
+        if not right and b > z1:
+            continue
+        # from the end nearer to the touch, as far as x or to the other end
+        start = a if right else b
+        end = np.clip(x, a, b)
+        beyond = k >= j if right else k <= j
+        length = np.where(beyond, end - start, 0.0)
+        H = pieces.local(np.full(len(x), j), np.full(len(x), start), np.zeros(len(x)), length[:, None] * g)
+        out += length * (H @ w)
+    return out

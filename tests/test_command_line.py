@@ -111,7 +111,7 @@ def test_an_answer_without_a_good_certificate_is_printed_and_told_by_the_exit_co
 def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
     main(["solve", scene, "--want", want])
     out = capsys.readouterr().out
-    marks = {"edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "check": "integral equation"}
+    marks = {"edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "shear": "\nshear", "check": "integral equation"}
     assert {name for name, mark in marks.items() if mark in out} == {want}
 
 
@@ -203,6 +203,48 @@ def test_one_output_may_be_standard_output_and_is_then_alone_there(scene, capsys
     assert capsys.readouterr().out.startswith("# Fretting pad")
 
 
+# -- shear and load paths ----------------------------------------------------------------------------------------------
+
+
+def test_shear_is_told_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    path = example("partial-slip", tmp_path)
+    assert main(["solve", path, "--want", "shear", "check", "--csv", "out.csv", "--json", "out.json"]) == 0
+    solution = sie.solve(scenefile.read(path).scene)
+    out = capsys.readouterr().out
+    assert f"stick           from {solution.stick[0][0]:.6g} to {solution.stick[0][1]:.6g} mm" in out
+    assert "shear equation (12)" in out and "slip: one sign" in out
+    found = json.loads(Path("out.json").read_text())
+    assert found["shear"]["stick"] == [list(solution.stick[0])]
+    assert found["shear"]["energy_lost"] == solution.energy_lost
+    assert found["check"]["shear"]["ok"] is True
+    rows = list(csv.DictReader(line for line in Path("out.csv").read_text().splitlines() if not line.startswith("#")))
+    x = np.array([float(row["x"]) for row in rows])
+    assert [float(row["q"]) for row in rows] == solution.shear(x).tolist()
+    assert [float(row["slip"]) for row in rows] == solution.slip(x).tolist()
+
+
+def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    path = example("fretting-cycle", tmp_path)
+    assert main(["solve", path, "--want", "shear", "--json", "out.json"]) == 0
+    file = scenefile.read(path)
+    history = sie.follow(file.scene, sie.Path(file.path))
+    out = capsys.readouterr().out
+    assert out.count("\n           500") == len(history)
+    found = json.loads(Path("out.json").read_text())
+    assert [point["stick"] for point in found["path"]] == [[list(zone) for zone in s.stick] for s in history]
+    assert found["shear"]["resultant"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("bad.toml").write_text(scenefile.example("fretting-cycle").replace("[500.0, -50.0]", "[500.0, -400.0]"))
+    for word in ("solve", "plan"):
+        assert main([word, "bad.toml"]) == 2
+        assert "step 3 of the path" in sentence(capsys)
+
+
 # -- plan and example --------------------------------------------------------------------------------------------------
 
 
@@ -215,9 +257,8 @@ def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
 
 
 def test_a_plan_of_what_cannot_be_solved_is_refused_like_its_solution(scene, tmp_path, capsys):
-    (tmp_path / scene).write_text(scenefile.example("rounded-flat") + "friction = 0.5\ntangential_load = 1.0\n")
-    if main(["solve", scene]) == 0:
-        pytest.skip("tangential loads are covered")
+    (tmp_path / scene).write_text(scenefile.example("rounded-flat") + "friction = 0.5\ntangential_load = 1e6\n")
+    assert main(["solve", scene]) == 2
     said = sentence(capsys)
     assert main(["plan", scene]) == 2
     assert sentence(capsys) == said

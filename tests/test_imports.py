@@ -18,8 +18,8 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "panels", "density",
     "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
-    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "plan", "solution",
-    "scenefile", "export", "plot", "__main__",
+    "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "zones", "shear",
+    "states", "slip", "slipcheck", "plan", "solution", "ladder", "path", "history", "scenefile", "export", "plot", "__main__",
 )  # fmt: skip
 
 

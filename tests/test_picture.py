@@ -143,3 +143,44 @@ def test_matplotlib_s_settings_stay_as_they_were():
     before = dict(matplotlib.rcParams)
     plot.picture_bytes(plot.picture(sie.solve(SCENES["wedge"])), "eps")
     assert dict(matplotlib.rcParams) == before
+
+
+# -- shear ---------------------------------------------------------------------------------------------------------------
+
+FRETTING = parse(example("fretting-cycle"))
+SHEARED = {
+    "partial slip": sie.solve(parse(example("partial-slip")).scene),
+    "sharp edges": sie.solve(sie.Scene(profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=-10.0)),
+    "both signs": sie.solve(sie.Scene(profile=sie.Parabola(10.0), body=STEEL, normal_load=50.0, friction=0.5, bulk_stress=300.0)),
+    "sliding": sie.solve(sie.Scene(profile=sie.Wedge(0.01), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=25.0)),
+    "path": sie.follow(FRETTING.scene, sie.Path(FRETTING.path))[-1],
+}
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution):
+    axes = plot.picture(solution).axes[2]
+    drawn = lines(axes)
+    x, q = drawn["$q$"].get_data()
+    _, limit = drawn[r"$\pm f p$"].get_data()
+    assert (np.abs(q) <= limit + 1e-9 * limit.max()).all()
+    factor, _ = plot._scaled(solution.half_width, "mm")
+    scale, _ = plot._scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
+    middle = len(x) // 2 + 3
+    assert q[middle] == pytest.approx(float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max())
+    shaded = [patch.get_extents().bounds[2] for patch in axes.patches]
+    assert len(shaded) == len(solution.stick)
+
+
+def test_after_a_path_the_loop_goes_through_its_turning_points():
+    solution = SHEARED["path"]
+    loop = plot.picture(solution).axes[-1]
+    shift, Q = loop.lines[-2].get_data()
+    assert pytest.approx([point[1] for point in FRETTING.path]) == Q
+    factor, _ = plot._scaled(max(abs(s.shift) for s in solution.history), "mm")
+    assert shift == pytest.approx([s.shift * factor for s in solution.history], abs=1e-9 * abs(shift).max())
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_a_picture_of_shear_can_be_written(solution):
+    assert plot.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(b"\x89PNG")

@@ -1,5 +1,7 @@
 """What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the answer as it is."""
 
+from contextlib import suppress
+
 import laws
 import numpy as np
 import pytest
@@ -8,8 +10,8 @@ from hypothesis import given
 
 import sie
 
-STAGES = {"normal", "pressure", "inequalities", "certificate"}
-ECONOMIES = ("symmetry", "transform", "zero panels", "convexity")
+STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "certificate"}
+ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
 SCENES = {
     "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
     "tilted": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, tilt=0.05),
@@ -23,12 +25,27 @@ SCENES = {
         modulus=1.0,
         half_width=2.75,
     ),
+    "partial slip": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.3),
+    "full sliding": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=-0.5),
+    "both signs": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3),
+    "rough, not sheared": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5),
     "dissimilar": sie.Scene(profile=sie.Parabola(2.0), body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5),
+    "dissimilar, sliding": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=0.5, sliding=1),
+    "bonded": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=float("inf"), tangential_load=0.3),
 }
+
+
+def shear(solution):
+    _ = solution.edges, solution.stick, solution.shear(0.1)
+    with suppress(sie.ContactError):  # slip before dissimilar bodies slide is not known
+        _ = solution.slip(0.1), solution.energy_lost
+
+
 ASK = {
     "edges": lambda s: s.edges,
     "pressure": lambda s: s.pressure(0.1),
     "gap": lambda s: s.gap(9.0),
+    "shear": shear,
     "check": lambda s: s.check(),
 }
 
@@ -65,6 +82,15 @@ def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
         for line in str(sie.plan(scene, want="check")).splitlines():
             assert line.startswith(("run ", "skip"))
             assert len(line.split(maxsplit=2)) == 3
+
+
+def test_a_plan_says_why_the_shear_is_or_is_not_solved_for():
+    said = {name: str(sie.plan(scene, want="shear")) for name, scene in SCENES.items()}
+    assert "f = 0: there is no shear traction" in said["convex"]
+    assert "Q = 0 and no bulk stress" in said["rough, not sheared"]
+    assert "full sliding: q is f times the pressure, no second solve" in said["full sliding"]
+    assert "never inside the flat base" in said["partial slip"]
+    assert "one direction or two" in said["both signs"]
 
 
 def test_a_plan_computes_nothing():

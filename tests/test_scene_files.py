@@ -195,3 +195,25 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path):
         read(tmp_path / "none.toml")
     with pytest.raises(SceneFileError, match="is a directory"):
         read(tmp_path)
+
+
+def test_a_load_path_takes_the_place_of_the_loads():
+    file = parse(PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = [[2, 0.5], [2.0, -0.25, 0]]\n")
+    assert file.path == ((2.0, 0.5, 0.0), (2.0, -0.25, 0.0))
+    assert (file.scene.normal_load, file.scene.tangential_load, file.scene.bulk_stress) == (2.0, -0.25, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("load", "said"),
+    [
+        ("path = [[2, 0.5]]\nfriction = 0.5\nnormal_load = 2\n", "both path and normal_load"),
+        ("path = []\n", "no points"),
+        ("path = [[1]]\n", r"give \(P, Q\)"),
+        ("path = [[1, 'a']]\n", "not a number"),
+        ("path = 3\n", "not a list"),
+        ("path = [[0, 0]]\n", "no load"),
+    ],
+)
+def test_a_load_path_that_means_nothing_is_refused(load, said):
+    with pytest.raises(SceneFileError, match=said):
+        parse(PAIR + PARABOLA + "[load]\n" + load)

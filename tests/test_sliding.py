@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import analytic
 import sie
 
 SIMILAR = {"modulus": 2.0}
@@ -98,6 +99,24 @@ def test_rounded_punch_against_principal_value_quadrature_with_thirty_digits(cou
     for x in (-0.9, 0.0, 0.75, 0.999):  # on the flat, where no principal value is needed
         p = c**2 / mp.pi * (x - x1) ** (mp.mpf(1) / 2 + e) * (x2 - x) ** (mp.mpf(1) / 2 - e) * over_rims(lambda t, x=x: 1 / (t - mp.mpf(x)))
         assert float(solution.pressure(x)) == pytest.approx(float(p), rel=1e-12)
+
+
+@pytest.mark.parametrize("half_flat", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("coupling", [0.3, -0.3, 0.1])
+def test_the_sliding_rounded_punch_of_both_packages(coupling, half_flat):
+    P, R = 0.1, 50.0
+    solution = slid(sie.RoundedFlat(half_flat, R), coupling, normal_load=P)
+    closed = {"half_flat": half_flat, "radius": R, "modulus": 2.0, "coupling": coupling, "normal_load": P}
+    rims = analytic.dissimilar.sliding_rounded_flat.rims(**closed)
+    contact = solution.normal.edges.contact
+    assert [-half_flat - contact.x1 - contact.tail1, contact.x2 - half_flat + contact.tail2] == pytest.approx(
+        [float(r) for r in rims], rel=1e-12
+    )
+    x = inside(solution)
+    exact = analytic.dissimilar.sliding_rounded_flat.pressure(x, **closed)
+    middle = np.abs(x - solution.centre) < 0.999 * solution.half_width  # nearer, the edge as a double is what differs
+    assert solution.pressure(x)[middle] == pytest.approx(exact[middle], rel=1e-12)
+    assert solution.moment == pytest.approx(float(analytic.dissimilar.sliding_rounded_flat.moment(**closed)), rel=1e-12)
 
 
 @pytest.mark.parametrize("beta", [0.3, -0.2, 0.0, 0.49])

@@ -1,0 +1,380 @@
+"""Slip over a load path: a lazy sequence of solutions, one for each turning point.
+
+The first point is answered like a scene: P alone, then Q and σ in proportion. From each point to the next all loads change in proportion to
+time. What is exact, and covered:
+
+    constant P, any Q                  every unloading, reloading and nested loop (`ladder`)
+    constant P, σ in proportion to Q   the same, as long as the zones of slip of the largest amplitude opened monotonically (`slip`)
+    P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with |dQ/dP| on either side of f, or falls.
+                                       The contacts of one profile at one tilt are nested: a given moment would tilt it
+
+Everything else raises ContactError, which names the step and the reason. A path may begin unloaded, at (0, 0, 0).
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import chebyshev
+from .density import ZERO, Combination, Density, SlopeDensity
+from .errors import ContactError, LoadError
+from .interval import EPS, Interval
+from .normal import ECONOMY, Normal, normal_contact
+from .path import Path, State, direction, states
+from .scene import Scene
+from .slip import slip
+from .solution import Solution, solve
+from .states import OneWay, Slip, Step, rims
+from .zones import zone
+
+Array = NDArray[np.float64]
+
+NODES = 32  # over the levels that a step overwrites while P changes
+
+
+def follow(scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> History:
+    """The solutions at the turning points of a path, as a lazy sequence: nothing is solved yet.
+
+    The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises ContactError where a step is not
+    covered, as soon as that shows: in the loads, or once the contact is known.
+
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0, friction=0.5)
+    >>> loading, unloading = sie.follow(scene, sie.Path([(50.0, 20.0), (50.0, 0.0)]))
+    >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
+    (0.126157, 0.21851)
+    """
+    if not isinstance(path, Path):
+        raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
+    if scene.bonded:
+        raise ValueError("a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene")
+    return History(scene, path, tol, economy)
+
+
+# -- the sequence -------------------------------------------------------------------------------------------------------
+
+
+class History(Sequence[Solution]):
+    """The solutions at the turning points, each made when it is asked for; what they share is solved once."""
+
+    def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
+        first = next(P for P, _, _ in path.points if P > 0.0)
+        self.path, self.tol, self.economy = path, tol, frozenset(economy)
+        self.scene = replace(scene, normal_load=first, half_width=None, tangential_load=0.0, sliding=0, bulk_stress=0.0)
+        solve(self.scene, tol, economy)  # refuses what is not covered
+        self.unit = direction(path)
+        self.states = states(scene, path)
+        self._plain: dict[float, Solution] = {}
+        self._virgin: dict[tuple[float, float], Slip] = {}
+        self._followed: dict[int, Followed] = {}
+        self._energy: list[float] = []
+        self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
+        self._seen: dict[float, Seen] = {}
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    @overload
+    def __getitem__(self, index: int) -> Solution: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Solution]: ...
+    def __getitem__(self, index: int | slice) -> Solution | Sequence[Solution]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        k = range(len(self))[index]
+        if k not in self._followed:
+            self._followed[k] = Followed(self, k)
+        return self._followed[k]
+
+    def __iter__(self) -> Iterator[Solution]:
+        return (self[k] for k in range(len(self)))
+
+    def plain(self, P: float) -> Solution:
+        """The contact under P without shear."""
+        if P not in self._plain:
+            if P == 0.0:
+                raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
+            self._plain[P] = Solution(replace(self.scene, normal_load=P), self.tol, self.economy)
+        return self._plain[P]
+
+    def virgin(self, P: float, depth: float) -> Slip:
+        """What the loads depth × unit do to the contact under P that never slipped."""
+        key = (P, depth)
+        if key not in self._virgin:
+            plain, f = self.plain(P), self.scene.friction
+            Q, sigma = depth * self.unit[0], depth * self.unit[1]
+            if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
+                Q = math.copysign(f * P, Q)
+            near = self._seen.setdefault(P, Seen())
+            step = Step(plain.scene, plain.normal, plain.slope_density, Q, sigma * self._tau, self.tol, self.economy, near.contact(depth))
+            found = slip(step)
+            if isinstance(found, OneWay):
+                near.add(depth, found.found.edges.contact)
+            self._virgin[key] = found
+        return self._virgin[key]
+
+    def energy(self, index: int) -> float:
+        """Lost from the beginning of the path."""
+        while len(self._energy) <= index:
+            k = len(self._energy)
+            self._energy.append((self._energy[-1] if k else 0.0) + self.step_energy(k))
+        return self._energy[index]
+
+    def step_energy(self, index: int) -> float:
+        """Lost in the step that ends at this point."""
+        state = self.states[index]
+        P, before = state.loads[0], self.states[index - 1] if index else None
+        if before is not None and before.loads[0] != P and state.sign:
+            return _energy_while_P_changes(self, before, state)
+        return sum(o.jump * (self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)) for o in state.done)
+
+    def _depth_energy(self, P: float, depth: float) -> float:
+        return self.virgin(P, depth).energy if depth else 0.0
+
+
+class Seen:
+    """Stick zones already found under one P, by depth: a cubic through the nearest four says where the next one is, about."""
+
+    def __init__(self) -> None:
+        self._depths: list[float] = []
+        self._contacts: list[Interval] = []
+
+    def add(self, depth: float, contact: Interval) -> None:
+        k = bisect_left(self._depths, depth)
+        self._depths.insert(k, depth)
+        self._contacts.insert(k, contact)
+
+    def contact(self, depth: float) -> Interval | None:
+        if not self._depths:
+            return None
+        first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
+        at, zones = self._depths[first : first + 4], self._contacts[first : first + 4]
+        base = zones[0]
+        # Neville's scheme for how far both edges are from those of the first
+        moves = [(c.x1 - base.x1 + (c.tail1 - base.tail1), c.x2 - base.x2 + (c.tail2 - base.tail2)) for c in zones]
+        for order in range(1, len(at)):
+            for k in range(len(at) - order):
+                t = (depth - at[k]) / (at[k + order] - at[k])
+                (a, b), (c, d) = moves[k], moves[k + 1]
+                moves[k] = (a + t * (c - a), b + t * (d - b))
+        return base.moved(*moves[0])
+
+
+class Followed(Solution):
+    """The solution at one point of a path."""
+
+    def __init__(self, history: History, index: int) -> None:
+        self.history, self.index = history, index
+        self.tol, self.economy = history.tol, history.economy
+
+    @cached_property
+    def scene(self) -> Scene:  # type: ignore[override]
+        """The scene of the path with the loads of this point."""
+        P, Q, sigma = self.history.states[self.index].loads
+        plain = self.history.scene
+        return replace(plain, normal_load=P, tangential_load=Q, bulk_stress=sigma) if P else plain
+
+    @cached_property
+    def normal(self) -> Normal:
+        return self.history.plain(self.history.states[self.index].loads[0]).normal
+
+    @cached_property
+    def pressure(self) -> SlopeDensity:
+        return self.history.plain(self.history.states[self.index].loads[0]).slope_density
+
+    @property
+    def sheared(self) -> bool:
+        """Whether there is friction, and a load that shears."""
+        return self.history.scene.friction != 0.0
+
+    @cached_property
+    def tangential(self) -> Slip:
+        return Track(self.history, self.index)
+
+    @property
+    def energy_lost(self) -> float:
+        """What friction turned into heat since the beginning of the path."""
+        return self.history.energy(self.index) if self.sheared else 0.0
+
+    def with_(self, **changes: Any) -> Solution:
+        raise ValueError("this solution is a point of a path: change the scene or the path, and follow it again")
+
+    def __repr__(self) -> str:
+        return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
+
+
+# -- one point ----------------------------------------------------------------------------------------------------------
+
+
+class Track(Slip):
+    """Stick, slip and shear at a point of a path: Σ weight × virgin state over the corners of the ladder."""
+
+    kind = "after a path"
+
+    def __init__(self, history: History, index: int) -> None:
+        self.history, self.index = history, index
+        self.state = history.states[index]
+        self.P = self.state.loads[0]
+        self.friction = history.scene.friction
+        if history.unit[1]:
+            self._refuse_retreat()
+
+    def _refuse_retreat(self) -> None:
+        deepest = [corner[0] for corner in self.state.ladder.corners][-1:]
+        for depth in deepest:
+            if not self.history.virgin(self.P, depth).advancing:
+                raise ContactError(
+                    f"step {self.index} of the path: under the largest loads, Q = {depth * self.history.unit[0]:.6g} with "
+                    f"σ = {depth * self.history.unit[1]:.6g}, zones of slip have retreated on the way, and what they left depends on "
+                    "that way; lower Q or σ",
+                    step=self.index,
+                )
+
+    @property
+    def contact(self) -> Interval:  # type: ignore[override]
+        return self.history.plain(self.P).normal.edges.contact
+
+    @property
+    def _terms(self) -> list[tuple[float, Slip]]:
+        return [(weight, self.history.virgin(self.P, depth)) for depth, weight in self.state.ladder.corners if depth]
+
+    @property
+    def _now(self) -> Slip | None:
+        """The virgin state as deep as the last step slipped."""
+        return self.history.virgin(self.P, self.state.ladder.layers[0][0]) if self.state.sign else None
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        now = self._now
+        return ((self.contact.x1, self.contact.x2),) if now is None else now.stick
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        now = self._now
+        return () if now is None else tuple((lo, hi, sign * self.state.sign) for lo, hi, sign in now.slipped)
+
+    @property
+    def untouched(self) -> tuple[float, float]:
+        terms = self._terms
+        if not terms:
+            return self.contact.x1, self.contact.x2
+        return terms[-1][1].stick[0] if terms[-1][1].stick else (0.0, 0.0)
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        return tuple(end for _, virgin in self._terms for zone_ in virgin.stick for end in zone_)
+
+    @property
+    def condition(self) -> float:  # type: ignore[override]
+        return max((virgin.condition for _, virgin in self._terms), default=1.0)
+
+    @cached_property
+    def shear(self) -> Density:
+        terms = self._terms
+        if not terms:
+            return ZERO
+        if len(terms) == 1 and terms[0][0] == 1.0:
+            return terms[0][1].shear
+        return Combination(tuple((weight, virgin.shear) for weight, virgin in terms))
+
+    def slip(self, x: Array) -> Array:
+        """Since x came into contact."""
+        if all(state.loads[0] == self.P for state in self.history.states[: self.index + 1]):
+            return sum((weight * virgin.slip(x) for weight, virgin in self._terms), np.zeros(x.shape))
+        total, P0 = np.zeros(x.shape), 0.0
+        for index, state in enumerate(self.history.states[: self.index + 1]):
+            P = state.loads[0]
+            if P == 0.0:
+                continue
+            if index and P > P0 and state.sign:
+                self._refuse_new(x, index, P0, P)
+            total = np.where(self._touches(x, min(P0, P) if index else P), total, 0.0) + _step_slip(self.history, index, x)
+            P0 = P
+        return total
+
+    def _touches(self, x: Array, P: float) -> NDArray[np.bool_]:
+        if P == 0.0:
+            return np.zeros(x.shape, dtype=bool)
+        x1, x2 = self.history.plain(P).edges
+        touches: NDArray[np.bool_] = (x >= x1) & (x <= x2)
+        return touches
+
+    def _refuse_new(self, x: Array, index: int, P0: float, P: float) -> None:
+        new = self._touches(x, P) & ~self._touches(x, P0)
+        if new.any():
+            raise ContactError(
+                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it slips: how far it slipped since is not "
+                f"covered; ask for points within the contact under P = {P0:.6g}",
+                step=index,
+            )
+
+    def slip_now(self, x: Array) -> Array:
+        return _step_slip(self.history, self.index, x)
+
+    @property
+    def energy(self) -> float:
+        return self.history.energy(self.index)
+
+    @cached_property
+    def shift(self) -> float:
+        if any(state.loads[0] != self.P for state in self.history.states[: self.index + 1]):
+            raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed on this path")
+        return sum(weight * virgin.shift for weight, virgin in self._terms)
+
+
+def _step_slip(history: History, index: int, x: Array) -> Array:
+    """The slip in one step, where x was in contact all along it."""
+    state = history.states[index]
+    P, out = state.loads[0], np.zeros(x.shape)
+    for o in state.done:
+        for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
+            if depth:
+                out += sign * o.jump * state.sign * history.virgin(P, depth).slip(x)
+    return out
+
+
+def _energy_while_P_changes(history: History, before: State, state: State) -> float:
+    """2f/(π E*) ∫|jump| ∫p_P(x) arccosh(|x - m|/r) dx dy over the depths y that the step overwrites; m, r of the contact down to y.
+
+    Slip at the level of load L adds dy/f of its ∂p/∂P', and that opens arccosh(|x - m|/r)/π beside the level's contact [m - r, m + r]. P is
+    in proportion to the pull that was used up when y is reached.
+    """
+    (P0, Q0, _), (P1, Q1, _), f, s = before.loads, state.loads, history.scene.friction, state.sign
+    pull = s * (Q1 - Q0) - f * (P1 - P0)
+    _, done = replace(before.ladder, size=f * P0).pulled(s * pull)
+    g, w = chebyshev.gauss_legendre(NODES)
+    used = total = 0.0
+    for o in done:
+        share = np.sin(0.5 * np.pi * g) ** 2  # towards both ends, where an edge may pass a break
+        weight = w * 0.5 * np.pi * np.sin(np.pi * g) * (o.lower - o.upper)
+        for part, dy in zip(share.tolist(), weight.tolist(), strict=True):
+            y = o.upper + part * (o.lower - o.upper)
+            t = min((used + o.jump * (y - o.upper)) / pull, 1.0)
+            total += o.jump * dy * _reach(history, P0 + t * (P1 - P0), P0 - y / f)
+        used += o.jump * (o.lower - o.upper)
+    return 2.0 * f / (math.pi * history.scene.Estar) * total
+
+
+def _reach(history: History, P: float, level: float) -> float:
+    """∫p_P arccosh(|x - m|/r) dx beside the contact of a lower load."""
+    if not 0.0 < level < P:
+        return 0.0
+    outer = Solution(replace(history.scene, normal_load=P), history.tol, history.economy)
+    inner = normal_contact(replace(history.scene, normal_load=level), history.tol, history.economy).edges.contact
+    contact, total = outer.pressure.contact, 0.0
+    slope = outer.scene.profile.pieces.tilted(outer.tilt)
+    lengths = ((inner.x1 - contact.x1) + (inner.tail1 - contact.tail1), (contact.x2 - inner.x2) + (contact.tail2 - inner.tail2))
+    for seen_from, length in zip(rims(outer.slope_density, slope), lengths, strict=True):
+        if length > 0.0:
+            z = zone(seen_from, length)
+            u = z.inwards / inner.r
+            total += float(z.force @ np.log1p(u + np.sqrt(u * (u + 2.0))))
+    return total

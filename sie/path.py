@@ -1,0 +1,143 @@
+"""Load paths: turning points, and what each step between two of them overwrites. Floats only: nothing is solved here.
+
+What is covered is told in `history`; a step that is not raises ContactError, which names it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from . import checks
+from .errors import ContactError
+from .interval import EPS
+from .ladder import Ladder, Overwritten
+from .scene import Scene
+from .slip import refuse_sliding
+
+PROPORTIONAL = 1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+
+
+@dataclass(frozen=True)
+class Path:
+    """Turning points (P, Q, σ) of the normal load, the tangential load and the bulk stress; σ may be left out.
+
+    >>> Path([(10.0, 0.0), (10.0, 2.0), (10.0, -2.0)]).points[1]
+    (10.0, 2.0, 0.0)
+    """
+
+    points: tuple[tuple[float, float, float], ...]
+
+    def __init__(self, points: Iterable[Sequence[float]]) -> None:
+        object.__setattr__(self, "points", tuple(_point(k, point) for k, point in enumerate(points)))
+        if not self.points:
+            raise ValueError("the path has no points: give [(P, Q, σ), ...]")
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __repr__(self) -> str:
+        return f"Path({list(self.points)!r})"
+
+
+def _point(k: int, point: Any) -> tuple[float, float, float]:
+    try:
+        values = tuple(point)
+    except TypeError:
+        values = ()
+    if len(values) not in (2, 3):
+        raise ValueError(f"point {k} of the path is {point!r}: give (P, Q) or (P, Q, σ)")
+    P, Q, sigma = (checks.finite(f"{name} of point {k}", v) for name, v in zip("PQσ", (*values, 0.0)[:3], strict=True))
+    if P < 0.0 or (P == 0.0 and (k > 0 or Q != 0.0 or sigma != 0.0)):
+        raise ValueError(f"P of point {k} = {P:g} is not positive: the bodies must touch all along the path, which may begin at (0, 0, 0)")
+    return P, Q, sigma
+
+
+@dataclass(frozen=True)
+class State:
+    """A turning point: its loads, the ladder there, and the sign and the depths of what slipped since the last one."""
+
+    loads: tuple[float, float, float]
+    ladder: Ladder
+    sign: float = 0.0
+    done: tuple[Overwritten, ...] = ()
+
+
+def direction(path: Path) -> tuple[float, float]:
+    """(Q, σ) of one unit of amplitude: (1, 0) without bulk stress."""
+    _, Q, sigma = max(path.points, key=lambda point: abs(point[2]))
+    return (Q, sigma) if sigma else (1.0, 0.0)
+
+
+def states(scene: Scene, path: Path) -> tuple[State, ...]:
+    unit, f = direction(path), scene.friction
+    state = State((0.0, 0.0, 0.0), Ladder(0.0))
+    found = []
+    for k, loads in enumerate(path.points):
+        P, Q, _ = loads
+        if f == 0.0 and Q != 0.0:
+            raise ValueError(f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; give friction > 0")
+        try:
+            refuse_sliding(f, P, Q)
+            before = State((P, 0.0, 0.0), Ladder(_size(f, P, unit))) if k == 0 else state
+            state = _stepped(scene, before, loads, unit)
+        except ContactError as problem:
+            raise type(problem)(f"step {k} of the path, to (P, Q, σ) = {_shown(loads)}: {problem}", step=k) from None
+        found.append(state)
+    return tuple(found)
+
+
+def _shown(loads: tuple[float, float, float]) -> str:
+    return f"({', '.join(f'{v:.6g}' for v in loads)})"
+
+
+def _size(f: float, P: float, unit: tuple[float, float]) -> float:
+    return f * P / abs(unit[0]) if unit[0] else math.inf
+
+
+def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], unit: tuple[float, float]) -> State:
+    (P0, Q0, _), (P, Q, sigma), f = before.loads, loads, scene.friction
+    if f == 0.0:
+        return State(loads, Ladder(0.0))
+    amplitude = sigma / unit[1] if unit[1] else Q
+    if abs(amplitude * unit[0] - Q) > PROPORTIONAL * max(abs(unit[0]), f * P * EPS):
+        raise ContactError(
+            f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest bulk stress: the zones of slip of one "
+            "direction do not contain those of the other; keep Q and σ in proportion, or leave σ out"
+        )
+    if P == P0:
+        return _pulled(loads, before.ladder, amplitude)
+    if unit[1]:
+        raise ContactError("P changes while a bulk stress acts: no superposition is exact then; keep P constant, or leave σ out")
+    if scene.moment is not None:
+        raise ContactError("P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead")
+    if P > P0:
+        k = (Q - Q0) / (f * (P - P0))
+        ladder = before.ladder.thickened(f * (P - P0), min(max(k, -1.0), 1.0))
+        ladder = replace(ladder, size=f * P)
+        return _pulled(loads, ladder, Q) if abs(k) > 1.0 else State(loads, ladder)
+    return _lowered(loads, before, f)
+
+
+def _pulled(loads: tuple[float, float, float], ladder: Ladder, amplitude: float) -> State:
+    step = amplitude - ladder.total
+    if abs(step) <= 4.0 * EPS * max(abs(amplitude), abs(ladder.total)):
+        return State(loads, ladder)
+    new, done = ladder.pulled(step)
+    return State(loads, new, math.copysign(1.0, step), done)
+
+
+def _lowered(loads: tuple[float, float, float], before: State, f: float) -> State:
+    """P falls: layers go as they came, without slip, while Q falls along their κ; any other way slips for the rest of the step."""
+    (P0, Q0, _), (P, Q, _), ladder = before.loads, loads, before.ladder
+    rate, left = (Q - Q0) / (f * (P0 - P)), f * (P0 - P)
+    while left > 0.0:
+        thickness, k = ladder.layers[0] if ladder.layers else (math.inf, 0.0)
+        if abs(rate + k) > PROPORTIONAL * max(abs(rate), abs(k)):
+            thinner = replace(ladder.thinned(left)[0], size=f * P)
+            return _pulled(loads, thinner, Q)
+        taken = min(thickness, left)
+        ladder, left = ladder.thinned(taken)[0], left - taken
+    return State(loads, replace(ladder, size=f * P))

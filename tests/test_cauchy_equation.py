@@ -1,0 +1,341 @@
+"""The question and how it is solved: index and side conditions, nodes, sizes, conditioning, refusals. That the answer is right: the laws."""
+
+import mpmath
+import numpy as np
+import pytest
+
+import sie
+from sie import collocation, jacobi
+from sie.jacobi import Weight
+
+mp = mpmath.mp.clone()
+mp.dps = 40
+
+SINGULAR, BOUNDED = "singular", "bounded"
+KINDS = [(SINGULAR, SINGULAR), (SINGULAR, BOUNDED), (BOUNDED, SINGULAR), (BOUNDED, BOUNDED)]
+
+
+def index_of(pair):
+    return 1 - pair.count(BOUNDED)
+
+
+# -- index and side conditions ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("a", [0.0, 0.4, -2.0, 0.3j, 0.2 - 0.5j])
+@pytest.mark.parametrize("ends", KINDS)
+def test_the_index_counts_singular_less_bounded_ends(ends, a):
+    equation = sie.CauchyEquation((0.0, 1.0), 0.0, a=a, ends=ends, total=0.0 if index_of(ends) == 1 else None)
+    assert equation.index == index_of(ends)
+    ((left, right),) = equation.exponents
+    assert left + right == pytest.approx(-equation.index, abs=1e-15)
+    for exponent, kind in zip((left, right), ends, strict=True):
+        assert (0 < exponent.real < 1) if kind == BOUNDED else (-1 < exponent.real < 0)
+
+
+@pytest.mark.parametrize("first", KINDS)
+@pytest.mark.parametrize("second", KINDS)
+def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(first, second):
+    intervals, index = ((-1.0, 0.0), (1.0, 3.0)), index_of(first) + index_of(second)
+    for given in range(3):
+        conditions = {"total": 0.0} if given else {}
+        conditions |= {"moment": 0.0} if given == 2 else {}
+        if given == max(index, 0):
+            assert sie.CauchyEquation(intervals, 0.0, ends=(first, second), **conditions).index == index
+        else:
+            with pytest.raises(ValueError, match=rf"index {index} asks for {max(index, 0)} side condition\(s\), but {given} given"):
+                sie.CauchyEquation(intervals, 0.0, ends=(first, second), **conditions)
+
+
+def test_a_free_function_asks_for_one_condition_more():
+    with pytest.raises(ValueError, match=r"index 1 and 1 free function\(s\) asks for 2 side condition\(s\), but 1 given"):
+        sie.CauchyEquation((-1.0, 1.0), 0.0, total=0.0, free=(1.0,))
+    assert sie.CauchyEquation((-1.0, 1.0), 0.0, total=0.0, moment=1.0, free=(1.0,)).solve().moment == pytest.approx(1.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("k", [None, lambda x, t: 0.2 * np.cos(x * t)])
+def test_all_conditions_are_met(k):
+    """φ of two intervals with a free slope of g: total of one, total and moment of both."""
+    intervals = ((-2.0, -0.5), (0.25, 1.0))
+    density = sie.CauchyEquation(intervals, np.exp, k=k, total=(0.3, 1.1), moment=0.7, free=(lambda x: x,)).solve()
+    assert [part.resultant for part in density.parts] == pytest.approx([0.3, 1.1], rel=1e-13)
+    assert density.moment == pytest.approx(0.7, rel=1e-13)
+    assert density.residual < 1e-14
+    assert len(density.constants) == 1
+
+
+# -- nodes and weights ------------------------------------------------------------------------------------------------
+
+
+def exact_rule(weight, nodes):
+    """The Gauss rule in 40 digits, from guesses: Newton on the monic recurrence (Szegö 1939), Christoffel's weights."""
+    n, total = len(nodes), -weight.kappa
+    small = weight.alpha if abs(weight.alpha) <= abs(weight.beta) else weight.beta
+    a = mp.mpmathify(small) if small is weight.alpha else total - mp.mpmathify(small)
+    b = total - a
+    A, B = [(b - a) / (total + 2)], [mp.zero, 4 * (1 + a) * (1 + b) / mp.mpf((2 + total) ** 2 * (3 + total))]
+    for k in range(1, n + 1):
+        A.append((b - a) * total / mp.mpf((2 * k + total) * (2 * k + total + 2)))
+        if k > 1:
+            B.append(4 * k * (k + a) * (k + b) * (k + total) / mp.mpf((2 * k + total) ** 2 * ((2 * k + total) ** 2 - 1)))
+    whole = mp.power(2, 1 + total) * mp.gamma(1 + a) * mp.gamma(1 + b) / mp.gamma(2 + total)
+    for node in nodes:
+        s = mp.mpmathify(node.item())
+        for _ in range(2):
+            before, p, slope_before, slope, norm, squares = mp.zero, mp.one, mp.zero, mp.zero, mp.one, mp.zero
+            for k in range(n):
+                squares += p * p / norm
+                following = (s - A[k]) * p - B[k] * before
+                before, p, slope_before, slope = p, following, slope, (s - A[k]) * slope + p - B[k] * slope_before
+                norm *= B[k + 1]
+            s -= p / slope
+        yield s, whole / squares
+
+
+EXPONENTS = [
+    (-0.3, 1), (-0.001, 1), (-0.999, 1), (-1e-9, 1), (-1 + 1e-9, 1), (0.4, 0), (0.999, 0), (-0.9999999, 0), (0.5, 0), (0.2, -1), (0.999, -1),
+    (-0.5 + 0.1j, 1), (-0.5 - 1.3j, 1), (0.3 + 0.4j, 0), (0.2j, 0), (0.5 + 0.7j, -1), (0.99 + 0.01j, -1),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("alpha", "kappa"), EXPONENTS)
+@pytest.mark.parametrize("n", [1, 2, 23])
+def test_nodes_and_weights_are_those_of_40_digits(alpha, kappa, n):
+    # the smaller exponent is the one with all its digits
+    weight = Weight(alpha, -kappa - alpha, kappa) if abs(alpha) <= 0.5 or kappa == 0 else Weight(-kappa - (-kappa - alpha), -kappa - alpha, kappa)
+    nodes, weights = jacobi.gauss(weight, n)
+    for s, w, (s_exact, w_exact) in zip(nodes, weights, exact_rule(weight, nodes), strict=True):
+        assert abs(mp.mpmathify(s.item()) - s_exact) <= 1e-15
+        assert abs(mp.mpmathify(w.item()) / w_exact - 1) <= 1e-14
+
+
+@pytest.mark.parametrize(("alpha", "kappa"), [(a, k) for a, k in EXPONENTS if min(1 + a.real, 1 - a.real, abs(a)) > 5e-3])
+def test_the_coefficients_of_a_smooth_function_have_no_noise_beyond_rounding(alpha, kappa):
+    """exp has 20 coefficients; with polynomials evaluated at nodes that were rounded first the others would be up to 1e-13."""
+    s, A = jacobi.analysis(Weight(alpha, -kappa - alpha, kappa), 128)
+    c = np.exp(s) @ A
+    assert np.abs(c[30:]).max() <= 3e-16 * np.abs(np.exp(s)[:, None] * A).sum(axis=0).max()
+
+
+# -- size, cost, conditioning -----------------------------------------------------------------------------------------
+
+
+def smooth_kernel(x, t):
+    return 0.1 * np.exp(0.5 * x - t) * np.cos(x * t)
+
+
+@pytest.mark.parametrize("a", [0.0, 0.3, 0.2j])
+@pytest.mark.parametrize("ends", KINDS)
+def test_the_condition_number_of_a_smooth_kernel_is_small_and_does_not_grow(ends, a):
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, a=a, k=smooth_kernel, ends=ends, total=0.0 if index_of(ends) == 1 else None)
+    conditions = [np.linalg.cond(equation.system(n)[0]) for n in (8, 32, 128)]
+    assert max(conditions) < 6.0
+    assert conditions[2] == pytest.approx(conditions[1], rel=1e-6)
+
+
+def test_without_a_kernel_the_system_is_the_identity():
+    matrix, _ = sie.CauchyEquation((-1.0, 2.0), np.exp, a=0.3, total=1.0).system(40)
+    assert np.abs(matrix - np.eye(40)).max() < 1e-14
+
+
+@pytest.mark.parametrize(("ends", "a"), [(KINDS[0], 0.0), (KINDS[1], 0.3), (KINDS[3], 0.2j)])
+def test_the_transform_and_the_system_agree(ends, a):
+    """The system is forced by a kernel that vanishes."""
+    question = {"g": lambda x: np.exp(x) / (1.3 - x), "a": a, "ends": ends, "total": 0.2 if index_of(ends) == 1 else None}
+    question["free"] = (1.0,) if index_of(ends) == -1 else ()
+    by_transform = sie.CauchyEquation((-1.0, 1.0), **question).solve()
+    by_system = sie.CauchyEquation((-1.0, 1.0), k=lambda x, t: 0.0 * x * t, **question).solve()
+    x = np.linspace(-0.99, 0.99, 41)
+    assert np.abs(by_transform(x) - by_system(x)).max() <= 1e-14 * np.abs(by_system(x)).max()
+    assert np.abs(np.subtract(by_transform.constants, by_system.constants)).max(initial=0.0) <= 1e-14
+
+
+def wide_system():
+    """A kernel as narrow as a thin layer's: g resolved by 1300 nodes, more than LAPACK gets."""
+    return sie.CauchyEquation((-1.0, 1.0), np.exp, k=lambda x, t: 0.02 / ((t - x) ** 2 + 0.02**2) / np.pi, total=0.0)
+
+
+def test_the_iteration_for_large_systems_finds_what_elimination_finds():
+    equation, n = wide_system(), collocation.DENSE + 100
+    found = equation.solve(n=n).parts[0].coefficients
+    matrix, rhs = equation.system(n)
+    expected = np.linalg.solve(matrix, rhs)
+    assert np.abs(found - expected[: len(found)]).max() <= 1e-13 * np.abs(expected).max()
+    assert np.abs(expected[len(found) :]).max(initial=0.0) <= 1e-15 * np.abs(expected).max()
+
+
+def test_the_iteration_serves_several_intervals_and_free_constants(monkeypatch):
+    intervals = ((-1.0, 0.0), (0.001, 2.0))
+    equation = sie.CauchyEquation(intervals, np.exp, k=smooth_kernel, a=0.3, ends=KINDS[1], total=1.0, free=(1.0,))
+    direct = equation.solve()
+    monkeypatch.setattr(collocation, "DENSE", 0)
+    iterated = equation.solve()
+    assert iterated.n == direct.n
+    x = np.array([-0.9, -0.01, -1e-4, 0.0012, 0.5, 1.99])
+    assert np.abs(iterated(x) - direct(x)).max() <= 1e-12 * np.abs(direct(x)).max()
+    assert iterated.constants == pytest.approx(direct.constants, rel=1e-12)
+
+
+def test_the_iteration_takes_no_more_steps_for_more_unknowns():
+    """Second kind: products with the matrix do not grow with n; each costs n²."""
+    counts = []
+    for n in (100, 200, 400):
+        system = collocation.System(sie.CauchyEquation((-1.0, 1.0), np.exp, k=smooth_kernel, total=0.0).problem, (n,))
+        applied, calls = system.applied, []
+        system.applied = lambda v, applied=applied, calls=calls: calls.append(1) or applied(v)
+        system._by_gmres()
+        counts.append(len(calls))
+    assert max(counts) <= 2 * min(counts) < 30
+
+
+@pytest.mark.parametrize("intervals", [((-1.0, 1.0),), ((-1.0, 0.0), (0.01, 1.0))])
+def test_the_kernel_is_called_once_for_each_size(intervals, monkeypatch):
+    tried, calls = [], []
+    attempt = collocation.attempt
+    monkeypatch.setattr(collocation, "attempt", lambda problem, sizes: tried.append(sizes) or attempt(problem, sizes))
+
+    def k(x, t):
+        calls.append(x.shape)
+        return smooth_kernel(x, t)
+
+    sie.CauchyEquation(intervals, np.exp, k=k, total=(0.0,) * len(intervals)).solve()
+    assert len(calls) == len(tried) == len(set(tried))
+
+
+def test_a_short_series_costs_few_nodes():
+    assert sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve().n == (collocation.SMALLEST,)
+
+
+@pytest.mark.parametrize("a", [0.0, 0.2j])
+def test_a_kernel_that_is_rough_in_t_only_is_seen(a):
+    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves its own equation exactly."""
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, a=a, k=lambda x, t: np.cos(30.0 * t + 1.0), total=1.0)
+    found, fine = equation.solve(), equation.solve(n=150)
+    x = np.linspace(-0.9, 0.9, 7)
+    assert found(x) == pytest.approx(fine(x), rel=1e-12)
+    assert equation.solve(n=8).error > 1e-3
+
+
+# -- refusals ---------------------------------------------------------------------------------------------------------
+
+ILL_POSED = [
+    ({"interval": ((-1, 1), (0.5, 2))}, r"\(-1.0, 1.0\) and \(0.5, 2.0\) overlap.*give them apart"),
+    ({"interval": ((-1, 1), (1, 2))}, "overlap, touch or descend"),
+    ({"interval": ((2, 3), (0, 1))}, "from left to right"),
+    ({"interval": (1.0, -1.0)}, "x1 < x2"),
+    ({"interval": (0.0, np.nan)}, "finite ends"),
+    ({"interval": (0.0, np.inf)}, "finite ends"),
+    ({"interval": (1, 2, 3)}, "give a pair"),
+    ({"interval": ()}, "give a pair"),
+    ({"interval": "ab"}, "give a pair"),
+    ({"b": 0.0}, "b = 0.*Fredholm"),
+    ({"a": 1j}, r"a² \+ b² = 0"),
+    ({"a": np.nan}, "a is nan"),
+    ({"b": np.inf}, "b = inf"),
+    ({"a": "1"}, "a = '1' is not a number"),
+    ({"a": 2j}, "exponents are imaginary: make both ends bounded"),
+    ({"ends": "singulr"}, "each end is 'singular' or 'bounded'"),
+    ({"ends": ("singular", "free")}, "each end is 'singular' or 'bounded'"),
+    ({"ends": ("singular",) * 3}, "given for 3 intervals, but there are 1"),
+    ({"ends": 5}, "ends are 5: give"),
+    ({"ends": (None, "bounded")}, "ends are given for 2 intervals"),
+    ({"total": None}, r"index 1 asks for 1 side condition\(s\), but 0 given"),
+    ({"moment": 1.0}, r"asks for 1 side condition\(s\), but 2 given: give as many of total and moment, or make other ends"),
+    ({"ends": "bounded"}, r"index -1 asks for 0 side condition\(s\), but 1 given"),
+    ({"total": (0.0, 1.0)}, "total is given for 2 intervals, but there are 1"),
+    ({"total": np.nan}, "total is nan"),
+    ({"total": "x"}, "total = 'x' is not a number"),
+    ({"free": 1.0}, "free = 1.0: give a sequence"),
+    ({"g": None}, "g = None is not a number"),
+    ({"g": np.nan}, "g is nan"),
+    ({"k": 5}, "k = 5 is not a function"),
+]
+
+
+@pytest.mark.parametrize(("change", "sentence"), ILL_POSED, ids=[str(c) for c, _ in ILL_POSED])
+def test_an_ill_posed_question_is_refused_when_it_is_built(change, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        sie.CauchyEquation(**{"interval": (-1.0, 1.0), "g": 1.0, "total": 0.0} | change)
+
+
+WRONG_FUNCTIONS = [
+    ({"g": lambda x: np.ones(3)}, r"g returned shape \(3,\) for x of shape"),
+    ({"g": lambda x: np.where(x > 0, np.nan, x)}, "g returned nan at x = .*finite inside the intervals"),
+    ({"g": lambda x: np.log(-x)}, "g returned"),
+    ({"g": lambda x: "a"}, "g returned values of type"),
+    ({"k": lambda x, t: np.ones(3)}, r"k returned shape \(3,\) for x and t of shape"),
+    ({"k": lambda x, t: np.sqrt(x - t)}, "k returned nan at x = .*, t = .*: a regular kernel is finite"),
+    ({"free": (lambda x: x[:2],), "moment": 1.0}, r"free\[0\] returned shape \(2,\)"),
+]
+
+
+@pytest.mark.parametrize(("change", "sentence"), WRONG_FUNCTIONS, ids=[s for _, s in WRONG_FUNCTIONS])
+def test_a_function_that_returns_nonsense_is_refused(change, sentence):
+    equation = sie.CauchyEquation(**{"interval": (-1.0, 1.0), "g": 1.0, "total": 0.0} | change)
+    with pytest.raises(ValueError, match=sentence):
+        equation.solve()
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, "x"])
+def test_a_wrong_tolerance_is_refused(bad):
+    with pytest.raises(ValueError, match="tol"):
+        sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve(tol=bad)
+
+
+@pytest.mark.parametrize("bad", [1, 2.5, True, "8"])
+def test_a_wrong_size_is_refused(bad):
+    with pytest.raises(ValueError, match="give an integer >= 2"):
+        sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve(n=bad)
+
+
+# -- questions without an answer --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [None, lambda x, t: 0.0 * x * t])
+def test_an_inconsistent_right_hand_side_is_refused_and_measured(k):
+    """Both ends bounded: ∫ g / sqrt(1 - x²) dx must vanish; g = x + 1e-3 misses it by the constant 1e-3."""
+    with pytest.raises(sie.ContactError, match="not consistent.*constant of 1.0e-03 times g; free a constant") as caught:
+        sie.CauchyEquation((-1.0, 1.0), lambda x: x + 1e-3, k=k, ends="bounded").solve()
+    x = np.array([-0.6, 0.8])
+    # without the constant: the density of g = x
+    assert caught.value.reached["density"](x) == pytest.approx(-np.sqrt(1 - x * x), rel=1e-13)
+
+
+def test_conditions_that_depend_on_each_other_are_refused():
+    with pytest.raises(sie.ContactError, match="homogeneous form has a solution"):
+        sie.CauchyEquation((-1.0, 1.0), 0.0, ends="bounded", total=1.0, moment=0.0, free=(1.0, 1.0, 1.0)).solve()
+
+
+def noisy(x):
+    """exp with noise of 1e-9 that depends on every digit of x."""
+    return np.exp(x) + 1e-9 * np.sin(1e9 * x)
+
+
+@pytest.mark.parametrize("k", [None, smooth_kernel])
+@pytest.mark.parametrize(("g", "error"), [(noisy, 1e-7), (np.abs, 1e-2)])
+def test_what_does_not_settle_is_refused_with_the_best_density(g, error, k, monkeypatch):
+    monkeypatch.setattr(collocation, "LARGEST", 400)
+    monkeypatch.setattr(collocation, "LARGEST_TRANSFORM", 400)
+    equation = sie.CauchyEquation((-1.0, 1.0), g, k=k, total=0.0)
+    with pytest.raises(sie.ContactError, match="did not settle to tol = 1.0e-13.*raise tol") as caught:
+        equation.solve()
+    best = caught.value.reached["density"]
+    assert 1e-13 < best.error < error
+    x = np.linspace(-0.95, 0.95, 39)
+    reference = sie.CauchyEquation((-1.0, 1.0), np.exp if g is noisy else g, k=k, total=0.0).solve(n=60 if g is noisy else 700)
+    assert np.abs(best(x) - reference(x)).max() <= error * np.abs(reference(x)).max()
+    assert equation.solve(tol=10.0 * best.error).error <= 10.0 * best.error
+
+
+def test_infinite_and_vanishing_ends_are_told_apart():
+    """φ = 1 / (π sqrt(1 - x²)) is infinite at its ends, 0 is 0, sqrt(1 - x²) is 0; and none of it is nan."""
+    x = np.array([-1.0, 1.0])
+    punch = sie.CauchyEquation((-1.0, 1.0), 0.0, total=1.0).solve()
+    assert (punch(x) == np.inf).all()
+    assert (punch.cauchy(x, side=-1).imag == np.inf).all()
+    assert (sie.CauchyEquation((-1.0, 1.0), 0.0, total=0.0).solve()(x) == 0.0).all()
+    assert (sie.CauchyEquation((-1.0, 1.0), lambda x: x, ends="bounded").solve()(x) == 0.0).all()
+    shear = sie.CauchyEquation((-1.0, 1.0), 0.0, a=0.3j, total=1j).solve()
+    assert np.isinf(shear(x)).all()
+    for side in (-1, 0, 1):
+        assert not np.isnan(shear.cauchy(x, side=side)).any()

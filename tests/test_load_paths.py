@@ -1,0 +1,343 @@
+"""Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows nothing of superposition."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kalker import Mesh
+
+import sie
+from sie.ladder import Ladder
+
+E, F, P = 2.0, 0.5, 0.375
+PUNCH = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=E, normal_load=P, friction=F)
+HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=P, friction=F)
+LOPSIDED = sie.Scene(profile=sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)), modulus=E, normal_load=P, friction=F, tilt=0.02)
+FP = F * P
+
+
+def at_constant_load(scene, *fractions):
+    return sie.follow(scene, sie.Path([(P, k * FP) for k in fractions]))
+
+
+# -- constant P ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_path_of_one_point_is_the_scene():
+    followed = at_constant_load(PUNCH, 0.8)[0]
+    scene = sie.solve(followed.scene)
+    x = np.linspace(-1.0, 1.0, 21)
+    assert followed.stick == scene.stick
+    assert (followed.shear(x) == scene.shear(x)).all()
+    assert (followed.slip(x) == scene.slip(x)).all()
+    assert followed.energy_lost == scene.energy_lost
+
+
+@pytest.mark.parametrize("scene", [PUNCH, HERTZ, LOPSIDED], ids=["punch", "hertz", "lopsided"])
+def test_unloading_is_half_of_the_first_loading_twice(scene):
+    """From Q_max to Q: q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953; slip likewise."""
+    unloaded = at_constant_load(scene, 0.75, 0.25)[1]
+    first, half = (sie.solve(sie.Scene(**fields(scene), tangential_load=k * FP)) for k in (0.75, 0.25))
+    x = np.linspace(*first.edges, 31)
+    assert unloaded.stick == half.stick
+    assert unloaded.shear(x) == pytest.approx(first.shear(x) - 2.0 * half.shear(x), abs=1e-15)
+    assert unloaded.slip(x) == pytest.approx(first.slip(x) - 2.0 * half.slip(x), abs=1e-16)
+    assert unloaded.energy_lost == pytest.approx(first.energy_lost + 2.0 * half.energy_lost, rel=1e-13)
+    assert unloaded.check().ok
+
+
+def fields(scene):
+    return {name: getattr(scene, name) for name in ("profile", "modulus", "normal_load", "friction", "tilt")}
+
+
+def test_a_closed_loop_closes_after_the_first_cycle_and_is_forgotten():
+    first, _, small, back, again, down = at_constant_load(PUNCH, 0.8, -0.8, 0.4, -0.2, 0.8, -0.8)
+    x = np.linspace(-1.0, 1.0, 41)
+    assert again.stick == first.stick
+    assert again.shear(x) == pytest.approx(first.shear(x), abs=1e-15)
+    assert again.slip(x) == pytest.approx(first.slip(x), abs=1e-16)
+    assert down.shear(x) == pytest.approx(-first.shear(x), abs=1e-15)
+    assert first.stick[0][1] < small.stick[0][1] < back.stick[0][1]
+    assert len(again.history.states[4].ladder.layers) == 1
+
+
+def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
+    """∮Q dδ: by Simpson on one branch, which the other mirrors."""
+    n = 201
+    Q = 0.8 * np.cos(np.linspace(0.0, np.pi, n))  # from the top down, densely at both ends
+    history = at_constant_load(PUNCH, *Q)
+    t, shift = np.linspace(0.0, np.pi, n), np.array([s.shift for s in history])
+    weight = np.full(n, 2.0)
+    weight[1::2], weight[[0, -1]] = 4.0, 1.0
+    # ∫δ dQ = ∫ δ(t) Q'(t) dt, and -δ on the way up
+    area = -2.0 * float((weight * shift * -0.8 * FP * np.sin(t)).sum()) * (np.pi / (n - 1)) / 3.0
+    assert area == pytest.approx(2.0 * (history[-1].energy_lost - history[0].energy_lost), rel=1e-7)
+
+
+@settings(max_examples=30)
+@given(st.lists(st.integers(-50, 50).map(lambda k: k / 50), min_size=2, max_size=6), st.sampled_from([PUNCH, HERTZ, LOPSIDED]))
+def test_every_point_of_every_path_obeys_the_laws(fractions, scene):
+    lost = 0.0
+    for solution in at_constant_load(scene, *fractions):
+        assert solution.check().shear.ok, solution.check().shear
+        assert solution.energy_lost >= lost
+        lost = solution.energy_lost
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=12))
+def test_the_ladder_carries_the_load_within_its_limits(targets):
+    ladder = Ladder(1.0)
+    for target in targets:
+        before, (ladder, done) = ladder, ladder.pulled(target - ladder.total) if target != ladder.total else (ladder, ())
+        assert ladder.total == pytest.approx(target, abs=1e-14)
+        assert all(thickness > 0.0 and abs(k) <= 1.0 for thickness, k in ladder.layers)
+        assert sum(thickness for thickness, _ in ladder.layers) <= 1.0 + 1e-15
+        pulled = sum(o.jump * (o.lower - o.upper) for o in done)
+        assert pulled == pytest.approx(abs(target - before.total), abs=1e-14)
+
+
+def test_a_thousand_steps_cost_less_than_a_thousand_solves():
+    """In evaluations of the edge integrals, which are most of a solve."""
+    Q = 0.8 * np.sin(np.linspace(0.0, 2.0 * np.pi, 1001))[1:]
+    history = at_constant_load(PUNCH, *Q)
+    zones = [solution.stick for solution in history]
+    spent = sum(state.found.edges.evaluations for state in history._virgin.values() if hasattr(state, "found"))
+    assert len(zones) == 1000 and len(history._plain) == 1
+    assert spent < 0.6 * 1000 * sie.solve(PUNCH).normal.edges.evaluations
+    assert "pressure" in vars(history.plain(P))
+    assert not any("corrective" in vars(state) for state in history._virgin.values())
+
+
+def test_nothing_is_solved_before_it_is_asked_for():
+    history = at_constant_load(PUNCH, 0.5, -0.5, 0.2)
+    assert len(history) == 3
+    assert not history._plain
+    _ = history[1].stick
+    assert len(history._virgin) == 1
+
+
+# -- P and Q together ---------------------------------------------------------------------------------------------------
+
+
+def test_proportional_loading_below_friction_does_not_slip():
+    """dQ/dP = k < f from nothing: q = k p (Mindlin & Deresiewicz)."""
+    history = sie.follow(PUNCH, sie.Path([(0.0, 0.0), (P, 0.6 * FP)]))
+    x = np.linspace(-0.9, 0.9, 11)
+    assert history[1].stick == (history[1].edges,)
+    assert history[1].shear(x) == pytest.approx(0.6 * F * history[1].pressure(x), rel=1e-14)
+    assert history[1].energy_lost == 0.0
+    assert (history[1].slip(x) == 0.0).all()
+
+
+def test_loading_above_friction_slips_like_a_smaller_normal_load():
+    """dQ/dP > f: q = f (p - p̂), p̂ under P - Q/f, as if P had come first (Jäger 1998)."""
+    together = sie.follow(HERTZ, sie.Path([(0.1, 0.0), (P, 0.75 * FP)]))[1]
+    after = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.75 * FP))
+    x = np.linspace(*after.edges, 21)
+    assert together.stick[0] == pytest.approx(after.stick[0], rel=1e-14)
+    assert together.shear(x) == pytest.approx(after.shear(x), abs=1e-15)
+    assert 0.0 < together.energy_lost < after.energy_lost
+
+
+def test_a_locked_in_layer_survives_more_normal_load():
+    """Q first at constant P, then P alone: nothing slips, q stays and the limit grows."""
+    first, second = sie.follow(HERTZ, sie.Path([(0.2, 0.05), (0.3, 0.05)]))
+    x = np.linspace(*second.edges, 21)
+    assert second.stick == (second.edges,)
+    assert second.shear(x) == pytest.approx(first.shear(x), abs=1e-15)
+    assert second.energy_lost == first.energy_lost
+
+
+def test_unloading_along_the_way_one_came_takes_everything_back():
+    there, back = list(sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.1, 0.03), (0.4, 0.05), (0.1, 0.03)])))[1::2]
+    x = np.linspace(*there.edges, 21)
+    assert back.shear(x) == pytest.approx(there.shear(x), abs=1e-15)
+    assert back.energy_lost == 0.0
+
+
+def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
+    almost = sie.follow(HERTZ, sie.Path([(P, 0.1 * FP), (P * (1.0 + 1e-9), 0.7 * FP)]))[1].energy_lost
+    constant = at_constant_load(HERTZ, 0.1, 0.7)[1].energy_lost
+    assert almost == pytest.approx(constant, rel=1e-7)
+
+
+def test_energy_of_loading_hertz_with_a_growing_normal_load():
+    """W = 2/(π E*) ∫∫ f ln(r'/r) over the layers, r² ∝ P: by hand for P from P0 to P1, dQ/dP = k > f.
+
+    W = f²/(π E*) (k/f - 1) ∫ [P ln(P/L) - P + L] dP,    L(P) = P - (P - P0) k/f
+    """
+    P0, P1, k = 0.1, 0.2, 1.5 * F
+    lost = sie.follow(HERTZ, sie.Path([(P0, 0.0), (P1, k * (P1 - P0))]))[1].energy_lost
+    g, w = np.polynomial.legendre.leggauss(60)
+    load = P0 + (P1 - P0) * 0.5 * (1.0 + g)
+    level = load - (load - P0) * k / F
+    by_hand = F * F / (np.pi * E) * (k / F - 1.0) * 0.5 * (P1 - P0) * w @ (load * np.log(load / level) - load + level)
+    assert lost == pytest.approx(by_hand, rel=1e-10)
+
+
+# -- refusals -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ([(P, 0.1), (P, 0.3)], r"step 1 .*exceeds f P"),
+        ([(P, 0.05, 0.01), (P, 0.05, 0.02)], r"step 0 .*not in proportion"),
+        ([(P, 0.05, 0.01), (2 * P, 0.1, 0.02)], r"step 1 .*P changes while a bulk stress acts"),
+    ],
+)
+def test_a_step_that_is_not_covered_is_named_before_work(points, said):
+    with pytest.raises(sie.ContactError, match=said) as caught:
+        sie.follow(PUNCH, sie.Path(points))
+    assert "step" in caught.value.reached
+
+
+def test_a_normal_load_that_changes_at_a_given_moment_is_refused():
+    tilted = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=P, friction=F, moment=0.01)
+    with pytest.raises(sie.ContactError, match=r"step 1 .*moment"):
+        sie.follow(tilted, sie.Path([(P, 0.05), (2 * P, 0.05)]))
+    assert sie.follow(tilted, sie.Path([(P, 0.05), (P, -0.05)]))[1].check().shear.ok
+
+
+def test_zones_that_retreat_under_a_bulk_stress_are_refused_with_the_step():
+    history = sie.follow(HERTZ, sie.Path([(P, 0.6 * FP, 0.5), (P, 0.0, 0.0)]))
+    for solution in history:
+        with pytest.raises(sie.ContactError, match="retreat"):
+            _ = solution.stick
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ([], "no points"),
+        ([(1.0,)], r"\(1\.0,\).*give \(P, Q\)"),
+        ([(1.0, np.nan)], "Q of point 0 is nan"),
+        ([(1.0, 0.0), (0.0, 0.0)], "P of point 1 = 0"),
+        ([(-1.0, 0.0)], "P of point 0 = -1"),
+        ([3.0], r"3\.0.*give \(P, Q\)"),
+    ],
+)
+def test_a_path_that_means_nothing_is_refused(points, said):
+    with pytest.raises(ValueError, match=said):
+        sie.Path(points)
+
+
+def test_a_path_without_friction_carries_no_tangential_load():
+    plain = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=P)
+    with pytest.raises(ValueError, match=r"0\.1 without friction"):
+        sie.follow(plain, sie.Path([(P, 0.1)]))
+    assert sie.follow(plain, sie.Path([(P, 0.0), (2 * P, 0.0)]))[1].shear is sie.ZERO
+
+
+def test_an_unloaded_beginning_has_no_solution():
+    history = sie.follow(HERTZ, sie.Path([(0.0, 0.0), (P, 0.0)]))
+    with pytest.raises(sie.LoadError, match="nothing touches"):
+        _ = history[0].edges
+    assert history[-1].edges == sie.solve(HERTZ).edges
+
+
+def test_a_point_of_a_path_is_not_changed_into_another():
+    with pytest.raises(ValueError, match="path"):
+        at_constant_load(HERTZ, 0.5)[0].with_(tangential_load=0.1)
+
+
+# -- a mesh -------------------------------------------------------------------------------------------------------------
+
+
+def on_a_mesh(scene, points, n):
+    """(mean error of q over f p0, largest error of slip over the largest slip) at the last point, worst misplaced end in elements."""
+    history = sie.follow(scene, sie.Path(points))
+    mesh = Mesh(history[0].edges, n, E)
+    bound = F * history[0].pressure(mesh.x)
+    q, slip, tau = np.zeros(n), np.zeros(n), 0.0
+    errors = []
+    for (_, Q, sigma), solution in zip(points, history, strict=True):
+        q, moved = mesh.step(q, bound, Q, 2.0 * (0.25 * sigma - tau) / E)
+        tau, slip = 0.25 * sigma, slip + moved
+        stuck = mesh.x[moved == 0.0]
+        lo, hi = solution.stick[0]
+        ends = max(abs(stuck.min() - 0.5 * mesh.h - lo), abs(stuck.max() + 0.5 * mesh.h - hi)) / mesh.h
+        scale = np.abs(solution.slip(mesh.x)).max() or 1.0
+        errors.append((np.abs(q - solution.shear(mesh.x)).mean() / bound.max(), np.abs(slip - solution.slip(mesh.x)).max() / scale, ends))
+    return np.array(errors)
+
+
+def shrinking(steps):
+    """Each turning point well inside the last two: nothing is wiped out, where a mesh and a formula may take different sides."""
+    return all(abs(b) < abs(a) and abs(a - b) > 2 for a, b in pairwise([10, *steps]))
+
+
+# (scene, Q of a step over f P, σ of a step)
+CASES = [
+    (HERTZ, 0.08, 0.0), (PUNCH, 0.08, 0.0), (LOPSIDED, 0.08, 0.0),
+    (HERTZ, 0.08, 0.006), (LOPSIDED, 0.08, 0.004),
+    (HERTZ, 0.008, 0.15), (LOPSIDED, 0.008, 0.1), (PUNCH, 0.0, 0.05), (HERTZ, 0.0, 0.2),
+]  # fmt: skip
+
+
+@settings(max_examples=12)
+@given(st.lists(st.integers(-9, 9), min_size=2, max_size=4).filter(shrinking), st.sampled_from(CASES))
+def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
+    """Moderate and large bulk stress included; σ is in proportion to Q. First order: half the element, half the error."""
+    scene, Q, sigma = case
+    points = [(P, k * Q * FP, k * sigma) for k in steps]
+    coarse, fine = on_a_mesh(scene, points, 100), on_a_mesh(scene, points, 400)
+    assert coarse[:, 0].max() < 6e-3 and coarse[:, 2].max() < 1.5
+    assert fine[:, 0].max() < 1.6e-3 and fine[:, 2].max() < 1.5
+    assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
+    assert fine[-1, 1] < 2e-2
+
+
+def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():
+    """The zones only grow: a mesh finds the same in 1 step and in 30."""
+    Q, sigma = 0.16 * FP, 0.45
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=Q, bulk_stress=sigma))
+    assert solution.tangential.kind == "two signs" and solution.tangential.advancing
+    mesh = Mesh(solution.edges, 200, E)
+    bound = F * solution.pressure(mesh.x)
+    for steps in (1, 30):
+        q = np.zeros(200)
+        for k in range(1, steps + 1):
+            q, _ = mesh.step(q, bound, Q * k / steps, 2.0 * 0.25 * sigma / steps / E)
+        assert np.abs(q - solution.shear(mesh.x)).mean() < 1e-3 * bound.max()
+
+
+def test_where_zones_retreat_the_way_matters_and_the_certificate_says_so():
+    """In one step the mesh finds the state given; in proportion, in many, another one."""
+    Q, sigma = 0.6 * FP, 0.5
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=Q, bulk_stress=sigma))
+    assert not solution.tangential.advancing
+    assert "retreat" in str(solution.check())
+    mesh = Mesh(solution.edges, 200, E)
+    bound = F * solution.pressure(mesh.x)
+    errors = []
+    for steps in (1, 30):
+        q = np.zeros(200)
+        for k in range(1, steps + 1):
+            q, _ = mesh.step(q, bound, Q * k / steps, 2.0 * 0.25 * sigma / steps / E)
+        errors.append(np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
+    assert errors[0] < 3e-4
+    assert errors[1] > 3.0 * errors[0]
+
+
+def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh():
+    """Hertz: up and down in P and Q, in small steps on a mesh as wide as the widest contact."""
+    points = [(0.3, 0.05), (0.36, 0.12), (0.28, 0.02), (0.28, -0.06), (0.34, -0.1), (0.34, 0.05)]
+    errors = []
+    for n, steps in ((80, 16), (240, 48)):
+        mesh = Mesh((-np.sqrt(2 * 0.36 / np.pi), np.sqrt(2 * 0.36 / np.pi)), n, E)
+        q, lost, before, worst = np.zeros(n), 0.0, None, 0.0
+        for point, solution in zip(points, sie.follow(HERTZ, sie.Path(points)), strict=True):
+            for load, Q in [point] if before is None else np.linspace(before, point, steps + 1)[1:]:
+                b2 = 2 * load / np.pi  # E* = 2, R = 1
+                bound = F * np.sqrt(np.maximum(b2 - mesh.x**2, 0.0))
+                q, moved = mesh.step(q, bound, Q, 0.0)
+                lost += mesh.h * float(np.abs(q * moved)[bound > 0.0].sum())
+            before = point
+            worst = max(worst, np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
+        errors.append((worst, abs(lost / solution.energy_lost - 1.0)))
+    (coarse, _), (fine, energy) = errors
+    assert fine < 0.5 * coarse < 1e-3
+    assert energy < 2e-3
