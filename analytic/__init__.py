@@ -15,6 +15,7 @@ All speak one notation:
 
     word in a call    symbol      meaning
     x                 x           position on the surface
+    y                 y           depth below the surface
     z                 z = x + iy  point of the plane; the body is y > 0
     normal_load       P           ∫ p dx, load per unit length, > 0
     moment            M           ∫ p x dx, moment per unit length about x = 0
@@ -45,6 +46,7 @@ All speak one notation:
     period            L, W        of a row
     mean_pressure                 load over period
     tension, K_I                  across cracks, and their stress intensity factor
+    xx, yy, xy        s_ij        stress, tension positive: s_yy = -p, s_xy = -q on the surface
     side              ±           +1: the limit from y > 0; -1: from y < 0
     lib                           numpy (arrays broadcast) or an mpmath context (scalars at its own precision)
 
@@ -64,6 +66,7 @@ from analytic import (
     flat,
     flat_row,
     hertz,
+    interior,
     periodic,
     power,
     rounded_flat,
@@ -86,6 +89,7 @@ __all__ = [
     "flat",
     "flat_row",
     "hertz",
+    "interior",
     "periodic",
     "power",
     "rounded_flat",

@@ -51,6 +51,9 @@ MEANING = {
     "stick_half_width": "half the length of the stick zone, a length >= 0",
     "x": "a real position on the surface",
     "z": "a point x + iy of the plane",
+    "y": "a depth below the surface, a length >= 0",
+    "poisson": "Poisson's ratio",
+    "peak_pressure": "the largest pressure of the line contact, > 0",
 }
 
 

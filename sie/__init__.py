@@ -8,7 +8,9 @@ One notation for the whole package, its messages and its plots:
     p(x), q(x)  contact pressure, >= 0; shear traction, q > 0 pushes the half-plane in +x
     P, Q, M     ∫p dx, ∫q dx, ∫p x dx (about x = 0), per unit length
     E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant
-    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction
+    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction; Fp of the pressure, Fq of the shear
+    σ_xx, J2    stress, tension positive: σ_yy = -p, σ_xy = -q on the surface; second invariant of its deviator
+    k           yield stress in shear
 
     f, κ        Coulomb's coefficient of friction; q over p of a layer of the contact, |κ| <= f
     [c1, c2]    the stick zone; ρ its half-width; p̂ the corrective pressure there, q = ± f (p - p̂)
@@ -29,6 +31,8 @@ Units are free: any consistent set works, and nothing depends on scale.
 from .density import ZERO, Density
 from .equation import CauchyEquation
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
+from .field import Stress
+from .fretting import Cycle
 from .history import History, follow
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
@@ -37,23 +41,30 @@ from .plan import Plan, plan
 from .profile import Profile
 from .scene import Scene
 from .solution import Solution, solve
+from .strength import Peak, YieldPoint
+from .superposition import scaled, superposed
+from .sweep import QUANTITIES, Interrupted, sweep
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "QUANTITIES",
     "RIGID",
     "ZERO",
     "CauchyEquation",
     "ContactError",
+    "Cycle",
     "Density",
     "Elastic",
     "Flat",
     "FromFunction",
     "History",
     "InequalityError",
+    "Interrupted",
     "LoadError",
     "Parabola",
     "Path",
+    "Peak",
     "Piecewise",
     "Plan",
     "Polynomial",
@@ -63,8 +74,13 @@ __all__ = [
     "RoundedFlat",
     "Scene",
     "Solution",
+    "Stress",
     "Wedge",
+    "YieldPoint",
     "follow",
     "plan",
+    "scaled",
     "solve",
+    "superposed",
+    "sweep",
 ]

@@ -1,6 +1,6 @@
 """The command line.
 
-    sie solve scene.toml [--want ...] [--plot FILE] [--csv FILE] [--json [FILE]] [--points N] [--tol T]
+    sie solve scene.toml [--want ...] [--plot FILE] [--csv FILE] [--json [FILE]] [--field FILE] [--grid NXxNY] [--points N] [--tol T]
     sie plan scene.toml [--want ...]          what would be computed, what would be skipped, and why
     sie example [NAME]                        a commented scene file to start from; without NAME, the list of them
 
@@ -21,19 +21,20 @@ import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from types import ModuleType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from . import __version__, export, scenefile
 from .errors import ContactError
+from .grid import SIZE, SUFFIXES, Grid, file_bytes
 from .history import follow
 from .path import Path
-from .plan import WANTS, plan
+from .plan import UNASKED, WANTS, plan
 from .scenefile import SceneFile
 from .solution import Solution, solve
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, INTERRUPTED, UNREAD = 0, 1, 2, 130, 141
 COMMANDS = ("solve", "plan", "example")
-OPTIONS = ("--want", "--plot", "--csv", "--json", "--points", "--tol", "--help", "--version")
+OPTIONS = ("--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol", "--help", "--version")
 STANDARD = "-"
 MOST_POINTS = 10**6
 TOL = 1e-13
@@ -70,7 +71,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
     file = _scene(arguments)
     solution = _solution(file, arguments.tol)
-    contents = {path: _content(kind, path, solution, file, arguments.points) for kind, path in outputs.items()}
+    contents = {path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()}
     shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
@@ -119,10 +120,13 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """Where each kind of output goes. Raises ValueError unless all of them can be written."""
-    given = ((kind, getattr(arguments, kind)) for kind in ("plot", "csv", "json"))
+    given = ((kind, getattr(arguments, kind)) for kind in ("plot", "csv", "json", "field"))
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
     if "plot" in outputs:
         _check_picture(outputs["plot"])
+    if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
+        path = outputs["field"]
+        raise ValueError(f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}')
     taken = {pathlib.Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
     for kind, path in outputs.items():
         place = path.resolve()
@@ -154,16 +158,29 @@ def _pictures() -> ModuleType:
 # -- what is given back ------------------------------------------------------------------------------------------------
 
 
-def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile, points: int) -> bytes:
+def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile, arguments: argparse.Namespace) -> bytes:
     if kind == "csv":
-        return export.csv_text(solution, file, points).encode()
+        return export.csv_text(solution, file, arguments.points).encode()
     if kind == "json":
-        return export.json_text(solution, file, points).encode()
+        return export.json_text(solution, file, arguments.points).encode()
+    if kind == "field":
+        head = (f"{file.title or 'plane contact'} (sie {__version__})", repr(solution.scene), f"lengths in {file.units.length}, "
+                f"stresses in {file.units.stress}", f"contact from x1 = {solution.edges[0]!r} to x2 = {solution.edges[1]!r}")  # fmt: skip
+        return file_bytes(Grid(solution, *arguments.grid), path.suffix[1:].lower(), head)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes
-        figure = _pictures().picture(solution, file.units, file.title)
+        figure = _figure(solution, file)
         data: bytes = _pictures().picture_bytes(figure, path.suffix[1:].lower())
     return data
+
+
+def _figure(solution: Solution, file: SceneFile) -> Any:
+    """The contact, or where the stress is wanted its contours."""
+    if {"stress", "yield"} & set(file.want):
+        from .contours import contours  # noqa: PLC0415
+
+        return contours(solution, file.units, file.title)
+    return _pictures().picture(solution, file.units, file.title)
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
@@ -219,7 +236,7 @@ def _arguments(argv: Sequence[str]) -> argparse.Namespace:
 
 
 def _parser() -> argparse.ArgumentParser:
-    about = "Plane elastic contact: edges, pressure and gap, with a certificate of their accuracy."
+    about = "Plane elastic contact: edges, pressure, gap and stress, with a certificate of their accuracy."
     parser = _Parser(prog="sie", description=about, allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="{solve,plan,example}")
@@ -228,16 +245,30 @@ def _parser() -> argparse.ArgumentParser:
     showing = commands.add_parser("example", help="print a commented scene file to start from", allow_abbrev=False)
     for command in (solving, planning):
         command.add_argument("scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input")
-        command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} (all)")
-    solving.add_argument("--plot", metavar="FILE", help="draw pressure, gap and shear: .png, .pdf, .svg ... (needs Matplotlib)")
+        command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})")
+    solving.add_argument(
+        "--plot", metavar="FILE", help="draw pressure, gap and shear, or with --want stress its contours: .png ... (needs Matplotlib)"
+    )
     solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap, shear, slip")
     solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
+    solving.add_argument("--field", metavar="FILE", help="write the stress on a grid: .csv, .npz or .vti (ParaView)")
+    solving.add_argument("--grid", metavar="NXxNY", type=_grid, default=SIZE, help="points of that grid (%(default)s)")
     solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
     solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
     showing.add_argument("name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list")
     for command, run in ((solving, _solve), (planning, _plan), (showing, _example)):
         command.set_defaults(run=run)
     return parser
+
+
+def _grid(text: str) -> tuple[int, int]:
+    try:
+        nx, ny = map(int, text.lower().split("x"))
+    except ValueError:
+        nx = ny = 0
+    if min(nx, ny) < 2 or nx * ny > MOST_POINTS:
+        raise argparse.ArgumentTypeError(f"{text} is not a grid of at least 2x2 and at most {MOST_POINTS} points, like 201x101")
+    return nx, ny
 
 
 def _points(text: str) -> int:

@@ -11,6 +11,7 @@ There, within a distance of about e^(-π/2η) of the width, p changes sign: bond
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -28,7 +29,7 @@ from .interval import Interval
 from .jacobi_density import JacobiDensity
 from .scene import Scene
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 Complex = NDArray[np.complex128]
 
 GRADED = 0.25 ** np.arange(27.0, 0.0, -1.0)  # panels towards the edges, to rounding
@@ -66,9 +67,15 @@ class Component(Density):
         return self._part(self.whole(x))
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._of_component(self.whole.cauchy, z, side)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._of_component(self.whole.cauchy_derivative, z, side)
+
+    def _of_component(self, potential: Callable[[ArrayLike, int], Array], z: ArrayLike, side: int) -> Complex:
         z = np.asarray(z, dtype=np.complex128)
         # F of the complex conjugate density is the conjugate of F at conj z
-        F, mirrored = self.whole.cauchy(z, side), self.whole.cauchy(z.conj(), -side).conj()
+        F, mirrored = potential(z, side), potential(z.conj(), -side).conj()
         return np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
 
     def hilbert(self, x: ArrayLike) -> Array:

@@ -3,6 +3,7 @@
     p(x)                                                       0 outside the contact, inf where it is infinite
     hilbert(x)    =  1/π PV∫ p(t)/(x - t) dt                   on the whole surface
     cauchy(z)     =  1/π ∫ p(t)/(z - t) dt                     the potential Fp of the half-plane; at x ± i0: hilbert ∓ i p (Plemelj)
+    cauchy_derivative(z) = Fp'(z);  potentials(z) = both, which share their logarithms
 
 A density is "the pressure whose slope is H": p solves 1/π PV∫ p/(x - t) dt = E*/2 H in the contact. Two forms know this in closed form,
 `TransformDensity` by a Chebyshev series (smooth H) and `PanelDensity` by exact panels (H with breaks). Both carry the square-root
@@ -25,13 +26,34 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import chebyshev
 from .interval import Interval
-from .panels import Panels
+from .panels import FAR_FIELD, Panels
+from .potential import Plane, outer_series
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
 CONTINUATION = 4.0
+# The derivative on the surface is its value at this depth, in half-widths: closed forms keep all digits there, and 1/depth is finite.
+SHALLOW = 1e-290
+
+
+def _points(z: ArrayLike, side: int) -> tuple[Complex, NDArray[np.bool_]]:
+    """(z as a complex array, which of its flattened entries are real)."""
+    if side not in (-1, 0, 1):
+        raise ValueError(f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side")
+    points = np.asarray(z, dtype=complex)
+    return points, points.ravel().imag == 0.0
+
+
+def _reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
+    """function(z) of a function known for Im z > 0 that has conjugate values at conjugate points."""
+    lower = z.imag < 0.0
+    if not lower.any():
+        return function(z)
+    values = function(np.where(lower, z.conj(), z))
+    values.imag[lower] *= -1.0
+    return values
 
 
 def in_order(function: Callable[[Array], Any], x: Array) -> Any:
@@ -75,12 +97,36 @@ class Density(ABC):
         """
 
     @abstractmethod
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        """F'(z), same shape as z; in the contact, at x + i0, that is hilbert' - i p'. Infinite at an edge and where p' is."""
+
+    @abstractmethod
     def hilbert(self, x: ArrayLike) -> Array:
         """1/π PV∫ p(t)/(x - t) dt at real x, same shape as x."""
 
     def strength(self, x: float) -> float:
         """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
         return 0.0
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        """(F, F') at z: what a stress needs, at the cost of little more than F where a form shares their logarithms."""
+        return self.cauchy(z, side), self.cauchy_derivative(z, side)
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        """(factor, density) whose sum this is: potentials are computed once for each density, however often it occurs."""
+        return ((1.0, self),)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where p or its derivatives are not smooth: the edges and what lies between them, ascending."""
+        return self.interval
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        """The limits of `hilbert` at both edges, from inside: where it peaks, and rounding of an edge would show."""
+        left, right = self.hilbert(np.array(self.interval)).tolist()
+        return left, right
 
 
 @dataclass(frozen=True)
@@ -100,104 +146,22 @@ class Zero(Density):
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         return np.zeros(np.shape(z), dtype=complex)
 
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return np.zeros(np.shape(z), dtype=complex)
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        return ()
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
     def hilbert(self, x: ArrayLike) -> Array:
         return np.zeros(np.shape(x))
 
 
 ZERO = Zero()
-
-# How far beside a place where infinite terms cancel their finite sum is looked at: the difference of both sides is the square of this.
-BESIDE = 1e-7
-CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
-
-
-@dataclass(frozen=True, eq=False)
-class Combination(Density):
-    """Σ factor density, each zero outside its own interval; `resultant` and `moment` are theirs, summed.
-
-    >>> Combination(((2.0, ZERO),)).resultant
-    0.0
-    """
-
-    terms: tuple[tuple[float, Density], ...]
-
-    @cached_property
-    def resultant(self) -> float:  # type: ignore[override]
-        return sum(factor * density.resultant for factor, density in self.terms)
-
-    @cached_property
-    def moment(self) -> float:  # type: ignore[override]
-        return sum(factor * density.moment for factor, density in self.terms)
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        ends = [density.interval for _, density in self.terms]
-        return min(lo for lo, _ in ends), max(hi for _, hi in ends)
-
-    def __call__(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
-        flat = x.ravel()
-        with np.errstate(invalid="ignore"):  # infinities that cancel are looked at below
-            total = np.zeros(flat.shape)
-            for factor, density in self.terms:
-                total += factor * density(flat)
-        for k in np.flatnonzero(~np.isfinite(total)):
-            total[k] = self._at_infinity(float(flat[k]))
-        return total.reshape(x.shape)
-
-    def _at_infinity(self, x: float) -> float:
-        """The sum where terms are infinite: finite where their strengths cancel."""
-        total, size = self.strength(x), sum(abs(factor * density.strength(x)) for factor, density in self.terms)
-        if abs(total) > CANCELLED * size:
-            return math.copysign(math.inf, total)
-        lo, hi = self.interval
-        step = BESIDE * (hi - lo)
-        sides = np.array([y for y in (x - step, x + step) if lo < y < hi])
-        return float(np.mean(self(sides)))
-
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        total = np.zeros(np.shape(z), dtype=complex)
-        for factor, density in self.terms:
-            total = total + factor * density.cauchy(z, side)
-        return total
-
-    def hilbert(self, x: ArrayLike) -> Array:
-        total = np.zeros(np.shape(x))
-        for factor, density in self.terms:
-            total = total + factor * density.hilbert(x)
-        return total
-
-    def strength(self, x: float) -> float:
-        return sum(factor * density.strength(x) for factor, density in self.terms)
-
-
-@dataclass(frozen=True, eq=False)
-class Scaled(Density):
-    """factor times a density: the shear traction of full sliding is f times the pressure."""
-
-    density: Density
-    factor: float
-
-    @property
-    def resultant(self) -> float:  # type: ignore[override]
-        return self.factor * self.density.resultant
-
-    @property
-    def moment(self) -> float:  # type: ignore[override]
-        return self.factor * self.density.moment
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        return self.density.interval
-
-    def __call__(self, x: ArrayLike) -> Array:
-        return self.factor * self.density(x)
-
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self.factor * self.density.cauchy(z, side)
-
-    def hilbert(self, x: ArrayLike) -> Array:
-        return self.factor * self.density.hilbert(x)
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,8 +216,26 @@ class SlopeDensity(Density):
         """1/π∫p/(z-t) for Im z > 0."""
 
     @abstractmethod
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        """1/π∫p/(z-t) and its derivative for Im z > 0."""
+
+    @abstractmethod
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        """The same far from the contact, without the constant that the first tends to where an edge is singular."""
+
+    @abstractmethod
     def _slope(self, x: Array) -> Array:
         """H inside the contact."""
+
+    @property
+    @abstractmethod
+    def _slope_at_edges(self) -> tuple[float, float]:
+        """H at both edges, which may lie between two doubles."""
+
+    @property
+    def _kinks(self) -> tuple[tuple[float, float], ...]:
+        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is infinite."""
+        return ()
 
     def __call__(self, x: ArrayLike) -> Array:
         x = np.asarray(x, dtype=float)
@@ -302,29 +284,96 @@ class SlopeDensity(Density):
             if side.any():
                 G, continued = self.gap_excess(flat[side])
                 out[side] = self.half_modulus * (continued - G)
+        if self.k1 or self.k2:
+            far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
+            out[far] = self._far_in_upper(flat[far] + 1j * (SHALLOW * self.contact.r))[0].real
         return out.reshape(x.shape)
 
     def _hilbert_inside(self, x: Array) -> Array:
         return self.half_modulus * self._slope(x)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        refuse_side(side)
-        z = np.asarray(z, dtype=complex)
+        z, real = _points(z, side)
         flat = z.ravel()
         F = np.empty(flat.shape, dtype=complex)
-        real = flat.imag == 0.0
         if real.any():
             x = flat.real[real]
             F[real] = self.hilbert(x) - 1j * side * self(x) if side else self.hilbert(x)
         off = ~real
         if off.any():
-            lower = flat.imag[off] < 0.0
-            upper = np.where(lower, flat[off].conj(), flat[off])
-            values = self.half_modulus * self._off_axis(upper)
-            if self.k1 or self.k2:
-                values += self._singular_outside(self.contact.from_left(upper), -self.contact.from_right(upper))
-            F[off] = np.where(lower, values.conj(), values)
+            F[off] = _reflected(self._in_upper, flat[off])
         return F.reshape(z.shape)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        z, real = _points(z, side)
+        flat = z.ravel()
+        dF = np.empty(flat.shape, dtype=complex)
+        if real.any():
+            dF[real] = self._on_surface(flat.real[real], side)
+        off = ~real
+        if off.any():
+            dF[off] = _reflected(lambda upper: self._both_in_upper(upper)[1], flat[off])
+        return dF.reshape(z.shape)
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        points, real = _points(z, side)
+        if real.any() or (points.imag < 0.0).any():
+            return self.cauchy(points, side), self.cauchy_derivative(points, side)
+        F, dF = self._both_in_upper(points.ravel())
+        return F.reshape(points.shape), dF.reshape(points.shape)
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        left, right = self._slope_at_edges
+        return self.half_modulus * left, self.half_modulus * right
+
+    def _in_upper(self, z: Complex) -> Complex:
+        if self.k1 or self.k2:
+            return self._both_in_upper(z)[0]
+        return self.half_modulus * self._off_axis(z)
+
+    def _both_in_upper(self, z: Complex) -> tuple[Complex, Complex]:
+        """(F, F') for Im z > 0 (1-d). Far from singular ends F and what these add tend to constants that cancel: both are left out."""
+        if not (self.k1 or self.k2):
+            F, dF = self._pair(z)
+            return self.half_modulus * F, self.half_modulus * dF
+        far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
+        out = np.empty((2, *z.shape), dtype=complex)
+        out[:, far] = self._far_in_upper(z[far])
+        out[:, ~far] = self.half_modulus * np.array(self._pair(z[~far])) + self._singular_pair(z[~far], far=False)
+        return out[0], out[1]
+
+    def _far_in_upper(self, z: Complex) -> Complex:
+        return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
+
+    def _singular_pair(self, z: Complex, far: bool) -> Complex:
+        """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of the first."""
+        left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
+        root1, root2 = np.sqrt(left), np.sqrt(right)
+        root, inverse = root1 / root2, root2 / root1
+        sum_of_roots = root1 + root2
+        ends = (
+            (self.k2 / root2 + self.k1 / root1) * (r / sum_of_roots)  # root - 1 = 2r / (root2 (root1 + root2))
+            if far
+            else 0.5 * (self.k2 * root - self.k1 * inverse)
+        )
+        return np.array([ends, -0.5 * (r / left) * ((self.k2 * root + self.k1 * inverse) / right)])
+
+    def _on_surface(self, x: Array, side: int) -> Complex:
+        """F' at real x: from the body's side, just below the surface; infinite where p' is."""
+        c = self.contact
+        at_edge = ((x == c.x1) | (x == c.x2)) & (np.minimum(abs(c.from_left(x)), abs(c.from_right(x))) == 0.0)
+        inside = np.where(at_edge, np.nextafter(x, c.m), x)
+        dF = self._both_in_upper(inside + 1j * (SHALLOW * c.r))[1]
+        left_edge, right_edge = at_edge & (x == c.x1), at_edge & (x == c.x2)
+        dF.imag[left_edge] = np.inf if self.k1 else -np.inf
+        dF.imag[right_edge] = -np.inf if self.k2 else np.inf
+        for e, steep in self._kinks:
+            dF.imag[x == e] = -steep
+        outside = (c.from_left(x) < 0.0) | (c.from_right(x) < 0.0)
+        dF.imag[outside] = 0.0
+        dF.imag = side * dF.imag if side else 0.0
+        return dF
 
 
 @dataclass(frozen=True, eq=False)
@@ -350,6 +399,10 @@ class TransformDensity(SlopeDensity):
         H: Array = chebyshev.evaluate(self.series, self.contact.s(x))
         return H
 
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        return float(self.series @ (-1.0) ** np.arange(len(self.series))), float(self.series.sum())
+
     def _beside(self, x: Array) -> tuple[Array, Array]:
         left, right = self.contact.from_left(x), self.contact.from_right(x)
         s = (left - right) / (2.0 * self.contact.r)
@@ -372,6 +425,13 @@ class TransformDensity(SlopeDensity):
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         # ρ = 1/(s + sqrt(s-1) sqrt(s+1)): the other form, s - sqrt(...), cancels
         return self._powers(2.0 * self.contact.r / (left + right + 2.0 * np.sqrt(left) * np.sqrt(right)))
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        F, dF = self._far_pair(z)
+        return F + self.series[0], dF
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        return outer_series(self.series, self.contact, z)
 
     def _powers(self, rho: Any) -> Any:
         """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to -g_0 far away."""
@@ -397,6 +457,12 @@ class PanelDensity(SlopeDensity):
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
 
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        p, g = self.panels, self.panels.geometry
+        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0  # a flat piece there was left out
+        return left, float(p.series[-1].sum()) if g.cut_right else 0.0
+
     def _beside(self, x: Array) -> tuple[Array, Array]:
         V, continued = self.panels.beside(x)
         return V / np.pi, continued
@@ -406,3 +472,24 @@ class PanelDensity(SlopeDensity):
 
     def _corner(self, x: float) -> float:
         return next((math.copysign(1.0, infinite) for e, infinite in self.panels.jumps if e == x), 0.0)
+
+    @cached_property
+    def _plane(self) -> Plane:
+        return Plane(self.panels)
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane(z)
+        return V / -np.pi, dV / -np.pi
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane.far(z, constant=False)
+        return V / -np.pi, dV / -np.pi
+
+    @property
+    def _kinks(self) -> tuple[tuple[float, float], ...]:
+        return self._plane.kinks
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        inner = {e for e in self.panels.geometry.ends.ravel().tolist() if self.contact.x1 < e < self.contact.x2}
+        return (self.contact.x1, *sorted(inner), self.contact.x2)

@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import checks, jacobi
-from .collocation import Condition, Function, Problem, System, attempt, consistent, solve
+from .collocation import attempt, consistent, solve
 from .grading import maps
 from .interval import EPS
 from .jacobi import Weight
 from .jacobi_density import JacobiDensity
+from .question import Condition, Function, Problem
+from .system import System
 
 Array = NDArray[Any]
 Interval = tuple[float, float]
@@ -177,7 +179,7 @@ class CauchyEquation:
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
         """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.
 
-        k is called once for each size that is tried, usually one or two. Raises ContactError, with the best `reached["density"]`, when
+        k is called once for each size that is tried, sizes growing by half. Raises ContactError, with the best `reached["density"]`, when
         tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
         """
         tol = checks.positive("tol", tol)

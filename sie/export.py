@@ -12,6 +12,8 @@
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
            check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, error, ok}                   if wanted
+           stress {x, xx, yy, xy: [..]} on the surface                                                               if wanted
+           yield {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion};  tension {value, x}              if wanted
 
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the string "Infinity" or "-Infinity", which
 Python's float(), NumPy and JavaScript's Number() read as the number; in CSV it is inf.
@@ -36,7 +38,7 @@ from . import __version__
 from .errors import ContactError
 from .history import Followed
 from .interval import EPS
-from .plan import WANTS
+from .plan import UNASKED
 from .scenefile import SceneFile, Units
 from .solution import Solution
 
@@ -61,8 +63,8 @@ COLUMNS, ROWS = 60, 8  # of the text picture
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
-    """What a scene file asks for: everything, if it does not say."""
-    return file.want or tuple(WANTS)
+    """What a scene file asks for: the contact, if it does not say."""
+    return file.want or UNASKED
 
 
 # -- where to look at an answer ----------------------------------------------------------------------------------------
@@ -196,6 +198,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "tilt": solution.tilt,
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
+    sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if isinstance(solution, Followed):
         out["path"] = _path(solution)
     return out | {name: section(solution, points) for name, section in sections.items() if name in wanted(file)}
@@ -248,6 +251,22 @@ def _check(solution: Solution, _points: int) -> dict[str, Any]:
     return solution.check().as_dict()
 
 
+def _stress(solution: Solution, points: int) -> dict[str, Any]:
+    x = abscissae(solution, points)
+    s = solution.surface_stress(x)
+    return {"x": x.tolist(), "xx": s.xx.tolist(), "yy": s.yy.tolist(), "xy": s.xy.tolist()}
+
+
+def _yield(solution: Solution, _points: int) -> dict[str, Any]:
+    found = solution.elastic_limit()
+    places = [list(place) for place in found.places]
+    return {"ratio": found.ratio, "load": found.load, "sqrt_j2": found.stress, "places": places, "criterion": found.criterion}
+
+
+def _tension(solution: Solution, _points: int) -> dict[str, Any]:
+    return solution.peak_tension()._asdict()
+
+
 def _finite(value: Any) -> Any:
     """The same with infinities as text and NumPy's scalars as Python's."""
     if isinstance(value, dict):
@@ -264,7 +283,16 @@ def _finite(value: Any) -> Any:
 
 def summary(solution: Solution, file: SceneFile) -> str:
     """What the file wants, for the eye: rounded to six digits, with a picture of the pressure in text."""
-    sections = {"edges": edges_summary, "pressure": pressure_summary, "gap": gap_summary, "shear": shear_summary, "check": check_summary}
+    sections = {
+        "edges": edges_summary,
+        "pressure": pressure_summary,
+        "gap": gap_summary,
+        "shear": shear_summary,
+        "stress": stress_summary,
+        "yield": yield_summary,
+        "tension": tension_summary,
+        "check": check_summary,
+    }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     parts = [section(solution, file.units) for name, section in sections.items() if name in wanted(file)]
     return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts])
@@ -324,6 +352,38 @@ def _path_table(solution: Followed, units: Units) -> str:
         shown = "".join(f"{c:>14}" if isinstance(c, str) else f"{_number(c):>14}" for c in cells)
         lines.append(f"{shown}   {_number(point['energy_lost'])}")
     return "\n".join(lines)
+
+
+def stress_summary(solution: Solution, units: Units) -> str:
+    """The stress under the centre of the contact, on the surface and half a half-width below."""
+    r = solution.half_width
+    lines: list[tuple[str, str]] = []
+    for where, y in (("on the surface", 0.0), (f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r)):
+        s = solution.stress(solution.centre, y)
+        scale = solution.normal_load / r
+        parts = (f"{name} = {_number(float(v), scale)}" for name, v in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy)))
+        lines.append(("stress" if not lines else "", f"{', '.join(parts)} {units.stress} at the centre, {where}"))
+    return _rows(*lines)
+
+
+def yield_summary(solution: Solution, units: Units) -> str:
+    found, r = solution.elastic_limit(), solution.half_width
+    if math.isinf(found.stress):
+        return _rows(("elastic limit", f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface"))
+    places = (f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in found.places)
+    return _rows(
+        (
+            "elastic limit",
+            f"P/(bk) = {_number(found.ratio)} (von Mises): this contact yields if k < {_number(found.stress)} {units.stress}",
+        ),
+        ("weakest point", " and ".join(places)),
+    )
+
+
+def tension_summary(solution: Solution, units: Units) -> str:
+    value, x = solution.peak_tension()
+    size = f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}" if math.isfinite(value) else "infinite"
+    return _rows(("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}"))
 
 
 def check_summary(solution: Solution, _units: Units) -> str:

@@ -50,6 +50,10 @@ class Affine:
         """(1 - s, 1 + s, dx/ds) at points of the plane."""
         return to_right / self.r, to_left / self.r, np.full_like(to_right, self.r)
 
+    def steepening(self, left: Array) -> Array:
+        """d ln(dx/ds) / ds."""
+        return np.zeros_like(left)
+
     def smooth(self, sigma: Array, right: Array, left: Array) -> Array | None:
         """x'(s)/(x(σ) - x(s)) - 1/(σ - s), shape s by σ; None where it is zero."""
         return None
@@ -92,6 +96,10 @@ class Graded:
         right = _log1p(to_right / self.behind) + _log1p(to_right / from_A)
         left = _log1p(to_left / self.before) + _log1p(to_left / from_B)
         return right / self.h, left / self.h, self.h * from_A * from_B / self._width
+
+    def steepening(self, left: Array) -> Array:
+        out: Array = -self.h * np.tanh(0.5 * (self._v1 + self.h * left))
+        return out
 
     def smooth(self, sigma: Array, right: Array, left: Array) -> Array:
         s = 0.5 * (left - right)

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .density import ZERO, Combination, Density, SlopeDensity
+from .density import ZERO, Density, SlopeDensity
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval
 from .normal import ECONOMY, Normal, normal_contact
@@ -33,6 +33,7 @@ from .scene import Scene
 from .slip import slip
 from .solution import Solution, solve
 from .states import OneWay, Slip, Step, rims
+from .superposition import Combination
 from .zones import zone
 
 Array = NDArray[np.float64]

@@ -195,6 +195,21 @@ def evaluate(weight: Weight, c: Array, s: Any) -> Any:
     return r.first * high
 
 
+def derivative(weight: Weight, c: Array, s: Array) -> Array:
+    """Σ c_n p_n'(s), at points on [-1, 1]."""
+    n = len(c)
+    r = recurrence(weight, n)
+    p, slope = np.full(s.shape, r.first, dtype=r.a.dtype), np.zeros(s.shape, dtype=r.a.dtype)
+    before, slope_before = np.zeros_like(p), np.zeros_like(p)
+    total = np.zeros(s.shape, dtype=np.result_type(c, p))
+    for k in range(n - 1):
+        following = ((s - r.a[k]) * p - r.b[k] * before) / r.b[k + 1]
+        slope_before, slope = slope, ((s - r.a[k]) * slope + p - r.b[k] * slope_before) / r.b[k + 1]
+        before, p = p, following
+        total += c[k + 1] * slope
+    return total
+
+
 def conjugate(weight: Weight, c: Array) -> Array:
     """The coefficients in p̃ of Σ c_n p̃_{n-κ}, with this module's sign of p̃."""
     sign = second_sign(weight)

@@ -9,6 +9,7 @@ plain Gauss quadrature, and further out all is Gauss quadrature.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -127,6 +128,21 @@ class Part:
             out[far] = (1.0 / distance) @ values / np.pi
         return out
 
+    @cached_property
+    def steepness(self) -> Part:
+        """(x2 - x)(x - x1) φ'(x), a density with the same weight: integrated by parts it is what F' is made of.
+
+        With Q(z) = (x2 - z)(z - x1):  1/π ∫ Q(t) φ'(t)/(z - t) dt = Q(z) F'(z) - 1/π ∫ φ dt.
+        """
+        n = len(self.coefficients) + 2 if isinstance(self.map, Affine) else 2 * len(self.coefficients)
+        s, A = jacobi.analysis(self.weight, n)
+        right, left = 1.0 - s, 1.0 + s
+        to_right, to_left, stretch = self.map.distances(right, left)
+        psi, slope = jacobi.evaluate(self.weight, self.coefficients, s), jacobi.derivative(self.weight, self.coefficients, s)
+        of_weight = (self.weight.beta * right - self.weight.alpha * left) / (right * left)
+        values = to_right * to_left / stretch * (slope + psi * (of_weight - self.map.steepening(left)))
+        return Part(self.map, self.weight, values @ A)
+
     def _near(self, to_right: Array, to_left: Array) -> Array:
         """Points whose s lies in the ellipse through HALFWAY, where plain quadrature does not serve."""
         assert not isinstance(self.map, Affine)
@@ -205,6 +221,12 @@ class JacobiDensity(Density):
         return F if np.issubdtype(self._kind, np.complexfloating) else F.real
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Array:
+        return self._summed(_cauchy, z, side)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Array:
+        return self._summed(_cauchy_derivative, z, side)
+
+    def _summed(self, of_part: Callable[[Part, Array, int], Array], z: ArrayLike, side: int) -> Array:
         refuse_side(side)
         z = np.asarray(z, dtype=complex)
         flat = z.ravel()
@@ -212,8 +234,17 @@ class JacobiDensity(Density):
         for part in self.parts:
             for start in range(0, len(flat), CHUNK):
                 at = slice(start, start + CHUNK)
-                out[at] += _cauchy(part, flat[at], side)
+                out[at] += of_part(part, flat[at], side)
         return out.reshape(z.shape)
+
+
+def _cauchy_derivative(part: Part, z: Array, side: int) -> Array:
+    Q = (part.map.x2 - z) * (z - part.map.x1)
+    end = Q == 0.0
+    out = np.empty(z.shape, dtype=complex)
+    out[~end] = (_cauchy(part.steepness, z[~end], side) + part.resultant / np.pi) / Q[~end]
+    out[end] = np.inf
+    return out
 
 
 def _cauchy(part: Part, z: Array, side: int) -> Array:

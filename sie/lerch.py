@@ -78,7 +78,7 @@ def log(a: float, r: Array, y: Array) -> Array:
         at = r[far]
         out[far] = at**a * _horner(_powers(a, 1.0), at)
     if not far.all():
-        d = -_log1p(-y[~far])
+        d = -log1p(-y[~far])
         terms = TERMS_COMPLEX if np.iscomplexobj(r) else TERMS_REAL
         with np.errstate(divide="ignore"):
             out[~far] = _horner(_bernoulli(a)[:terms], d) - np.log(d)
@@ -104,7 +104,7 @@ def _arctan_inside(a: float, r: Array) -> Array:
     return out
 
 
-def _log1p(u: Array) -> Array:
+def log1p(u: Array) -> Array:
     """ln(1 + u); NumPy's complex one loses the digits of a small u."""
     if not np.iscomplexobj(u):
         real: Array = np.log1p(u)

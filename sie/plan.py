@@ -16,6 +16,9 @@ WANTS: dict[str, tuple[str, ...]] = {
     "gap": ("normal", "pressure"),
     "shear": ("normal", "pressure", "tangential"),
     "check": ("normal", "pressure", "tangential", "certificate"),
+    "stress": ("normal", "pressure", "tangential", "tractions"),
+    "yield": ("normal", "pressure", "tangential", "tractions"),
+    "tension": ("normal", "pressure", "tangential", "tractions"),
 }
 
 # The same for a bonded punch, whose one equation answers pressure and shear alike.
@@ -25,7 +28,12 @@ BONDED: dict[str, tuple[str, ...]] = {
     "gap": ("normal",),
     "shear": ("normal",),
     "check": ("normal", "certificate"),
+    "stress": ("normal", "pressure", "tractions"),
+    "yield": ("normal", "pressure", "tractions"),
+    "tension": ("normal", "pressure", "tractions"),
 }
+# What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
+UNASKED = ("edges", "pressure", "gap", "shear", "check")
 
 
 @dataclass(frozen=True)
@@ -53,11 +61,12 @@ class Plan:
 
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
-    """The steps for what is wanted ("edges", "pressure", "gap", "shear", "check"), as a printable Plan. Computes nothing."""
+    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ...), as a printable Plan. Computes nothing."""
+    names = wanted(want)
     needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
-    stages = {stage for w in wanted(want) for stage in needed[w]}
+    stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
-        return _of_bonded(scene, {stage for w in wanted(want) for stage in BONDED[w]})
+        return _of_bonded(scene, names)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     if not convex:
@@ -70,7 +79,7 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in needed[w] for w in wanted(want)) else "needed for the inequalities: "
+        why = "" if any("pressure" in needed[w] for w in names) else "needed for the inequalities: "
         steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
@@ -79,11 +88,13 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     else:
         why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
         steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
-    steps += [_coupling(scene), _slip(scene, "tangential" in stages, economy), _corrective(scene, economy), _certificate(stages)]
+    steps += [_coupling(scene), _slip(scene, "tangential" in stages, economy), _corrective(scene, economy)]
+    steps += [_stress(stages), _maxima(names), _certificate(stages)]
     return Plan(tuple(steps))
 
 
-def _of_bonded(scene: Scene, stages: set[str]) -> Plan:
+def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
+    stages = {stage for name in names for stage in BONDED[name]}
     how = "-1/2: β = 0 leaves p and q uncoupled" if scene.beta == 0.0 else f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
     tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
     asked = "pressure" in stages
@@ -93,6 +104,8 @@ def _of_bonded(scene: Scene, stages: set[str]) -> Plan:
         Step("pressure", asked, "its real part" if asked else "not asked for", "pressure"),
         Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
         Step("slip", False, "infinite friction: nothing slips"),
+        _stress(stages),
+        _maxima(names),
         _certificate(stages),
     )
     return Plan(steps)
@@ -198,3 +211,14 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     zero = scene.profile.pieces.has_zero and scene.tau == 0.0
     never = "; never inside the flat base, which nothing corrects" if zero else ""
     return Step(name, True, f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways")
+
+
+def _stress(stages: set[str]) -> Step:
+    asked = "tractions" in stages
+    why = "from the potentials of the tractions, each once; no complex arithmetic on the surface" if asked else "not asked for"
+    return Step("stress", asked, why, "tractions")
+
+
+def _maxima(names: tuple[str, ...]) -> Step:
+    found = [what for name, what in (("yield", "J2 in the body"), ("tension", "σ_xx on the surface")) if name in names]
+    return Step("maxima", bool(found), f"{' and '.join(found)}: scanned, then polished with exact gradients" if found else "not asked for")

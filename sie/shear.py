@@ -16,7 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .density import Combination, Complex, Density, SlopeDensity
+from .density import SHALLOW, Complex, Density, SlopeDensity, refuse_side
+from .superposition import Combination
 from .zones import Zone, Zones
 
 Array = NDArray[np.float64]
@@ -62,6 +63,21 @@ class OneSign(Density):
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         return self._difference.cauchy(z, side)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._difference.cauchy_derivative(z, side)
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        return self._difference.bases
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return self._difference.breaks
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        return self._difference.hilbert_at_edges
 
     def hilbert(self, x: ArrayLike) -> Array:
         return self._difference.hilbert(x)
@@ -133,17 +149,52 @@ class TwoSigns(Density):
         F[lower] = F[lower].conj()
         return F.reshape(z.shape)
 
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        stick = self.zones.stick
+        return tuple(sorted({*self.pressure.breaks, stick.x1, stick.x2}))
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
+        z = np.asarray(z, dtype=complex)
+        flat, contact = z.ravel(), self.pressure.contact
+        real, lower = flat.imag == 0.0, flat.imag < 0.0
+        upper = np.where(lower, flat.conj(), flat)
+        upper[real] += 1j * (SHALLOW * contact.r)
+        dF = np.empty(flat.shape, dtype=complex)
+        for at, right in ((flat.real <= self.zones.stick.m, False), (flat.real > self.zones.stick.m, True)):
+            if at.any():
+                dF[at] = self._off_axis_derivative(upper[at], right)
+        inside = (contact.from_left(flat.real) >= 0.0) & (contact.from_right(flat.real) >= 0.0)
+        dF.imag[real] *= np.where(inside[real], float(side), 0.0)
+        dF[lower] = dF[lower].conj()
+        return dF.reshape(z.shape)
+
     def _off_axis(self, z: Complex, right: bool) -> Complex:
-        scale, other, sign = self._side(right)
+        scale, _, sign = self._side(right)
+        root, _, tail, _ = self._tail(z, right)
+        near: Complex = self.pressure.cauchy(z) - self.formal.cauchy(z) + 2.0 * sign / np.pi * root * tail
+        return scale * near + self.tau
+
+    def _off_axis_derivative(self, z: Complex, right: bool) -> Complex:
+        scale, _, sign = self._side(right)
+        root, steep, tail, falling = self._tail(z, right)
+        pull = 2.0 * sign / np.pi * root * (steep * tail + falling)
+        near: Complex = self.pressure.cauchy_derivative(z) - self.formal.cauchy_derivative(z) + pull
+        return scale * near
+
+    def _tail(self, z: Complex, right: bool) -> tuple[Complex, Complex, Complex, Complex]:
+        """R(z), R'/R, and ∫_other side p/(|R| (z - t)) dt with its derivative."""
+        _, other, _ = self._side(right)
         stick = self.zones.stick
         left, right_ = stick.from_left(z), -stick.from_right(z)
         weight = other.force / np.sqrt(other.inwards * (other.inwards + 2.0 * stick.r))
         # z - t for t at the distance `inwards` from the stick zone's end
         base, step = (left, 1.0) if right else (right_, -1.0)
-        tail = np.empty(z.shape, dtype=complex)
+        tail, falling = np.empty((2, *z.shape), dtype=complex)
         for start in range(0, len(z), ROWS):
             rows = slice(start, start + ROWS)
-            tail[rows] = np.reciprocal(base[rows, None] + step * other.inwards) @ weight
-        root = np.sqrt(left) * np.sqrt(right_)
-        near: Complex = self.pressure.cauchy(z) - self.formal.cauchy(z) + 2.0 * sign / np.pi * root * tail
-        return scale * near + self.tau
+            inverse = np.reciprocal(base[rows, None] + step * other.inwards)
+            tail[rows] = inverse @ weight
+            falling[rows] = -(inverse * inverse) @ weight
+        return np.sqrt(left) * np.sqrt(right_), 0.5 * (1.0 / left + 1.0 / right_), tail, falling

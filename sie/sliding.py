@@ -17,7 +17,7 @@ Galin, Contact Problems (1961); Hills, Nowell & Sackfield (1993) § 2.5; Muskhel
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -29,9 +29,11 @@ from .geometry import Geometry, quadrature_order
 from .interval import EPS, Interval
 from .moments import Moments
 from .panels import Panels
+from .potential import Plane, Points
 from .slope import Slope
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 # Gauss-Legendre nodes for each e-fold of the distance from an edge, beyond those of a smooth integrand.
 NODES_PER_FOLD = 3
@@ -195,23 +197,63 @@ class SlidingPanels(Panels):
 
     def off_axis(self, z: NDArray[np.complex128]) -> NDArray[np.complex128]:
         from_left, from_right = self.contact.from_left(z), self.contact.from_right(z)
-        turn = np.exp(1j * np.pi * self.at_right)
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> NDArray[np.complex128]:
-            away, towards = e_left**2 * from_right[at], e_right**2 * from_left[at]
-            inside = np.abs(away) <= np.abs(towards)
-            near, far = np.where(inside, away, towards), np.where(inside, towards, away)
-            y = np.where(inside, 1.0, -1.0) * (z[at] - e) / far
-            out = np.empty_like(away)
-            for mask, power in ((inside, self.at_right), (~inside, self.at_left)):
-                out[mask] = -turn * lerch.log(power, near[mask] / far[mask], y[mask])
-            out[inside] += np.pi / self.cos
-            return out
+            return self.function_of_break((e, e_left, e_right), z[at], from_left[at], from_right[at])
 
         return self._in_the_plane(z, from_left**self.at_left * (-from_right) ** self.at_right, log_of)
 
+    def function_of_break(self, end: tuple[float, float, float], z: Complex, from_left: Complex, from_right: Complex) -> Complex:
+        """What stands for the logarithm of the break e in the upper half-plane, given (e, sqrt((e - x1)/2r), sqrt((x2 - e)/2r))."""
+        e, e_left, e_right = end
+        away, towards = e_left**2 * from_right, e_right**2 * from_left
+        inside = np.abs(away) <= np.abs(towards)
+        near, far = np.where(inside, away, towards), np.where(inside, towards, away)
+        y = np.where(inside, 1.0, -1.0) * (z - e) / far
+        out = np.empty_like(away)
+        turn = np.exp(1j * np.pi * self.at_right)
+        for mask, power in ((inside, self.at_right), (~inside, self.at_left)):
+            out[mask] = -turn * lerch.log(power, near[mask] / far[mask], y[mask])
+        out[inside] += np.pi / self.cos
+        return out
+
     def _far_root(self, z: Any, z_m: Any) -> Any:
         return (self.contact.from_left(z) / z_m) ** self.at_left * (-self.contact.from_right(z) / z_m) ** self.at_right
+
+
+class SlidingPlane(Plane):
+    """V and V' with the exponents of `SlidingPanels`."""
+
+    panels: SlidingPanels
+
+    def _points(self, z: Complex) -> Points:
+        left, right = self.contact.from_left(z), -self.contact.from_right(z)
+        p = self.panels
+        R = left**p.at_left * right**p.at_right
+        return Points(z, left, right, left, right, R, left * right / R, p.at_left * right + p.at_right * left)
+
+    def _weight(self, end: tuple[float, float, float]) -> float:
+        p = self.panels
+        return float(2.0 * self.contact.r * end[1] ** (2.0 * p.at_right) * end[2] ** (2.0 * p.at_left))
+
+    def _logarithm(self, end: tuple[float, float, float], at: Points) -> Complex:
+        return self.panels.function_of_break(end, at.z, at.left, -at.right)
+
+    def far(self, z: Complex, constant: bool = True) -> tuple[Complex, Complex]:
+        """With s = z - m, T = ∫H t/(w (t - s)) dt about the centre and ρ = X/s:  V = (T - I0) ρ."""
+        p, r = self.panels, self.contact.r
+        offset, WH = p._far_field_rule
+        t = ((p.geometry.ends[0] - self.contact.m) + p.geometry.tails[0])[:, None] + offset
+        s = z - self.contact.m
+        T, dT = np.zeros_like(z), np.zeros_like(z)
+        for row_t, row_w in zip(t, WH * t, strict=True):
+            pole = np.reciprocal(row_t[:, None] - s)
+            T += row_w @ pole
+            dT += row_w @ (pole * pole)
+        less = np.expm1(p.at_left * lerch.log1p(r / s) + p.at_right * lerch.log1p(-r / s))  # ρ - 1
+        steep = (1.0 + less) * (r * (r - 2.0 * p.geometry.epsilon * s)) / (s * (s - r) * (s + r))
+        V = T * (1.0 + less) - p.I0 * (less + 1.0 if constant else less)
+        return V, dT * (1.0 + less) + (T - p.I0) * steep
 
 
 class SlidingDensity(PanelDensity):
@@ -227,8 +269,31 @@ class SlidingDensity(PanelDensity):
     def _regular(self, x: Array) -> Array:
         return (self.panels.cos**2 / np.pi) * self.panels.on_contact(x)
 
+    @cached_property
+    def _plane(self) -> Plane:
+        return SlidingPlane(self.panels)
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane(z)
+        return (-self.panels.cos / np.pi) * V, (-self.panels.cos / np.pi) * dV
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane.far(z, constant=False)
+        return (-self.panels.cos / np.pi) * V, (-self.panels.cos / np.pi) * dV
+
+    def _singular_pair(self, z: Complex, far: bool) -> Complex:
+        left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
+        at_left, half = 0.5 + self.epsilon, 0.5 / self.panels.cos
+        logarithm = lerch.log1p(2.0 * r / right) if far else np.log(left / right)
+        power = np.expm1 if far else np.exp
+        ends = self.k2 * power(at_left * logarithm) - self.k1 * power((at_left - 1.0) * logarithm)
+        steep = self.k2 * at_left * np.exp(at_left * logarithm) - self.k1 * (at_left - 1.0) * np.exp((at_left - 1.0) * logarithm)
+        return np.array([half * ends, -2.0 * half * r * steep / (left * right)])
+
     def _hilbert_inside(self, x: Array) -> Array:
-        return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * self(x)
+        # Where p is infinite so is this; only the slope's part is given there, as for similar bodies
+        p = self(x)
+        return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * np.where(np.isfinite(p), p, 0.0)
 
     def _beside(self, x: Array) -> tuple[Array, Array]:
         V, continued = self.panels.beside(x)

@@ -14,17 +14,21 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .bonded import Component, bonded_certificate, bonded_contact
 from .check import Certificate, certificate, verify_inequalities
-from .density import ZERO, Density, Scaled, SlopeDensity
+from .density import ZERO, Density, SlopeDensity
 from .edges import Edges
 from .errors import ContactError, LoadError
+from .field import Stress, Tractions
 from .gap import gap
 from .jacobi_density import JacobiDensity
+from .material import Elastic
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .scene import Scene
 from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
 from .slope import Slope
 from .states import Slip, Step
+from .strength import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .superposition import scaled
 
 Array = NDArray[np.float64]
 
@@ -44,6 +48,8 @@ class Solution:
     pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
     shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
     gap(x)       the gap between the deformed bodies, 0 in contact
+    stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
+    elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
@@ -193,7 +199,7 @@ class Solution:
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
-            return Scaled(self.pressure, self.scene.slides * self.scene.friction)
+            return scaled(self.scene.slides * self.scene.friction, self.pressure)
         return self.tangential.shear if self.sheared else ZERO
 
     @property
@@ -233,6 +239,34 @@ class Solution:
                 f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is a matter of partial slip, "
                 "which is not covered for them yet: pressure, shear and stresses are"
             )
+
+    # -- in the body --------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def tractions(self) -> Tractions:
+        """What acts on the body (y > 0), and what it is made of: all that a stress depends on."""
+        scene, body = self.scene, self.scene.body
+        if body is not None and not isinstance(body, Elastic):
+            raise ContactError("the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter")
+        if body is None:
+            return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
+        return Tractions(self.pressure, self.shear, scene.bulk_stress, body.poisson, body.plane, body)
+
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
+        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are arrays of the broadcast shape."""
+        return Stress(self.tractions, x, y)
+
+    def surface_stress(self, x: ArrayLike) -> Stress:
+        """The stress on the surface, in the contact and beside it."""
+        return self.stress(x, 0.0)
+
+    def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
+        """Where the body yields first, and at which load; see `YieldPoint`."""
+        return elastic_limit(self.tractions, self.normal_load, criterion)
+
+    def peak_tension(self) -> Peak:
+        """(value, x): the largest σ_xx on the surface, in the contact or beside it, and where."""
+        return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""

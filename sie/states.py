@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .adaptive import refined
 from .check import verify_inequalities
-from .density import ZERO, Combination, Density, SlopeDensity
+from .density import ZERO, Density, SlopeDensity
 from .gap import gap
 from .interval import EPS, Interval
 from .moments import moments
@@ -21,6 +21,7 @@ from .normal import Normal, pressure
 from .scene import Scene
 from .shear import OneSign, TwoSigns
 from .slope import Slope
+from .superposition import Combination
 from .touch import lowest_points, raised
 from .zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones
 

@@ -23,10 +23,8 @@ mp.dps = 40
 def exponent(a, b, bounded):
     """Of the distance from the right end, in [0, 1) if bounded and in (-1, 0) if not:  a sin πα + b cos πα = 0."""
     a, b = mp.mpmathify(a), mp.mpmathify(b)
-    if mp.im(a) == mp.im(b) == 0:
-        theta = -mp.atan2(mp.re(b), mp.re(a)) / mp.pi
-    else:
-        theta = mp.log((a - 1j * b) / (a + 1j * b)) / (2j * mp.pi)
+    real = mp.im(a) == mp.im(b) == 0
+    theta = -mp.atan2(mp.re(b), mp.re(a)) / mp.pi if real else mp.log((a - 1j * b) / (a + 1j * b)) / (2j * mp.pi)
     up = theta - mp.floor(mp.re(theta))
     return up if bounded else up - 1
 

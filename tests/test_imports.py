@@ -16,10 +16,11 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a module imports only from those before it.
 ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
-    "panels", "density",
-    "jacobi", "grading", "jacobi_density", "collocation", "equation", "sliding",
+    "panels", "potential", "density", "superposition",
+    "jacobi", "grading", "jacobi_density", "question", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "indenters", "scene", "edges", "normal", "gap", "check", "bonded", "zones", "shear",
-    "states", "slip", "slipcheck", "plan", "solution", "ladder", "path", "history", "scenefile", "export", "plot", "__main__",
+    "states", "slip", "slipcheck", "field", "maxima", "strength", "plan", "solution", "ladder", "path", "history", "fretting",
+    "charts", "sweep", "scenefile", "grid", "export", "plot", "contours", "__main__",
 )  # fmt: skip
 
 

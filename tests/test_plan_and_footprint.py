@@ -10,7 +10,7 @@ from hypothesis import given
 
 import sie
 
-STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "certificate"}
+STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "tractions", "certificate"}
 ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
 SCENES = {
     "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
@@ -47,6 +47,8 @@ ASK = {
     "gap": lambda s: s.gap(9.0),
     "shear": shear,
     "check": lambda s: s.check(),
+    "stress": lambda s: s.stress(0.1, 0.2).xx,
+    "tension": lambda s: s.peak_tension(),
 }
 
 

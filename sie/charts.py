@@ -1,0 +1,93 @@
+"""The charts of Ciavarella, Hills & Monno (1998) as numbers: what their Figs 4 to 8 show of the punch with rounded edges.
+
+All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only. Drawing is elsewhere
+(`python -m validation --only figures`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import checks
+from .density import Density
+from .field import Stress, Tractions
+from .indenters import Parabola, RoundedFlat
+from .scene import Scene
+from .solution import Solution, solve
+from .strength import YieldPoint, peak_tension
+from .superposition import superposed
+
+Array = NDArray[np.float64]
+
+POISSON = 0.3
+RATIOS = tuple(round(0.05 * k, 2) for k in range(19))  # a/b of Figs 5 to 7
+FRICTIONS = tuple(0.0125 * k for k in range(41))  # "each little cross corresponds to an increment of f = 0.0125" (Fig. 7)
+
+
+def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solution:
+    """The punch of a/b = ratio in full sliding, b = E* = R = 1 (a parabola for ratio 0). ValueError unless 0 <= ratio < 1."""
+    if not 0.0 <= checks.finite("ratio", ratio) < 1.0:
+        raise ValueError(f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged flat")
+    profile = RoundedFlat(ratio, 1.0) if ratio else Parabola(1.0)
+    return _sliding(solve(Scene(profile=profile, modulus=1.0, half_width=1.0, poisson=poisson)), friction)
+
+
+def yield_parameter(ratio: float, friction: float, x: ArrayLike, y: ArrayLike, poisson: float = POISSON) -> Array:
+    """b √J2 / P at (x, y), in units of b: what Fig. 4 draws as contours."""
+    solution = punch(ratio, friction, poisson)
+    stress: Stress = solution.stress(x, y)
+    return np.sqrt(stress.j2) / solution.normal_load
+
+
+@dataclass(frozen=True)
+class ElasticLimits:
+    """P/(bk) at first yield and where, (ratios, frictions): Figs 5 (f = 0), 6 and 7. Of tied maxima x is that of the right one."""
+
+    ratios: tuple[float, ...]
+    frictions: tuple[float, ...]
+    limit: Array
+    x: Array
+    y: Array
+
+
+def elastic_limits(ratios: Sequence[float] = RATIOS, frictions: Sequence[float] = FRICTIONS, poisson: float = POISSON) -> ElasticLimits:
+    """The chart of Fig. 6; one normal problem for each ratio."""
+    found: list[list[YieldPoint]] = []
+    for ratio in ratios:
+        base = punch(ratio, 0.0, poisson)
+        found.append([_sliding(base, f).elastic_limit() for f in frictions])
+    limit = np.array([[point.ratio for point in row] for row in found])
+    x, y = (np.array([[point.places[-1][k] for point in row] for row in found]) for k in (0, 1))
+    return ElasticLimits(tuple(ratios), tuple(frictions), limit, x, y)
+
+
+def surface_tension(ratio: float, stick: ArrayLike) -> Array:
+    """Largest surface tension over f p0, p0 = P/(πb), in partial slip with a stick zone of half-width c = stick (in units of b): Fig. 8.
+
+    The shear is f (p_b - p_c), p_c the pressure of the same profile in a contact of half-width c (eq. (19)); where c <= a the punch slides.
+    At the trailing edge that is 2f [E*(b - a)/(2R) - F_c(b)].
+    """
+    whole = punch(ratio)
+    scale = whole.normal_load / np.pi
+    values = np.asarray(stick, dtype=float)
+    if ((values < 0.0) | (values > 1.0)).any():
+        raise ValueError("stick holds values outside [0, 1]: give c/b, 0 in full sliding and 1 in full stick")
+    out = np.array([peak_tension(Tractions(whole.pressure, _slipping(whole, ratio, c))).value for c in values.ravel().tolist()])
+    return (out / scale).reshape(values.shape)
+
+
+def _slipping(whole: Solution, ratio: float, c: float) -> Density:
+    """q/f with a stick zone of half-width c."""
+    if c <= ratio:
+        return whole.pressure
+    if c == 1.0:
+        return superposed()
+    return superposed((1.0, whole.pressure), (-1.0, whole.with_(half_width=c).pressure))
+
+
+def _sliding(solution: Solution, friction: float) -> Solution:
+    return solution.with_(friction=friction, tangential_load=friction * solution.normal_load)

@@ -1,0 +1,137 @@
+"""Cauchy equations: accuracy and growth of the general solver.
+
+ligament    two collinear cracks of length 1 under unit pressure, the ligament between them shrinking: the largest relative error of the
+            four stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits
+closed      sliding parabola and bonded flat punch: largest error of the traction over the closed form
+growth      a crack with a kernel as narrow as a thin layer's, n doubling: seconds by LAPACK and by GMRES for the same matrix, its
+            condition number and how far the two differ; a last row has the exponents p of time ~ n^p fitted to it. The kernel is sampled
+            and nodes are made before the clock starts
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import mpmath
+import numpy as np
+
+import sie
+from sie.system import System
+
+mp = mpmath.mp.clone()
+mp.dps = 40
+
+LIGAMENTS = tuple(10.0**-k for k in range(9))
+SIZES = (200, 400, 800, 1600, 3200)
+QUICK_SIZES = (200, 400, 800)
+FITTED_FROM = 400  # unknowns: below, calls cost more than their work
+LARGEST_CONDITION = 800  # its singular values cost more than all the rest
+REPEATS = 3
+
+
+@dataclass(frozen=True)
+class Row:
+    case: str
+    n: str
+    error: float | None = None
+    estimated: float | None = None  # what the density says of itself
+    condition: float | None = None
+    lapack: float | None = None  # seconds; exponents in the last row
+    gmres: float | None = None
+
+
+def rows(quick: bool = False) -> Iterator[Row]:
+    for ligament in LIGAMENTS[::4] if quick else LIGAMENTS:
+        yield two_cracks(ligament)
+    yield sliding_parabola(0.3)
+    yield bonded_punch(0.3)
+    yield from growth(QUICK_SIZES if quick else SIZES)
+
+
+# -- accuracy ---------------------------------------------------------------------------------------------------------
+
+
+def two_cracks(ligament: float) -> Row:
+    a = 0.5 * ligament
+    density = sie.CauchyEquation(((-1.0 - a, -a), (a, 1.0 + a)), 1.0, total=(0.0, 0.0)).solve()
+    inner, outer = (float(K) for K in willmore(a, 1.0 + a))
+    exact = np.array([[-outer, inner], [-inner, outer]]) / np.sqrt(2.0 * np.pi)
+    error = float(np.abs(np.array(density.intensities) / exact - 1.0).max())
+    return Row(f"two cracks, ligament {ligament:.0e}", str(density.n), error, density.error)
+
+
+def willmore(a: float, b: float) -> tuple[Any, Any]:
+    """Stress intensity factors at the tips ±a and ±b under unit pressure on a < |x| < b."""
+    a, b = mp.mpf(a), mp.mpf(b)
+    m = (1 - a / b) * (1 + a / b)
+    ratio, root = mp.ellipe(m) / mp.ellipk(m), mp.sqrt((b - a) * (b + a))
+    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (1 - ratio) / root
+
+
+def sliding_parabola(strength: float) -> Row:
+    """β f = strength, E* = R = 1, half-width 1 (Hills, Nowell & Sackfield 1993)."""
+    epsilon = np.arctan(-strength) / np.pi
+    c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
+    pressure = sie.CauchyEquation((-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded").solve()
+    x = np.linspace(-c1, c2, 1001)[1:-1]
+    closed = 0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
+    return Row(f"sliding parabola, βf = {strength}", str(pressure.n), float(np.abs(pressure(x) / closed - 1).max()), pressure.error)
+
+
+def bonded_punch(beta: float) -> Row:
+    """p + iq under P + iQ = 2 + i (Muskhelishvili 1953, § 114)."""
+    eta = np.arctanh(beta) / np.pi
+    traction = sie.CauchyEquation((-1.0, 1.0), 0.0, a=1j * beta, b=-1.0, total=2.0 + 1.0j).solve()
+    x = np.linspace(-1.0, 1.0, 1001)[1:-1]
+    oscillation = np.exp(1j * eta * (np.log1p(x) - np.log1p(-x)))
+    closed = (2.0 + 1.0j) / np.pi * np.cosh(np.pi * eta) / np.sqrt((1.0 - x) * (1.0 + x)) * oscillation
+    return Row(f"bonded punch, β = {beta}", str(traction.n), float(np.abs(traction(x) / closed - 1).max()), traction.error)
+
+
+# -- growth -----------------------------------------------------------------------------------------------------------
+
+
+def thin_layer(height: float = 0.02) -> sie.CauchyEquation:
+    return sie.CauchyEquation((-1.0, 1.0), np.exp, k=lambda x, t: 0.5 * height / ((t - x) ** 2 + height**2) / np.pi, total=0.0)
+
+
+def growth(sizes: tuple[int, ...]) -> Iterator[Row]:
+    problem, found = thin_layer().problem, []
+    for n in sizes:
+        system = System(problem, (n,))
+        direct, iterated = system.by_lapack(), system.by_gmres()
+        found.append((n, _seconds(system.by_lapack), _seconds(system.by_gmres)))
+        apart = float(np.abs(direct - iterated).max() / np.abs(direct).max())
+        condition = float(np.linalg.cond(system.matrix())) if n <= LARGEST_CONDITION else None
+        yield Row("thin layer, LAPACK - GMRES", str(n), apart, None, condition, *found[-1][1:])
+    measured = np.log([row for row in found if row[0] >= FITTED_FROM])
+    slopes = [float(np.polyfit(measured[:, 0], measured[:, column], 1)[0]) for column in (1, 2)]
+    yield Row("exponents of n", f"{FITTED_FROM} to {sizes[-1]}", lapack=slopes[0], gmres=slopes[1])
+
+
+def _seconds(run: Callable[[], Any]) -> float:
+    times = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def table(found: list[Row]) -> str:
+    """Markdown."""
+    lines = ["| case | n | error | estimated | condition | LAPACK | GMRES |", "| --- | --- | --- | --- | --- | --- | --- |"]
+    for r in found:
+        unit = "" if r.case.startswith("exponents") else " ms"
+        times = ("" if v is None else f"{v:.2f}" if not unit else f"{1e3 * v:.1f}{unit}" for v in (r.lapack, r.gmres))
+        errors = ("" if v is None else f"{v:.1e}" for v in (r.error, r.estimated))
+        condition = "" if r.condition is None else f"{r.condition:.3f}"
+        lines.append("| " + " | ".join((r.case, r.n, *errors, condition, *times)) + " |")
+    return "\n".join(lines)
+
+
+def as_json(found: list[Row]) -> list[dict[str, Any]]:
+    return [asdict(r) for r in found]
