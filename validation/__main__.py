@@ -20,7 +20,9 @@ from .records import kept
 from .report import Section, machine, number, page
 
 # Modules of this package, in the order of the page.
-TOPICS = ("paper", "appendix", "pressure", "work_precision", "growth", "stability", "certificate", "economy", "mutation")
+TOPICS = (
+    "paper", "appendix", "pressure", "stress", "collocation", "work_precision", "growth", "stability", "certificate", "economy", "mutation",
+)  # fmt: skip
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
