@@ -2,8 +2,8 @@
 
 The left-hand sides are principal values by quadrature in mpmath; "identity" is how many digits the right-hand side agrees to. The closed
 forms of `analytic` are evaluated in mpmath and in NumPy; the solver `sie` is given a profile whose pressure is that integral: the rounded
-punch for (24), (25) and (32), and for (29) and (31) a single step of the slope, whose pressure is E*/2 ln|...|. Where the form that our copy
-of the paper prints is not the identity, the digits it has are shown beside: errata.
+punch for (24), (25) and (32), and for (29) and (31) a single step of the slope, whose pressure is E*/2 ln|...|. Where the form that our
+copy of the paper prints is not the identity, the digits it has are shown beside: errata.
 """
 
 from __future__ import annotations
@@ -147,6 +147,11 @@ def _load_33(s: Setting) -> Any:
     return (over(*s.angles["left"], -1) + over(*s.angles["right"], 1)) / (2 * s.R)
 
 
+def _load_35(s: Setting) -> Any:
+    phi0 = s.phi0
+    return mp.mpf(s.a) ** 2 * ((mp.pi - 2 * phi0) / (2 * mp.sin(phi0) ** 2) - mp.cot(phi0)) / (2 * s.R)
+
+
 def _split(s: Setting) -> Any:
     """(25): x added and subtracted."""
     a, x = mp.mpf(s.a), mp.mpf(s.x)
@@ -226,18 +231,13 @@ EQUATIONS = (
         "printed with the root over (b²-t²)(t-x), and without the bar of the principal value", solver=_step,
     ),
     Equation("(32)", "the pressure in closed form", lambda s: s.pressure, _closed_32, closed=_of_punch, solver=_punch),
-    Equation("(33)", "the load as an integral of the slope = (35)", _load_33, lambda s: _load_35(s), closed=_load_of_punch, solver=_load),
+    Equation("(33)", "the load as an integral of the slope = (35)", _load_33, _load_35, closed=_load_of_punch, solver=_load),
     Equation(
         "(34)", "the same in t = b sin φ", _load_33, lambda s: _load_34(s, mp.mpf(s.b) ** 2), lambda s: _load_34(s, mp.one),
         "printed without the factor b² that (33) and (35) have", closed=_load_of_punch, solver=_load,
     ),
-    Equation("(35)", "the load in closed form", _load_33, lambda s: _load_35(s), closed=_load_of_punch, solver=_load),
+    Equation("(35)", "the load in closed form", _load_33, _load_35, closed=_load_of_punch, solver=_load),
 )  # fmt: skip
-
-
-def _load_35(s: Setting) -> Any:
-    phi0 = s.phi0
-    return mp.mpf(s.a) ** 2 * ((mp.pi - 2 * phi0) / (2 * mp.sin(phi0) ** 2) - mp.cot(phi0)) / (2 * s.R)
 
 
 def digits(value: Any, truth: Any) -> float:
@@ -322,6 +322,6 @@ def figures(found: Found) -> Iterator[Figure]:
     legend(ax, ncols=2, loc="upper left")
     yield Figure(
         "appendix-digits", drawing,
-        f"Digits to which each form agrees with principal-value quadrature ({DIGITS + GUARD} digits carried): the identities and the closed "
+        f"Digits to which each form agrees with principal-value quadrature ({DIGITS + GUARD} digits carried): the identities and closed "
         "forms in mpmath to all of 50, doubles to 15 or 16; the printed forms of (26), (29), (31), (34) and after (25) to none.",
     )  # fmt: skip

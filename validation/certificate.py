@@ -1,9 +1,9 @@
 """Does the certificate know? Random contacts, right ones and wrong ones, each with its true error beside the certificate's estimate.
 
-Rounded flats, parabolas, wedges and powers of random sizes, loads and moduli, whose truth is a closed form in 40 digits; half of the answers
-are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The estimate
-must never be smaller than a third of the true error. That is the largest within 0.95 r of the centre, less what one ulp of x and of the edges
-explains.
+Rounded flats, parabolas, wedges and powers of random sizes, loads and moduli, whose truth is a closed form in 40 digits; half of the
+answers are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back.
+The estimate must never be smaller than a third of the true error. That is the largest within 0.95 r of the centre, less what one ulp of x
+and of the edges explains.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def claims(found: list[Judged]) -> Iterator[Claim]:
     frozen = min(r.estimate for r in right) / max(w.true for w in wrong)
     yield Claim(
         f"smallest estimate over true error, {len(found)} random contacts, half of them made wrong",
-        "issue of validation: never less than a third", _least(found), frozen, "the certificate of a right answer on a wrong one", low=SHARE,
+        "this project: never less than a third", _least(found), frozen, "the certificate of a right answer on a wrong one", low=SHARE,
     )  # fmt: skip
     yield Claim(
         "largest true error of the right answers", "README: to machine precision", max(j.true for j in right), max(j.true for j in wrong),

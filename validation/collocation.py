@@ -1,10 +1,10 @@
 """The general solver of Cauchy equations, which takes what the contact's own panels do not.
 
-Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking; the largest relative error of the four
-stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits. Closed: sliding parabola and bonded flat punch: largest
-error of the traction over the closed form. Growth: a crack with a kernel as narrow as a thin layer's, n doubling; seconds by LAPACK
-and by GMRES for the same matrix, its condition number and how far the two differ; a last row has the exponents p of time ~ n^p fitted to it.
-The kernel is sampled and nodes are made before the clock starts.
+Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking; the largest relative error of the
+four stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits. Closed: sliding parabola and bonded flat punch:
+largest error of the traction over the closed form. Growth: a crack with a kernel as narrow as a thin layer's, n doubling; seconds by
+LAPACK and by GMRES for the same matrix, its condition number and how far the two differ; a last row has the exponents p of time ~ n^p
+fitted to it. The kernel is sampled and nodes are made before the clock starts.
 """
 
 from __future__ import annotations
@@ -154,7 +154,7 @@ def claims(found: list[Row]) -> Iterator[Claim]:
     closed = [r for r in found if r.estimated is not None]
     words = f"answers off by {SPOILED:.0e}"
     yield Claim(
-        "largest error against elliptic integrals and closed forms", "DESIGN: general solver", max(r.error or 0.0 for r in closed),
+        "largest error against elliptic integrals and closed forms", "this project: general solver", max(r.error or 0.0 for r in closed),
         two_cracks(1.0, SPOILED).error or 0.0, words, high=BAR,
     )  # fmt: skip
     conditions = [r.condition for r in found if r.condition is not None]

@@ -22,6 +22,7 @@ SECONDS = (2.0, 4.0)
 SAME = 1e-13
 RIM = sie.RoundedFlat(0.5, 1.0)
 SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
+SLIPPING = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
 SCENES = {
     "parabola": sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3),
     "rounded flat": sie.Scene(profile=RIM, modulus=1.0, normal_load=0.3),
@@ -29,12 +30,16 @@ SCENES = {
     "smooth function": sie.Scene(profile=SLOPE, modulus=1.0, normal_load=1.0),
     "dissimilar, f = 0": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, normal_load=0.3),
     "similar, sliding": sie.Scene(profile=RIM, modulus=1.0, friction=0.5, sliding=1, normal_load=0.3),
+    "stick zone inside the flat": sie.Scene(**SLIPPING, tangential_load=0.15 * (1 - 1e-12)),
+    "partial slip": sie.Scene(**SLIPPING, tangential_load=0.09),
+    "bulk stress": sie.Scene(**SLIPPING, tangential_load=0.09, bulk_stress=0.002),
     "dissimilar, sliding": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.3),
 }
 
 
 def answers(solution: sie.Solution, x: Any) -> Any:
-    return solution.pressure(x)
+    """Pressure and shear."""
+    return np.concatenate((solution.pressure(x), solution.shear(x)))
 
 
 def difference(pair: tuple[Any, Any]) -> float:
@@ -43,25 +48,30 @@ def difference(pair: tuple[Any, Any]) -> float:
     return float(np.abs(one - other).max() / np.abs(one).max())
 
 
+def cost(scene: sie.Scene, x: Any, patience: float) -> list[float]:
+    """Median seconds with the skips and without."""
+    return medians((lambda: answers(sie.solve(scene), x), lambda: answers(sie.solve(scene, economy=()), x)), patience)
+
+
 def compute(quick: bool) -> Iterator[Record]:
     header, rows, stages = ["scene"], [], []
     names, with_skips, without = list(SCENES), [], []
     for name, scene in SCENES.items():
         yield Doing(name)
-        plan = sie.plan(scene)
+        plan = sie.plan(scene, ("pressure", "shear"))
         saving, bare = sie.solve(scene), sie.solve(scene, economy=())
         x = np.linspace(*saving.edges, 1003)[1:-1]
         one, other = answers(saving, x), answers(bare, x)
         filled = {key for key in vars(saving) if key in {s.stage for s in sie.plan(scene, "check").steps}}
         yield checked(
-            difference, (one, other), (one, other * (1 + 1e-11)), what=f"{name}: pressures with and without the skips differ by",
-            by="DESIGN: the answer is the same", named="pressures off by 1e-11", high=SAME,
+            difference, (one, other), (one, other * (1 + 1e-11)), what=f"{name}: pressure and shear with and without the skips differ by",
+            by="this project: the answer is the same", named="pressures off by 1e-11", high=SAME,
         )  # fmt: skip
         yield Claim(
-            f"{name}: stages filled that were not planned, or planned and not filled", "DESIGN: the footprint is the plan",
+            f"{name}: stages filled that were not planned, or planned and not filled", "this project: the footprint is the plan",
             len(filled ^ plan.stages), len((filled | {"certificate"}) ^ plan.stages), "a certificate that nobody asked for", high=0,
         )  # fmt: skip
-        seconds = medians((lambda s=scene: answers(sie.solve(s), x), lambda s=scene: answers(sie.solve(s, economy=()), x)), 0.1 if quick else 0.3)
+        seconds = cost(scene, x, 0.1 if quick else 0.3)
         with_skips.append(1e3 * seconds[0])
         without.append(1e3 * seconds[1])
         rows.append((name, *(f"{'run' if s.run else 'skip'}: {s.reason}" for s in plan.steps)))
@@ -86,6 +96,6 @@ def figures(found: Found) -> Iterator[Figure]:
     ax.barh(place + 0.18, bare.x, height=0.34, label=bare.label)
     ax.set_yticks(place, saving.about["names"])
     ax.invert_yaxis()
-    labelled(ax, "solve and 1001 pressures [ms]", "", log="x")
+    labelled(ax, "solve, 1001 pressures and shears [ms]", "", log="x")
     legend(ax)
     yield Figure("economy", drawing, "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.")

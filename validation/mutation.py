@@ -1,8 +1,8 @@
 """Wrong programs, by name, each run here and caught here: the checks can fail, and do, at errors from 1 down to 1e-12 of the pressure.
 
 Some are formulas with a term wrong in place of the pressure; the others are this package itself with one of its parts replaced while it
-solves. The certificate catches what breaks the equations; what is wrong in the question (a constant, the sign of β) satisfies wrong equations
-perfectly, and only a closed form that shares no code can tell. Every row is also a case of tests/test_mutation.py.
+solves. The certificate catches what breaks the equations; what is wrong in the question (a constant, the sign of β) satisfies wrong
+equations perfectly, and only a closed form that shares no code can tell. Every row is also a case of tests/test_mutation.py.
 """
 
 from __future__ import annotations
@@ -65,6 +65,11 @@ def _half_panel() -> Any:
     return lambda x: peers.gauss_chebyshev(lambda t: np.where(t > 0.75, 0.0, slope(t)), -1.0, 1.0, 400, np.clip(x, -1.0, 1.0))
 
 
+def _transposed() -> Any:
+    solution = sie.solve(SKEW)
+    return lambda x: solution.pressure(2 * solution.centre - x)
+
+
 STAND_INS = (
     stand_in("flipped logarithm", "second logarithm of (32) with the other sign", PUNCH, lambda: lambda x: closed_form(x, second=-1.0)),
     stand_in("dropped logarithm", "second logarithm of (32) left out", PUNCH, lambda: lambda x: closed_form(x, second=0.0)),
@@ -77,11 +82,11 @@ STAND_INS = (
         lambda: lambda x: sie.solve(PUNCH).pressure(x) * (1 - np.minimum(x * x, 1)),
     ),
     stand_in(
-        "homogeneous solution", "1e-12/w added, to which (1) is blind", PUNCH,
+        "homogeneous solution", "1.5e-13/w added, to which (1) is blind", PUNCH,
         lambda: lambda x: sie.solve(PUNCH).pressure(x) + 1e-13 * 1.5 / root(x),
     ),
     stand_in("half panel", "half of the right rim left out of the integral", PUNCH, _half_panel),
-    stand_in("transposed map", "s for -s: the mirror image of the pressure", SKEW, lambda: lambda x: sie.solve(SKEW).pressure(2 * sie.solve(SKEW).centre - x)),
+    stand_in("transposed map", "s for -s: the mirror image of the pressure", SKEW, _transposed),
     stand_in("centre off by 1e-12", "the pressure shifted", SKEW, lambda: lambda x: sie.solve(SKEW).pressure(x - 1e-12)),
     stand_in("shifted node", "one of 40 Gauss-Chebyshev nodes moved by 1e-10", SMOOTH, lambda: gauss_chebyshev(SMOOTH, shift=-1e-10)),
     stand_in("too few nodes", "8 nodes", SMOOTH, lambda: gauss_chebyshev(SMOOTH, n=8, at=0)),
@@ -158,10 +163,11 @@ REPLACED = (
     replaced("β forgotten", "sliding of dissimilar bodies solved as similar", _property("epsilon", lambda e: 0.0), SLIDING, _sliding_hertz),
     replaced("E* of one body", "the modulus twice as large", _property("Estar", lambda E: 2 * E), HERTZ, _hertz),
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
-    replaced("logarithms of the panels off by 1e-11", "the near field of each panel", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
+    replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "_series", lambda c: None if c is None else c * (1 + 1e-10 * (np.arange(len(c)) == 1))), SMOOTH),
-    replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)), SLIDING_RIM),
+    replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)),
+             SLIDING_RIM),
 )  # fmt: skip
 
 
@@ -196,7 +202,7 @@ def compute(quick: bool) -> Iterator[Record]:
         right, wrong = mutant.number(False), mutant.number(True)
         rows.append((mutant.name, mutant.says, mutant.checker, wrong, right, "caught" if wrong > BAR >= right else "NOT caught"))
         yield Claim(
-            f"{mutant.name}: what the {mutant.checker} measures", "issue of validation: each must be caught", wrong, right,
+            f"{mutant.name}: what the {mutant.checker} measures", "this project: each must be caught", wrong, right,
             "the right program, which must not be caught", low=float(np.nextafter(BAR, 1.0)),
         )  # fmt: skip
     yield Table("Wrong programs", ("name", "what is wrong", "caught by", "measured", "of the right program", "verdict"), rows)

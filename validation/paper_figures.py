@@ -50,7 +50,9 @@ def _contours(found: Found) -> Figure:
         ax.plot(*chart.about["weakest"], "x", color="tab:red")
         labelled(ax, "x/b", "y/b", f"{chart.about['title']}: largest {np.max(chart.values):.3f}")
         ax.set(aspect="equal", ylim=(2.0, -0.05))
-    return Figure("figure-4", drawing, "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the weakest point.")
+    return Figure(
+        "figure-4", drawing, "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the weakest point."
+    )
 
 
 def _limits(found: Found) -> Figure:
@@ -65,8 +67,12 @@ def _limits(found: Found) -> Figure:
     other.plot(depth.x, depth.y, "--", color="tab:blue", label=depth.label)
     other.set(ylabel="depth y/b", ylim=(0.0, 1.0))
     other.spines[["top"]].set_visible(False)
-    ax.legend(*(a + b for a, b in zip(ax.get_legend_handles_labels(), other.get_legend_handles_labels(), strict=True)), fontsize=8, frameon=False)
-    return Figure("figure-5", drawing, "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; dotted: Hertz. ν = 0.3.")
+    ax.legend(
+        *(a + b for a, b in zip(ax.get_legend_handles_labels(), other.get_legend_handles_labels(), strict=True)), fontsize=8, frameon=False
+    )
+    return Figure(
+        "figure-5", drawing, "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; dotted: Hertz. ν = 0.3."
+    )
 
 
 def _places(found: Found) -> Figure:

@@ -19,7 +19,7 @@ MOST_ITERATIONS = 2000
 CONVERGED = 1e-14
 
 
-def gauss_chebyshev(slope: Slope, lo: float, hi: float, n: int, x: Array, modulus: float = 1.0) -> Array:
+def gauss_chebyshev(slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0) -> Array:
     """One series for the whole contact: H = Σ c_k T_k from n samples by one transform, p = E*/2 sqrt(1 - s²) Σ c_k U_{k-1}."""
     theta = (np.arange(n) + 0.5) * np.pi / n
     c = dct(slope(0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(theta)), type=2) / n
@@ -30,7 +30,7 @@ def gauss_chebyshev(slope: Slope, lo: float, hi: float, n: int, x: Array, modulu
     return 0.5 * modulus * np.sqrt((1.0 - s) * (1.0 + s)) * old
 
 
-def erdogan_gupta(slope: Slope, lo: float, hi: float, n: int, x: Array, modulus: float = 1.0) -> Array:
+def erdogan_gupta(slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0) -> Array:
     """The quadrature of Erdogan & Gupta (1972), both ends bounded: n nodes, n + 1 collocation points, the middle one left out (n even).
 
     Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i),   t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2)),  by elimination;

@@ -98,7 +98,7 @@ def claims(rows: list[Row]) -> Iterator[Claim]:
     )
     yield Claim(
         "smallest certificate's estimate over the true error (what one ulp of x or of an edge explains is not counted)",
-        by="DESIGN: a certificate on every answer",
+        by="this project: a certificate on every answer",
         measured=min(r.estimated / r.unexplained for r in rows if r.unexplained),
         control=min(r.estimated / r.spoiled_unexplained for r in rows),
         wrong=f"pressures off by {SPOILED:.0e} after they were certified",
@@ -113,7 +113,7 @@ def speed() -> Claim:
     return checked(
         lambda times: cost(case, times)[1], 1, 3,
         what="rounded punch: time of solve and 1001 pressures over NumPy's closed form (32) at the same points",
-        by="DESIGN: at most 6", named="a program that does it three times", high=SPEED,
+        by="this project: at most 6", named="a program that does it three times", high=SPEED,
     )  # fmt: skip
 
 

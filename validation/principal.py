@@ -32,16 +32,17 @@ def principal_value(mp: Any, f: Callable[[Number], Number], pole: Number, lo: Nu
     if not lo < pole < hi:
         near = lo if pole <= lo else hi
         distance = abs(pole - near)
-        return _graded(mp, f, lo, hi, near, distance)
+        return _graded(mp, f, (lo, hi), near, distance)
     reach = min(pole - lo, hi - pole)
     folded = integral(mp, lambda s: f(pole + s) + f(pole - s), mp.zero, reach)
     if pole - lo > reach:
-        return folded + _graded(mp, f, lo, pole - reach, pole - reach, reach)
-    return folded + (_graded(mp, f, pole + reach, hi, pole + reach, reach) if hi - pole > reach else mp.zero)
+        return folded + _graded(mp, f, (lo, pole - reach), pole - reach, reach)
+    return folded + (_graded(mp, f, (pole + reach, hi), pole + reach, reach) if hi - pole > reach else mp.zero)
 
 
-def _graded(mp: Any, f: Callable[[Number], Number], lo: Number, hi: Number, near: Number, distance: Number) -> Number:
+def _graded(mp: Any, f: Callable[[Number], Number], ends: tuple[Number, Number], near: Number, distance: Number) -> Number:
     """Panels that double in length away from the end `near`, a `distance` from the pole."""
+    lo, hi = ends
     total, start, length = mp.zero, mp.zero, distance
     while start < hi - lo:
         end = min(start + length, hi - lo)

@@ -95,7 +95,12 @@ def _wedge() -> Problem:
 def _of_case(name: str, case: cases.Case, says: str) -> Problem:
     """The truth is the 40-digit quadrature."""
     return Problem(
-        name, says, case.scene, lambda x: cases.exact(case).pressure(x), lambda x: case.profile.slope(x) + case.tilt, gap=case.profile.height
+        name,
+        says,
+        case.scene,
+        lambda x: cases.exact(case).pressure(x),
+        lambda x: case.profile.slope(x) + case.tilt,
+        gap=case.profile.height,
     )
 
 

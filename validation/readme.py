@@ -34,7 +34,11 @@ def rows(report: Mapping[str, Any]) -> list[list[Any]]:
 
 
 def markdown(rows: list[list[Any]]) -> str:
-    lines = [HEADER, ("---",) * len(HEADER), *([f.format(v).replace("|", r"\|") for f, v in zip(FORMATS, row, strict=True)] for row in rows)]
+    lines = [
+        HEADER,
+        ("---",) * len(HEADER),
+        *([f.format(v).replace("|", r"\|") for f, v in zip(FORMATS, row, strict=True)] for row in rows),
+    ]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 

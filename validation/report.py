@@ -61,7 +61,7 @@ def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
     body = [
         f"<h1>plane-contact: every claim computed anew</h1><p><b>{len(claims)} claims</b>: {counts}. "
         f"A {kind} of {seconds:.0f} s, {escape(machine())}.</p>"
-        "<p class=note>Each claim has a number measured in this run, a bar, and the same measure on a wrong input, which must miss the bar; "
+        "<p class=note>Each claim has a number measured in this run, a bar, and the same measure on a wrong input, which must miss it: "
         "a measure that its wrong input passes is called blind, and proves nothing. Refuted: a claim of the paper that is listed among its "
         "errata; there the control is the corrected form, which must meet the bar.</p>"
         f"<nav>{links}</nav>"

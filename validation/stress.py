@@ -1,8 +1,8 @@
 """The stress inside against 40 digits at five depths, and its cost against logarithms in the same run.
 
-The error is the largest of xx, yy, xy in full sliding, f = 0.3, over the peak pressure: under the centre's side, beside the contact, straight
-under kinks and edges (there the reference has the edges beyond double precision). The ratio is the time of xx, yy, xy on a 200 x 200 grid over
-that of two complex logarithms and one complex square root of that grid, medians in turns.
+The error is the largest of xx, yy, xy in full sliding, f = 0.3, over the peak pressure: under the centre's side, beside the contact,
+straight under kinks and edges (there the reference has the edges beyond double precision). The ratio is the time of xx, yy, xy on a 200 x
+200 grid over that of two complex logarithms and one complex square root of that grid, medians in turns.
 """
 
 from __future__ import annotations
@@ -95,10 +95,12 @@ def compute(quick: bool = False) -> Iterator[Record]:
         found.append(r)
     worst = max(e for r in found for e in r.errors)
     spoiled = min(error(case, 1e-2, SPOILED) for case in SMOOTH_CASES[:1])
-    yield Claim("largest error of the stress over the peak pressure", "README: 1e-13 at any depth", worst, spoiled, "off by 1e-11", high=BAR)
+    yield Claim(
+        "largest error of the stress over the peak pressure", "README: 1e-13 at any depth", worst, spoiled, "off by 1e-11", high=BAR
+    )
     punch = next(case for case in SMOOTH_CASES if case.name == "rounded" and case.width is not None)
     yield Claim(
-        "rounded punch: stress on a 200 x 200 grid over two logarithms and one root of it", "DESIGN: at most 4",
+        "rounded punch: stress on a 200 x 200 grid over two logarithms and one root of it", "this project: at most 4",
         cost(punch)[1], cost(punch, times=4)[1], "a program that does it four times", high=SPEED,
     )  # fmt: skip
     header = ("case (E* = 1)", *(f"{d:g} b deep" for d in DEPTHS), "200 x 200 [ms]", "ratio")

@@ -2,9 +2,9 @@
 
 Each method answers the same question, the pressure at 1001 points, and its error is taken at about 24 of them, off every grid, against a
 truth of more than 16 digits; elements are measured at their own centres. Times are medians over repeats in which the method and NumPy's
-closed form of the rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are told where the contact ends; this package and
-the boundary elements find it. Tamaas and ContactMechanics run where they are installed (pip install -e ".[peers]"); they are periodic, and so
-is their contact.
+closed form of the rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are told where the contact ends; this package
+and the boundary elements find it. Tamaas and ContactMechanics run where they are installed (pip install -e ".[peers]"); they are
+periodic, and so is their contact.
 """
 
 from __future__ import annotations
@@ -18,32 +18,19 @@ from typing import Any
 import numpy as np
 
 import sie
-from analytic import rounded_flat
 
 from . import peers
 from .figures import Figure, axes, draw, labelled, legend
-from .principal import context
+from .further_races import further
 from .problems import Problem, problems
-from .records import Claim, Curve, Doing, Found, Record, Table, checked
+from .race import PATIENCE, PROMISE, closed_form, curve
+from .records import Claim, Doing, Found, Record, Table, checked
 from .timing import compared
 
 TITLE = "Error against run time"
 SECONDS = (4.0, 40.0)
-PATIENCE = 0.04  # seconds for each point of a curve, about
-PROMISE = 1e-13
 SLOWEST = 0.5  # seconds: a method that took longer is not tried at the next size
 GRID_REACH = 1.6  # elements cover so many half-widths to each side
-COLOURS = {
-    "this package": "black",
-    "Gauss-Chebyshev, one series": "tab:blue",
-    "collocation (sie.CauchyEquation)": "tab:green",
-    "Erdogan-Gupta, dense": "tab:orange",
-    "FFT boundary elements": "tab:red",
-    "Tamaas": "tab:purple",
-    "ContactMechanics": "tab:brown",
-    "Gauss quadrature of the potential": "tab:orange",
-    "the series (22), (23)": "tab:blue",
-}
 
 
 @dataclass(frozen=True)
@@ -172,14 +159,6 @@ def race(problem: Problem, method: Method, quick: bool) -> Iterator[tuple[int, f
             return
 
 
-_X = np.linspace(-0.9995, 0.9995, 1001)
-
-
-def closed_form() -> Any:
-    """The yardstick: the closed form of the rounded punch, as `analytic` evaluates it, to full accuracy."""
-    return rounded_flat.pressure(_X, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)
-
-
 def compute(quick: bool) -> Iterator[Record]:
     rows = []
     for problem in problems(quick):
@@ -189,26 +168,23 @@ def compute(quick: bool) -> Iterator[Record]:
                 continue
             yield Doing(f"{problem.name}, {method.name}")
             points = list(race(problem, method, quick))
-            yield _curve("race: " + problem.name, method.name, points, says=problem.says)
+            yield curve("race: " + problem.name, method.name, points, says=problem.says)
             n, least, seconds, ratio = min(points, key=lambda point: point[1])
             best[method.name] = least, seconds
             rows.append((problem.name, method.name, least, n if method.name != "this package" else None, 1e3 * seconds, ratio))
         yield from _claims(problem, best)
-    yield from interior(quick)
+    yield from further(quick)
     yield Table(
-        "The smallest error of each method", ("contact", "method", "error / peak", "unknowns", "time [ms]", "ratio to the closed form"), rows,
-        "The ratio is to `analytic.rounded_flat` at as many points, in turns. The largest error of elements sits next to an edge. Not raced here: " + (", ".join(_absent()) or "none"),
+        "The smallest error of each method",
+        ("contact", "method", "error / peak", "unknowns", "time [ms]", "ratio to the closed form"),
+        rows,
+        "The ratio is to `analytic.rounded_flat` at as many points, in turns. The largest error of elements sits next to an edge. "
+        "Not raced here: " + (", ".join(_absent()) or "none"),
     )  # fmt: skip
 
 
 def _absent() -> list[str]:
     return [f"{name} (not installed)" for name, (module, _) in peers.INSTALLABLE.items() if not installed(module)]
-
-
-def _curve(figure: str, name: str, points: list[tuple[int, float, float, float]], **about: Any) -> Curve:
-    n, errors, seconds, ratios = map(list, zip(*points, strict=True))
-    about |= {"colour": COLOURS[name], "strong": name == "this package", "sizes": n, "ratio to the closed form": ratios}
-    return Curve(figure, name, [1e3 * s for s in seconds], errors, "both", about)
 
 
 def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[Claim]:
@@ -222,60 +198,9 @@ def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[
     if problem.scene.profile.breaks:
         nearest = min(rivals.values())
         yield Claim(
-            f"{problem.name}: the nearest rival's smallest error over this package's", "DESIGN: what no peer has",
+            f"{problem.name}: the nearest rival's smallest error over this package's", "this project: what no peer has",
             nearest / best["this package"][0], nearest / nearest, "the rival against itself", low=100.0,
         )  # fmt: skip
-
-
-# -- inside the body --------------------------------------------------------------------------------------------------
-
-DEPTH = 0.01  # half-widths
-NODES = (8, 32, 128, 512, 2048)
-
-
-def interior(quick: bool) -> Iterator[Record]:
-    """The potential F of the rounded punch at a depth of 0.01 b: closed in each panel, or by quadrature, or by the paper's series."""
-    yield Doing("interior")
-    punch = {"half_flat": 0.5, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
-    density = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)).pressure
-    z = np.linspace(-1.2, 1.2, 1001) + 1j * DEPTH
-    mp = context(25)
-    truth = np.array([complex(rounded_flat.potential(mp.mpc(v), **punch, lib=mp)) for v in z[::40].tolist()])
-
-    def quadrature(n: int) -> Callable[[], Any]:
-        def run() -> Any:
-            theta = np.arange(1, n + 1) * np.pi / (n + 1)
-            p = density(np.cos(theta)) * np.sin(theta) / (n + 1)
-            return (1 / (z[:, None] - np.cos(theta))) @ p
-
-        return run
-
-    def series(n: int) -> Callable[[], Any]:
-        def run() -> Any:
-            b = rounded_flat.chebyshev_coefficients(n, **punch)
-            R = 1 / (z + np.sqrt(z - 1) * np.sqrt(z + 1))
-            return R * np.polynomial.polynomial.polyval(R * R, b)
-
-        return run
-
-    def error_of(values: Any) -> float:
-        return float(np.abs(values[::40] - truth).max() / np.abs(truth).max())
-
-    runs = {
-        "this package": ((0,), lambda n: lambda: density.cauchy(z)),
-        "Gauss quadrature of the potential": (NODES, quadrature),
-        "the series (22), (23)": (NODES[:4], series),
-    }
-    for name, (sizes, method) in runs.items():
-        points = []
-        for n in sizes:
-            run = method(n)
-            points.append((n, error_of(run()), *compared(run, closed_form, PATIENCE / 3)))
-        yield _curve("race: interior, depth 0.01 b", name, points, says="Potential F(z) of the rounded punch at 1001 points, a/b = 0.5")
-    yield checked(
-        error_of, density.cauchy(z), quadrature(64)(), what="potential at a depth of 0.01 b: error over its largest value",
-        by="README: to machine precision", named="Gauss quadrature with 64 nodes", high=PROMISE,
-    )  # fmt: skip
 
 
 def figures(found: Found) -> Iterator[Figure]:
