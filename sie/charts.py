@@ -1,7 +1,7 @@
 """The charts of Ciavarella, Hills & Monno (1998) as numbers: what their Figs 4 to 8 show of the punch with rounded edges.
 
 All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only. Drawing is elsewhere
-(`python -m validation --only figures`).
+(`python -m validation --only paper`).
 """
 
 from __future__ import annotations

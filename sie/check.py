@@ -166,7 +166,7 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         residual=float(np.abs(residual).max()) / peak,
         implied=_implied(residual, contact, rule.between) / peak,
         force=abs(float(weight @ p) - P) / P,
-        moment=abs(float(weight @ (p * (x - contact.m))) + P * contact.m - density.moment) / (P * r),
+        moment=abs(float(weight @ (p * ((x - contact.m) / r))) + P * (contact.m / r) - density.moment / r) / P,  # P r may underflow
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)),
         abscissae=max(of_force / P, of_equation / peak),

@@ -1,38 +1,76 @@
-"""python -m validation [--quick] [--only NAME] [--json FILE]: claims computed anew, with every error and every run time."""
+"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with pictures and one JSON of every number.
+
+The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails, or a check is blind.
+"""
 
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 import sys
+import time
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from . import collocation, figures, pressure, stress
+from . import readme
+from .progress import Progress
+from .records import kept
+from .report import Section, machine, number, page
 
-TOPICS: dict[str, ModuleType] = {"pressure": pressure, "collocation": collocation, "stress": stress, "figures": figures}
+# Modules of this package, in the order of the page.
+TOPICS = (
+    "paper", "appendix", "pressure", "stress", "collocation", "work_precision", "growth", "stability", "certificate", "economy", "mutation",
+)  # fmt: skip
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="a few cases of each topic")
-    parser.add_argument("--only", choices=TOPICS, help="one topic")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write every number there as well")
-    arguments = parser.parse_args()
-    report = {}
-    for name, topic in TOPICS.items():
-        if arguments.only not in (None, name):
-            continue
-        found = []
-        for row in topic.rows(arguments.quick):
-            print(f"\r{name}: {row.case:<40}", end="", file=sys.stderr, flush=True)
-            found.append(row)
-        print(f"\r{'':<60}\r{topic.__doc__}\n{topic.table(found)}\n")
-        report[name] = topic.as_json(found)
-    if arguments.json:
-        arguments.json.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
-    return 0
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="less of each topic: under 30 s")
+    parser.add_argument("--only", choices=TOPICS, metavar="NAME", action="append", help=f"one topic (may be repeated): {', '.join(TOPICS)}")
+    parser.add_argument("--out", type=Path, default=Path("build/validation"), metavar="DIR", help="where report.html and report.json go")
+    parser.add_argument("--readme", action="store_true", help="write the README's table anew from this run")
+    given = parser.parse_args(arguments)
+    try:
+        importlib.import_module("matplotlib")
+    except ImportError:
+        parser.error("the report's figures need Matplotlib: pip install -e '.[plot]'")
+    sections, seconds = run([name for name in TOPICS if given.only is None or name in given.only], given.quick)
+    given.out.mkdir(parents=True, exist_ok=True)
+    (given.out / "report.html").write_text(page(sections, seconds, given.quick), encoding="utf-8")
+    numbers = {"machine": machine(), "quick": given.quick, "seconds": seconds, "topics": {s.name: s.found.as_json() for s in sections}}
+    (given.out / "report.json").write_text(json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+    if given.readme:
+        readme.write(numbers)
+    return summary(sections, seconds, given.out)
+
+
+def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
+    """The sections of the page, and the seconds they took."""
+    topics: dict[str, ModuleType] = {name: importlib.import_module(f"validation.{name}") for name in names}
+    progress = Progress([topic.SECONDS[0 if quick else 1] for topic in topics.values()])
+    sections = []
+    for name, topic in topics.items():
+        progress.topic(name)
+        start = time.perf_counter()
+        found = kept(topic.compute(quick), progress.tell)
+        progress.tell("figures")
+        sections.append(Section(name, topic.TITLE, topic.__doc__ or "", found, list(topic.figures(found)), time.perf_counter() - start))
+    return sections, progress.done()
+
+
+def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:
+    """What failed, if anything, and where the page is."""
+    claims = [(s.name, c) for s in sections for c in s.found.claims]
+    failed = [(name, c) for name, c in claims if not c.ok]
+    for s in sections:
+        print(f"{s.name:<16} {sum(c.ok for c in s.found.claims):3d} of {len(s.found.claims):3d} claims, {s.seconds:6.1f} s")
+    for name, c in failed:
+        print(f"{c.verdict.upper()}: {name}: {c.what} (measured {number(c.measured)}, bar {c.bar}; {c.wrong}: {number(c.control)})")
+    print(f"{len(claims)} claims, {len(failed)} failed, {seconds:.0f} s: {out / 'report.html'}, {out / 'report.json'}")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    raise SystemExit(main())
+    sys.exit(main())

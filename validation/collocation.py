@@ -1,18 +1,17 @@
-"""Cauchy equations: accuracy and growth of the general solver.
+"""The general solver of Cauchy equations, which takes what the contact's own panels do not.
 
-ligament    two collinear cracks of length 1 under unit pressure, the ligament between them shrinking: the largest relative error of the
-            four stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits
-closed      sliding parabola and bonded flat punch: largest error of the traction over the closed form
-growth      a crack with a kernel as narrow as a thin layer's, n doubling: seconds by LAPACK and by GMRES for the same matrix, its
-            condition number and how far the two differ; a last row has the exponents p of time ~ n^p fitted to it. The kernel is sampled
-            and nodes are made before the clock starts
+Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking; the largest relative error of the
+four stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits. Closed: sliding parabola and bonded flat punch:
+largest error of the traction over the closed form. Growth: a crack with a kernel as narrow as a thin layer's, n doubling; seconds by
+LAPACK and by GMRES for the same matrix, its condition number and how far the two differ; a last row has the exponents p of time ~ n^p
+fitted to it. The kernel is sampled and nodes are made before the clock starts.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import mpmath
@@ -21,8 +20,15 @@ import numpy as np
 import sie
 from sie.system import System
 
+from .figures import Figure, axes, draw, labelled, legend
+from .peers import erdogan_gupta_matrix
+from .records import Claim, Curve, Doing, Found, Record, Table
+
 mp = mpmath.mp.clone()
 mp.dps = 40
+
+TITLE = "Cauchy equations: accuracy and growth of the general solver"
+SECONDS = (4.0, 20.0)
 
 LIGAMENTS = tuple(10.0**-k for k in range(9))
 SIZES = (200, 400, 800, 1600, 3200)
@@ -54,12 +60,12 @@ def rows(quick: bool = False) -> Iterator[Row]:
 # -- accuracy ---------------------------------------------------------------------------------------------------------
 
 
-def two_cracks(ligament: float) -> Row:
+def two_cracks(ligament: float, spoiled: float = 0.0) -> Row:
     a = 0.5 * ligament
     density = sie.CauchyEquation(((-1.0 - a, -a), (a, 1.0 + a)), 1.0, total=(0.0, 0.0)).solve()
     inner, outer = (float(K) for K in willmore(a, 1.0 + a))
     exact = np.array([[-outer, inner], [-inner, outer]]) / np.sqrt(2.0 * np.pi)
-    error = float(np.abs(np.array(density.intensities) / exact - 1.0).max())
+    error = float(np.abs((1.0 + spoiled) * np.array(density.intensities) / exact - 1.0).max())
     return Row(f"two cracks, ligament {ligament:.0e}", str(density.n), error, density.error)
 
 
@@ -121,17 +127,51 @@ def _seconds(run: Callable[[], Any]) -> float:
     return min(times)
 
 
-def table(found: list[Row]) -> str:
-    """Markdown."""
-    lines = ["| case | n | error | estimated | condition | LAPACK | GMRES |", "| --- | --- | --- | --- | --- | --- | --- |"]
-    for r in found:
-        unit = "" if r.case.startswith("exponents") else " ms"
-        times = ("" if v is None else f"{v:.2f}" if not unit else f"{1e3 * v:.1f}{unit}" for v in (r.lapack, r.gmres))
-        errors = ("" if v is None else f"{v:.1e}" for v in (r.error, r.estimated))
-        condition = "" if r.condition is None else f"{r.condition:.3f}"
-        lines.append("| " + " | ".join((r.case, r.n, *errors, condition, *times)) + " |")
-    return "\n".join(lines)
+# -- the page ---------------------------------------------------------------------------------------------------------
+
+BAR = 1e-13
+SPOILED = 1e-11  # relative error of the control
+HEADER = ("case", "n", "error", "estimated", "condition", "LAPACK [s]", "GMRES [s]")
 
 
-def as_json(found: list[Row]) -> list[dict[str, Any]]:
-    return [asdict(r) for r in found]
+def compute(quick: bool = False) -> Iterator[Record]:
+    found = []
+    for row in rows(quick):
+        yield Doing(f"{row.case}, {row.n}")
+        found.append(row)
+    yield from claims(found)
+    yield Table("Accuracy and growth", HEADER, [(r.case, r.n, r.error, r.estimated, r.condition, r.lapack, r.gmres) for r in found])
+    cracks = [r for r in found if r.case.startswith("two cracks")]
+    gaps = [float(r.case.split()[-1]) for r in cracks]
+    yield Curve("ligament", "error of the stress intensity factors", gaps, [r.error or 0.0 for r in cracks], "both")
+    yield Curve("ligament", "the density's own estimate", gaps, [r.estimated or 0.0 for r in cracks], "dashed")
+    layers = [r for r in found if r.case.startswith("thin layer")]
+    for name in ("lapack", "gmres"):
+        yield Curve("layer", name.upper(), [int(r.n) for r in layers], [getattr(r, name) for r in layers], "both")
+
+
+def claims(found: list[Row]) -> Iterator[Claim]:
+    closed = [r for r in found if r.estimated is not None]
+    words = f"answers off by {SPOILED:.0e}"
+    yield Claim(
+        "largest error against elliptic integrals and closed forms", "this project: general solver", max(r.error or 0.0 for r in closed),
+        two_cracks(1.0, SPOILED).error or 0.0, words, high=BAR,
+    )  # fmt: skip
+    conditions = [r.condition for r in found if r.condition is not None]
+    dense = np.linalg.cond(erdogan_gupta_matrix(200)[0])
+    yield Claim("largest condition number, thin layer", "README: 1.7", max(conditions), dense, "the textbook's unscaled matrix", high=2.0)
+    last = found[-2]
+    ratio = (last.lapack or np.nan) / (last.gmres or np.nan)
+    yield Claim(f"time of LAPACK over GMRES, n = {last.n}", "README: GMRES takes over", ratio, 1 / ratio, "the two exchanged", low=1.0)
+
+
+def figures(found: Found) -> Iterator[Figure]:
+    for key, x, y, caption in (
+        ("ligament", "ligament / length of the cracks", "relative error", "Two collinear cracks that nearly touch, against 40 digits."),
+        ("layer", "unknowns n", "time [s]", "The same system solved by elimination and by iteration."),
+    ):
+        drawing, ax = axes()
+        draw(ax, found.curves(key), floor=1e-17)
+        labelled(ax, x, y, log="xy")
+        legend(ax)
+        yield Figure("collocation-" + key, drawing, caption)

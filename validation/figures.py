@@ -1,130 +1,107 @@
-"""The paper's Figs 4 to 8 computed anew: its claims with what they measure, and the time of each chart.
+"""Drawing, apart from computing: Matplotlib figures in one style, and SVG that can stand inside a page, several of them together.
 
-`python -m validation.figures FOLDER` draws them (needs Matplotlib).
+Figures are drawn as narrow as a phone, so that their letters stay readable there.
 """
 
 from __future__ import annotations
 
-import sys
-import time
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
-from pathlib import Path
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from sie import charts
+from .records import Curve, Map
 
-FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
-STICK = np.linspace(0.0, 1.0, 61)
-TENSION_RATIOS = (0.0, 0.2, 0.4, 0.6, 0.8, 0.9)
+WIDTH, HEIGHT = 5.0, 3.7  # inches
+STYLE = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "validation",
+    "font.family": "sans-serif",
+    "font.size": 9.5,
+    "axes.grid": True,
+    "grid.alpha": 0.3,
+    "grid.linewidth": 0.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.0,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "figure.constrained_layout.use": True,
+}
+MARKERS = "osD^vP*X<>hp"
 
 
 @dataclass(frozen=True)
-class Row:
-    case: str
-    paper: str
-    measured: str
-    seconds: float
+class Figure:
+    """A drawing with its caption, which says what is seen, in which units, and where each curve comes from."""
+
+    name: str
+    drawing: Any
+    caption: str
 
 
-def rows(quick: bool = False) -> Iterator[Row]:
-    """What the paper says of each figure, and what comes out; `quick` leaves out the whole of Fig. 6."""
-    start = time.perf_counter()
-    chart = charts.elastic_limits(frictions=(0.0,))
-    limit = chart.limit[:, 0] / chart.limit[0, 0]
-    stronger = max(a for a, v in zip(chart.ratios, limit, strict=True) if v > 1.0)
-    yield Row("Fig. 5: stronger than Hertz up to a/b", "0.55", f"{stronger:g} of steps of 0.05", time.perf_counter() - start)
-    yield Row("Fig. 5: strength at a/b = 0.9 over Hertz", "almost halved", f"{limit[-1]:.4f}", 0.0)
-    if not quick:
-        start = time.perf_counter()
-        chart = charts.elastic_limits()
-        jump = chart.frictions[int((chart.y[0] == 0.0).argmax())]
-        yield Row("Fig. 6, 19 x 41: Hertz yields on the surface from f", "about 0.3", f"{jump:g}", time.perf_counter() - start)
-    start = time.perf_counter()
-    tension = charts.surface_tension(0.8, [0.0]) / charts.surface_tension(0.0, [0.0])
-    yield Row("Fig. 8: concentration at a/b = 0.8 over Hertz", "only double", f"{tension[0]:.4f}", time.perf_counter() - start)
+def axes(rows: int = 1, *, height: float = HEIGHT, **options: Any) -> tuple[Any, Any]:
+    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array)."""
+    import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
+    from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
+
+    with matplotlib.rc_context(STYLE):
+        drawing = Drawing(figsize=(WIDTH, height * rows), layout="constrained")
+        return drawing, drawing.subplots(rows, **options)
 
 
-def table(found: list[Row]) -> str:
-    """Markdown."""
-    lines = ["| figure | paper | measured | time |", "| --- | --- | --- | --- |"]
-    return "\n".join(lines + [f"| {r.case} | {r.paper} | {r.measured} | {r.seconds:.2f} s |" for r in found])
+def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
+    """Axis labels with units, logarithmic axes ("x", "y", "xy"), grid and title."""
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.set_title(title, fontsize=9.5, loc="left")
+    ax.grid(visible=True, alpha=0.3, linewidth=0.5)
+    ax.spines[["top", "right"]].set_visible(False)
+    if "x" in log:
+        ax.set_xscale("log")
+    if "y" in log:
+        ax.set_yscale("log")
 
 
-def as_json(found: list[Row]) -> list[dict[str, Any]]:
-    return [asdict(r) for r in found]
+def draw(ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None) -> None:
+    """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for zero)."""
+    for k, curve in enumerate(curves):
+        y = np.array(curve.y, dtype=float)
+        y = y if floor is None else np.maximum(y, floor)
+        marker = MARKERS[k % len(MARKERS)]
+        shape = {"line": "-", "points": marker, "both": f"{marker}-", "dashed": "--"}[curve.style]
+        strong = curve.about.get("strong", False)
+        ax.plot(
+            curve.x, y, shape, label=curve.label or None, color=curve.about.get("colour", colour), mew=0.9, ms=7 if strong else 4,
+            mfc=None if strong else "none", zorder=3 if strong else 2,
+        )  # fmt: skip
 
 
-# -- drawing -----------------------------------------------------------------------------------------------------------
+def legend(ax: Any, **options: Any) -> None:
+    ax.legend(fontsize=8, frameon=False, handlelength=1.6, **options)
 
 
-def draw(folder: Path) -> list[Path]:
-    """Figs 4 to 8 as PNG files."""
-    from matplotlib.figure import Figure  # noqa: PLC0415
-
-    written = []
-    chart = charts.elastic_limits()
-    for name, panels, size, paint in (
-        ("figure-4", (3, 2), (7.0, 7.5), _contours),
-        ("figure-5", (1, 1), (4.0, 3.2), lambda axes: _normal(axes, chart)),
-        ("figure-6", (1, 1), (4.5, 4.5), lambda axes: _sliding(axes, chart)),
-        ("figure-7", (1, 1), (4.5, 3.5), lambda axes: _places(axes, chart)),
-        ("figure-8", (1, 1), (4.5, 3.5), _tension),
-    ):
-        figure = Figure(figsize=size, dpi=150, layout="constrained")
-        paint(figure.subplots(*panels, squeeze=False).ravel())
-        written.append(folder / f"{name}.png")
-        figure.savefig(written[-1])
-    return written
+def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) -> None:
+    """A map of decimal logarithms."""
+    values = np.log10(np.maximum(np.array(found.values, dtype=float), 10.0**low))
+    mesh = ax.pcolormesh(found.x, found.y, values, cmap="viridis", vmin=low, vmax=high, shading="nearest", rasterized=False)
+    ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
 
 
-def _contours(axes: Any) -> None:
-    x, y = np.linspace(-2.0, 2.0, 161), np.linspace(0.0, 2.0, 81)
-    for ax, (ratio, f) in zip(axes, FIGURE_4, strict=True):
-        drawn = ax.contour(x, y, charts.yield_parameter(ratio, f, x, y[:, None]), levels=12, linewidths=0.7)
-        ax.clabel(drawn, fontsize=6)
-        (place,) = charts.punch(ratio, f).elastic_limit().places[-1:]
-        ax.plot(*place, "kx")
-        ax.set(title=f"$a/b$ = {ratio:g}, $f$ = {f:g}", xlabel="$x/b$", ylabel="$y/b$", aspect="equal", ylim=(2.0, -0.05))
+def svg(figure: Figure) -> str:
+    """The drawing as an <svg> element whose names no other figure on the page shares."""
+    import matplotlib  # noqa: PLC0415
 
-
-def _normal(axes: Any, chart: charts.ElasticLimits) -> None:
-    (ax,) = axes
-    ax.plot(chart.ratios, chart.limit[:, 0], "k-", label="$P/(bk)$")
-    ax.axhline(chart.limit[0, 0], color="k", linestyle=":")
-    ax.set(xlabel="$a/b$", ylabel="$P/(bk)$", ylim=(0.0, None))
-    depth = ax.twinx()
-    depth.plot(chart.ratios, chart.y[:, 0], "b--")
-    depth.set(ylabel="depth of the weakest point, $y/b$", ylim=(0.0, None))
-
-
-def _sliding(axes: Any, chart: charts.ElasticLimits) -> None:
-    (ax,) = axes
-    for ratio, limit in zip(chart.ratios, chart.limit, strict=True):
-        ax.plot(chart.frictions, limit, "k--" if ratio == 0.0 else "k-", linewidth=0.8)
-        ax.annotate(f"{ratio:g}", (chart.frictions[-1], limit[-1]), fontsize=6, va="center")
-    ax.set(xlabel="$f$", ylabel="$P/(bk)$", ylim=(0.0, None))
-
-
-def _places(axes: Any, chart: charts.ElasticLimits) -> None:
-    (ax,) = axes
-    for ratio, x, y in zip(chart.ratios, chart.x, chart.y, strict=True):
-        below = y > 0.0
-        ax.plot(x[below], y[below], "+-", markersize=4, linewidth=0.5)
-        ax.annotate(f"{ratio:g}", (x[below][-1], y[below][-1]), fontsize=6)
-    ax.set(xlabel="$x/b$", ylabel="$y/b$", ylim=(0.9, 0.0))
-
-
-def _tension(axes: Any) -> None:
-    (ax,) = axes
-    for ratio in TENSION_RATIOS:
-        ax.plot(STICK, charts.surface_tension(ratio, STICK), label=f"{ratio:g}")
-    ax.set(xlabel="$c/b$", ylabel=r"$\sigma_{xx}\,\pi b/(f P)$", ylim=(0.0, None))
-    ax.legend(title="$a/b$", fontsize=7)
-
-
-if __name__ == "__main__":
-    for path in draw(Path(sys.argv[1] if len(sys.argv) > 1 else ".")):
-        print(path)
+    text = io.StringIO()
+    with matplotlib.rc_context(STYLE):
+        figure.drawing.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    element = text.getvalue()
+    element = element[element.index("<svg") :]
+    element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
+    element = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{figure.name}-", element)
+    element = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", element, count=1)
+    return re.sub(r'(<svg[^>]*?) height="[^"]*"', r'\1 role="img"', element, count=1)

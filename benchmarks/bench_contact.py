@@ -1,0 +1,62 @@
+"""Run times for development, off by default: pip install -e ".[bench]", then python -m pytest benchmarks --benchmark-group-by=func.
+
+What a change costs is seen by --benchmark-autosave before it and --benchmark-compare after it. Counts of solves and transforms, which do
+not depend on the machine, are asserted in tests/test_cost.py.
+"""
+
+import numpy as np
+import pytest
+
+import sie
+
+PROFILES = {
+    "parabola": sie.Parabola(1.0),
+    "rounded flat": sie.RoundedFlat(0.5, 1.0),
+    "wedge": sie.Wedge(0.3),
+    "function": sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"),
+    "1000 pieces": sie.Piecewise(np.linspace(-2.0, 2.0, 1001), [(0.0, 1.0)] * 1000),
+}
+X = np.linspace(-0.4, 0.4, 1001)
+
+
+def scene(profile, **given):
+    return sie.Scene(profile=profile, modulus=1.0, poisson=0.3, normal_load=0.3, **given)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_solve_and_1001_pressures(benchmark, name):
+    benchmark(lambda: sie.solve(scene(PROFILES[name])).pressure(X))
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_certificate(benchmark, name):
+    solution = sie.solve(scene(PROFILES[name]))
+    _ = solution.pressure
+
+    def run():
+        solution.__dict__.pop("certificate", None)
+        return solution.check()
+
+    benchmark(run)
+
+
+def test_sliding_of_dissimilar_bodies(benchmark):
+    question = scene(PROFILES["rounded flat"], dundurs=0.2, friction=0.5, sliding=1)
+    benchmark(lambda: sie.solve(question).pressure(X))
+
+
+def test_partial_slip(benchmark):
+    question = scene(PROFILES["rounded flat"], friction=0.5, tangential_load=0.1)
+    benchmark(lambda: sie.solve(question).shear(X))
+
+
+def test_stress_on_a_grid(benchmark):
+    solution = sie.solve(scene(PROFILES["rounded flat"], friction=0.5, sliding=1))
+    x, y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]
+    benchmark(lambda: solution.stress(x, y).j2)
+
+
+@pytest.mark.parametrize("n", [64, 1024, 16384])
+def test_cauchy_equation_by_transforms(benchmark, n):
+    equation = sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0)
+    benchmark(lambda: equation.solve(n=n))

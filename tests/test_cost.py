@@ -1,0 +1,78 @@
+"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a function, transforms, factorisations."""
+
+from contextlib import contextmanager
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+import sie
+from sie import chebyshev, normal, solution
+
+PUNCH = sie.RoundedFlat(0.5, 1.0)
+
+
+@contextmanager
+def counted(module, name):
+    """How often a function of a module is called."""
+    function, calls = getattr(module, name), []
+
+    def counting(*args, **given):
+        calls.append(1)
+        return function(*args, **given)
+
+    with patch.object(module, name, counting):
+        yield calls
+
+
+def scene(profile, **given):
+    return sie.Scene(profile=profile, modulus=1.0, poisson=0.3, **{"normal_load": 0.3, **given})
+
+
+def test_a_piecewise_polynomial_slope_needs_no_transform():
+    with counted(chebyshev, "transform") as transforms:
+        solved = sie.solve(scene(PUNCH))
+        _ = solved.pressure(np.linspace(-0.4, 0.4, 1001)), solved.normal_load
+    assert not transforms
+
+
+@pytest.mark.parametrize(("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)])
+def test_the_edges_of_a_symmetric_profile_take_a_few_evaluations(profile, most):
+    assert sie.solve(scene(profile)).normal.edges.evaluations <= most
+
+
+def test_given_the_half_width_nothing_is_searched():
+    assert sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations == 1
+
+
+def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():
+    with counted(solution, "normal_contact") as solves:
+        base = sie.solve(scene(PUNCH, friction=0.5))
+        _ = base.pressure
+        for Q in (0.02, 0.05, 0.1, 0.14):
+            _ = base.with_(tangential_load=Q).shear(0.1)
+    assert len(solves) == 1
+
+
+def test_full_sliding_of_similar_bodies_is_no_second_solve():
+    with counted(normal, "Search") as searches:
+        _ = sie.solve(scene(PUNCH, friction=0.5, sliding=1)).shear(0.1)
+    sliding = len(searches)
+    with counted(normal, "Search") as searches:
+        _ = sie.solve(scene(PUNCH)).pressure(0.1)
+    assert sliding == len(searches)
+
+
+def test_a_cauchy_equation_without_kernel_builds_no_matrix():
+    from sie import system  # noqa: PLC0415
+
+    with counted(system.System, "matrix") as matrices:
+        sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()
+    assert not matrices
+
+
+def test_the_counter_counts():
+    with counted(solution, "normal_contact") as solves:
+        for load in (0.1, 0.2):
+            _ = sie.solve(scene(PUNCH, normal_load=load)).edges
+    assert len(solves) == 2

@@ -1,0 +1,290 @@
+"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called blind, the page needs nothing else."""
+
+import json
+import math
+import re
+from io import StringIO
+
+import numpy as np
+import pytest
+
+import sie
+from validation import certificate, economy, peers, pressure, readme, stability
+from validation.__main__ import TOPICS, main, run, summary
+from validation.figures import Figure, axes, draw, labelled, svg
+from validation.problems import kinked, sliding, wavy
+from validation.progress import Progress
+from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
+from validation.report import Section, number, page
+from validation.sweeps import SPOILED, Outcome
+from validation.timing import medians
+
+
+def claim(measured, control, **given):
+    return Claim("what", "who", measured, control, "wrong", **({"high": 1.0} | given))
+
+
+# -- verdicts -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("made", "verdict"),
+    [
+        (claim(0.5, 2.0), "holds"),
+        (claim(1.5, 2.0), "fails"),
+        (claim(math.nan, 2.0), "fails"),
+        (claim(0.5, 0.9), "blind"),
+        (claim(0.5, math.nan), "holds"),
+        (claim(2.0, 0.5, erratum="it is not so"), "refuted"),
+        (claim(0.5, 0.5, erratum="it is not so"), "fails"),
+        (claim(2.0, 3.0, erratum="it is not so"), "blind"),
+        (claim(2.0, 0.0, low=1.0, high=math.inf), "holds"),
+        (claim(0.5, 0.0, low=1.0, high=math.inf), "fails"),
+    ],
+)
+def test_a_verdict_follows_from_the_numbers(made, verdict):
+    assert made.verdict == verdict
+    assert made.ok == (verdict in ("holds", "refuted"))
+
+
+def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
+    made = checked(lambda v: v * v, 0.1, 3, what="", by="", named="three", high=1.0)
+    assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
+
+
+def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
+    sections = [Section("one", "One", "", Found([claim(0.5, 2.0), claim(3.0, 2.0)]), (), 0.1)]
+    assert summary(sections, 0.1, tmp_path) == 1
+    assert "FAILS: one: what" in capsys.readouterr().out
+    assert summary([Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)], 0.1, tmp_path) == 0
+
+
+# -- topics ---------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["appendix", "paper", "stress", "stability", "certificate", "mutation"])
+def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
+    """Topics that do not measure time, or (stress) one ratio of it that is far from its bar."""
+    (section,), _ = run([name], quick=True)
+    assert section.found.claims
+    for made in section.found.claims:
+        assert made.ok or "over two logarithms" in made.what, made
+    for figure in section.figures:
+        assert figure.caption
+        assert svg(figure).startswith("<svg")
+
+
+def test_every_topic_says_what_it_is():
+    import importlib  # noqa: PLC0415
+
+    for name in TOPICS:
+        topic = importlib.import_module(f"validation.{name}")
+        assert topic.__doc__
+        assert topic.TITLE
+        assert len(topic.SECONDS) == 2
+
+
+def test_the_economy_measures_a_difference_and_a_footprint():
+    one = np.array([1.0, 2.0])
+    assert economy.difference((one, one)) == 0.0
+    assert economy.difference((one, one * (1 + 1e-11))) == pytest.approx(1e-11, rel=1e-4)
+
+
+def test_the_states_of_the_frontier():
+    assert Outcome(error=1e-15, estimate=1e-15).state(1e-13) == "full"
+    assert Outcome(error=1e-9, estimate=1e-9).state(1e-13) == "known"
+    assert Outcome(error=1e-9, estimate=1e-12).state(1e-13) == "lost"
+    assert Outcome(error=1e-9).state(1e-13) == "lost"
+    assert Outcome(refused="so").state(1e-13) == "known"
+
+
+def test_a_sweep_sees_an_answer_that_is_off():
+    sweep = stability.all_sweeps(True)[0]
+    outcome = sweep.run(0.5)
+    assert outcome.error < 1e-13
+    assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
+
+
+def test_random_contacts_are_the_same_in_every_run():
+    one, two = (certificate.random_contact(np.random.default_rng(5)) for _ in range(2))
+    assert one[:2] == two[:2]
+
+
+# -- peers and truths -----------------------------------------------------------------------------------------------------
+
+
+def test_the_peers_are_right_where_they_should_be():
+    """Hertz, p = sqrt(1 - x²)/2 for E* = R = 1."""
+    x = np.linspace(-0.95, 0.95, 41)
+    exact = 0.5 * np.sqrt(1 - x * x)
+    assert peers.gauss_chebyshev(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-14)
+    assert peers.erdogan_gupta(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-13)
+    errors = []
+    for n in (128, 512):
+        t = ((np.arange(n) + 0.5) / n - 0.5) * 3.2
+        p = peers.boundary_elements(0.5 * t * t, 3.2 / n, np.pi / 4)
+        inner = np.abs(t) < 0.9
+        errors.append(np.abs(p - 0.5 * np.sqrt(np.maximum(1 - t * t, 0)))[inner].max())
+    assert errors[1] < errors[0] / 3 < 0.01
+
+
+def test_the_periodic_elements_reach_westergaards_wave():
+    problem, n = wavy(), 256
+    x = (np.arange(n) + 0.5) / n - 0.5
+    exact = np.where(np.abs(x) < 0.19, problem.closed(np.tan(np.pi * np.clip(x, -0.19, 0.19))), 0.0)
+    from validation.work_precision import _closed_load  # noqa: PLC0415
+
+    p = peers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
+    assert np.abs(p - exact)[np.abs(x) < 0.19].max() < 0.02 * exact.max()
+    assert _closed_load(problem) == pytest.approx(np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13)
+
+
+@pytest.mark.parametrize("problem", [kinked(0.5), wavy(), sliding()], ids=lambda p: p.name)
+def test_a_race_measures_the_error_it_says(problem):
+    p = problem.solution.pressure(problem.x)
+    assert problem.error(p) < 1e-13
+    assert problem.error(p * (1 + 1e-9)) == pytest.approx(1e-9, rel=0.1)
+
+
+def test_the_truth_of_sliding_agrees_with_the_closed_form():
+    from analytic import sliding_rounded_flat  # noqa: PLC0415
+    from validation.problems import Sliding  # noqa: PLC0415
+
+    truth, scene = Sliding(0.3), sliding().scene
+    P = sie.solve(scene).normal_load
+    for x in (-0.9, -0.2, 0.3, 0.7):
+        closed = sliding_rounded_flat.pressure(x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3)
+        assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
+
+
+def test_times_in_turns_tell_three_times_the_work():
+    work = np.random.default_rng(1).random(20_000)
+
+    def once():
+        np.sort(work)
+
+    one, eight = medians((once, lambda: [once() for _ in range(8)]), 0.2)
+    assert 3 < eight / one < 20
+
+
+# -- the page -------------------------------------------------------------------------------------------------------------
+
+
+def a_section(name="one"):
+    found = Found([claim(0.5, 2.0), claim(5.0, 0.5, erratum="not <b>so</b>"), Table("A table", ("x", "y"), [("a < b", 1e-9)])])
+    found.append(Curve("figure", "curve", [1.0, 2.0], [1e-3, math.inf]))
+    drawing, ax = axes()
+    draw(ax, found.curves("figure"))
+    labelled(ax, "x [mm]", "y", log="y")
+    return Section(name, "Title", "Words.\n\nMore words.", found, [Figure(name, drawing, "What is seen.")], 0.1)
+
+
+def test_the_page_needs_no_network_and_fits_a_phone():
+    html = page([a_section("one"), a_section("two")], 1.0, quick=True)
+    assert not re.search(r"<(script|link|iframe|img)|@import|url\((?!#)", html)
+    assert not re.search(r'(src|href)="(?!#)', html)
+    assert 'name="viewport"' in html
+    assert "@media (max-width" in html
+    assert html.count("<svg") == 2
+    assert "<figcaption>What is seen." in html
+    assert "x [mm]" in html
+
+
+def test_no_two_elements_of_the_page_share_a_name():
+    names = re.findall(r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False))
+    assert len(names) > 20
+    assert len(set(names)) == len(names)
+    html = page([a_section("one")], 1.0, quick=False)
+    for used in re.findall(r'(?:url\(#|href="#)([^)"]*)', html):
+        assert f'id="{used}"' in html
+
+
+def test_text_is_escaped_and_the_verdicts_are_shown():
+    html = page([a_section()], 1.0, quick=False)
+    assert "a &lt; b" in html
+    assert "&lt;b&gt;so" in html
+    assert 'class="badge holds"' in html
+    assert 'class="badge refuted"' in html
+    assert "1 holds, 1 refuted, 0 fails, 0 blind" in html
+
+
+def test_every_number_is_in_the_json():
+    found = Found([claim(0.5, 2.0), Curve("f", "c", np.arange(3.0), [1, math.nan, 2]), Map("m", [1], [2], np.ones((1, 1)))])
+    text = json.dumps(found.as_json(), allow_nan=False)
+    back = json.loads(text)
+    assert back[0]["verdict"] == "holds"
+    assert back[1]["y"] == [1, "nan", 2]
+    assert back[2]["values"] == [[1.0]]
+    assert plain(np.float64(0.1)) == 0.1
+
+
+def test_what_comes_next_is_told_and_not_kept():
+    told = []
+    found = kept(iter([Doing("this"), claim(0.5, 2.0)]), told.append)
+    assert (told, len(found)) == (["this"], 1)
+
+
+def test_numbers_read_as_numbers():
+    assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == ["—", "3", "0.5", "1.0e-14", "0.0", "inf", "words"]
+
+
+def test_the_bar_moves_forward_and_never_beyond_the_end():
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    progress = Progress([1.0, 3.0], Terminal())
+    shares = [progress.share()]
+    for name in ("one", "two"):
+        progress.topic(name)
+        progress.tell("something")
+        shares.append(progress.share())
+    assert shares == sorted(shares)
+    assert 0.25 <= shares[-1] < 1.0
+    assert "two: something" in progress.stream.getvalue()
+    silent = Progress([1.0], StringIO())
+    silent.topic("one")
+    silent.tell("nothing but a line for each topic")
+    assert silent.stream.getvalue() == "one ...\n"
+
+
+def test_one_topic_by_the_command_line(tmp_path, capsys):
+    assert main(["--quick", "--only", "mutation", "--out", str(tmp_path)]) == 0
+    numbers = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert list(numbers["topics"]) == ["mutation"]
+    assert "NOT caught" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "report.html" in capsys.readouterr().out
+
+
+# -- the README's table -----------------------------------------------------------------------------------------------------
+
+KEPT = json.loads(readme.KEPT.read_text(encoding="utf-8"))
+
+
+def test_the_table_of_the_readme_is_the_one_that_was_measured():
+    text = readme.README.read_text(encoding="utf-8")
+    assert readme.with_table(text, readme.markdown(KEPT["rows"])) == text
+
+
+def test_a_table_that_was_changed_by_hand_is_seen():
+    text = readme.README.read_text(encoding="utf-8")
+    table = readme.markdown(KEPT["rows"])
+    assert readme.with_table(text, table.replace("e-16", "e-17", 1)) != text
+
+
+@pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
+def test_what_the_readme_says_is_still_so(kept_row):
+    """Errors within a factor of ten, or both below 1e-15; counts exactly; times are the machine's, and are not compared."""
+    case = next(c for c in pressure.chosen(quick=True) if str(c) == kept_row[0])
+    now = pressure.row(case)
+    for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):
+        assert max(then, 1e-15) / 10 <= max(fresh, 1e-15) <= 10 * max(then, 1e-15)
+    assert now.evaluations == kept_row[4]
+
+
+def test_the_table_is_made_of_a_report_that_has_it():
+    row = ["parabola-P=0.3", 1e-16, 0.0, 1e-16, 3, 0.2, 2.0]
+    table = {"kind": "table", "title": pressure.TABLE, "rows": [[name + "-r=1", *row[1:]] for name in readme.SHOWN]}
+    assert len(readme.rows({"topics": {"pressure": [table]}})) == len(readme.SHOWN)
+    with pytest.raises(ValueError, match="no topic"):
+        readme.rows({"topics": {}})

@@ -1,0 +1,101 @@
+"""What is skipped, why, what it saves, and that the answer is the same: each scene solved with every skip, and with none.
+
+"run" and "skip" are what `sie.plan` says before anything is computed; the stages that were filled afterwards are those it names. Times are
+medians in turns; `sie.solve(scene, economy=())` switches all skips off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+import sie
+
+from .figures import Figure, axes, labelled, legend
+from .records import Claim, Curve, Doing, Found, Record, Table, checked
+from .timing import medians
+
+TITLE = "Economy: what a scene does not need is not computed"
+SECONDS = (2.0, 4.0)
+SAME = 1e-13
+RIM = sie.RoundedFlat(0.5, 1.0)
+SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
+SLIPPING = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
+SCENES = {
+    "parabola": sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3),
+    "rounded flat": sie.Scene(profile=RIM, modulus=1.0, normal_load=0.3),
+    "rounded flat, tilted": sie.Scene(profile=RIM, modulus=1.0, normal_load=0.3, tilt=0.05),
+    "smooth function": sie.Scene(profile=SLOPE, modulus=1.0, normal_load=1.0),
+    "dissimilar, f = 0": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, normal_load=0.3),
+    "similar, sliding": sie.Scene(profile=RIM, modulus=1.0, friction=0.5, sliding=1, normal_load=0.3),
+    "stick zone inside the flat": sie.Scene(**SLIPPING, tangential_load=0.15 * (1 - 1e-12)),
+    "partial slip": sie.Scene(**SLIPPING, tangential_load=0.09),
+    "bulk stress": sie.Scene(**SLIPPING, tangential_load=0.09, bulk_stress=0.002),
+    "dissimilar, sliding": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.3),
+}
+
+
+def answers(solution: sie.Solution, x: Any) -> Any:
+    """Pressure and shear."""
+    return np.concatenate((solution.pressure(x), solution.shear(x)))
+
+
+def difference(pair: tuple[Any, Any]) -> float:
+    """Largest, over the peak."""
+    one, other = pair
+    return float(np.abs(one - other).max() / np.abs(one).max())
+
+
+def cost(scene: sie.Scene, x: Any, patience: float) -> list[float]:
+    """Median seconds with the skips and without."""
+    return medians((lambda: answers(sie.solve(scene), x), lambda: answers(sie.solve(scene, economy=()), x)), patience)
+
+
+def compute(quick: bool) -> Iterator[Record]:
+    header, rows, stages = ["scene"], [], []
+    names, with_skips, without = list(SCENES), [], []
+    for name, scene in SCENES.items():
+        yield Doing(name)
+        plan = sie.plan(scene, ("pressure", "shear"))
+        saving, bare = sie.solve(scene), sie.solve(scene, economy=())
+        x = np.linspace(*saving.edges, 1003)[1:-1]
+        one, other = answers(saving, x), answers(bare, x)
+        filled = {key for key in vars(saving) if key in {s.stage for s in sie.plan(scene, "check").steps}}
+        yield checked(
+            difference, (one, other), (one, other * (1 + 1e-11)), what=f"{name}: pressure and shear with and without the skips differ by",
+            by="this project: the answer is the same", named="pressures off by 1e-11", high=SAME,
+        )  # fmt: skip
+        yield Claim(
+            f"{name}: stages filled that were not planned, or planned and not filled", "this project: the footprint is the plan",
+            len(filled ^ plan.stages), len((filled | {"certificate"}) ^ plan.stages), "a certificate that nobody asked for", high=0,
+        )  # fmt: skip
+        seconds = cost(scene, x, 0.1 if quick else 0.3)
+        with_skips.append(1e3 * seconds[0])
+        without.append(1e3 * seconds[1])
+        rows.append((name, *(f"{'run' if s.run else 'skip'}: {s.reason}" for s in plan.steps)))
+        header = ["scene", *(s.name for s in plan.steps)]
+        stages.append((name, 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], difference((one, other))))
+    yield Table("Scenes and stages", header, rows)
+    yield Table("What the skips save", ("scene", "time [ms]", "without skips [ms]", "saving, times", "largest difference / peak"), stages)
+    slowest = max(range(len(names)), key=lambda k: without[k] / with_skips[k])
+    yield Claim(
+        f"largest saving ({names[slowest]}), times", "this page", without[slowest] / with_skips[slowest],
+        with_skips[slowest] / with_skips[slowest], "the skips against themselves", low=1.3,
+    )  # fmt: skip
+    yield Curve("economy", "with the skips", with_skips, list(range(len(names))), "points", {"names": names})
+    yield Curve("economy", "without", without, list(range(len(names))), "points")
+
+
+def figures(found: Found) -> Iterator[Figure]:
+    saving, bare = found.curves("economy")
+    drawing, ax = axes(height=2.8)
+    place = np.array(saving.y, dtype=float)
+    ax.barh(place - 0.18, saving.x, height=0.34, label=saving.label)
+    ax.barh(place + 0.18, bare.x, height=0.34, label=bare.label)
+    ax.set_yticks(place, saving.about["names"])
+    ax.invert_yaxis()
+    labelled(ax, "solve, 1001 pressures and shears [ms]", "", log="x")
+    legend(ax)
+    yield Figure("economy", drawing, "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.")

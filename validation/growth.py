@@ -1,0 +1,108 @@
+"""Growth of time and memory with the pieces of the profile, the points asked for, and the unknowns of a Cauchy equation.
+
+Straight lines in a diagram of logarithms; the exponent is that of the last three sizes. The control is a dense solver's.
+"""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+import sie
+
+from .figures import Figure, axes, draw, labelled, legend
+from .peers import erdogan_gupta
+from .records import Claim, Curve, Doing, Found, Record
+from .timing import medians
+
+TITLE = "Growth with pieces and points"
+SECONDS = (3.0, 25.0)
+LINEAR = 1.25  # exponent: linear, logarithms and a busy machine allowed
+SIZES = {
+    "pieces": ((100, 300, 1000), (100, 300, 1000, 3000, 10_000)),
+    "points": ((30_000, 100_000, 300_000), (1000, 10_000, 30_000, 100_000, 300_000, 1_000_000)),
+    "unknowns": ((256, 1024, 4096), (256, 1024, 4096, 16384, 65536)),
+    "dense": ((64, 128, 256), (64, 128, 256, 512)),
+}
+
+
+def of_pieces(n: int) -> Callable[[], Any]:
+    """Solve, and 101 pressures, with half of n pieces in contact: the corners of a parabola in facets of its slope."""
+    x = np.linspace(-0.99, 0.99, 101)
+    breaks = np.linspace(-2.0, 2.0, n + 1)
+    rise = np.diff(breaks) * (1.0 + 0.5 * np.sin(np.arange(n)))
+    slope = np.concatenate(([0.0], np.cumsum(rise))) - 0.5 * rise.sum()
+    curvature = rise / np.diff(breaks)
+    rows = np.stack((slope[:-1] - curvature * breaks[:-1], curvature), axis=1)
+    profile = sie.Piecewise(breaks, rows)
+    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=0.5)
+    return lambda: sie.solve(scene).pressure(x)
+
+
+def of_points(n: int) -> Callable[[], Any]:
+    pressure = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)).pressure
+    x = np.linspace(-1.0, 1.0, n)
+    return lambda: pressure(x)
+
+
+def of_unknowns(n: int) -> Callable[[], Any]:
+    equation = sie.CauchyEquation((-1.0, 1.0), g=np.abs, b=-1.0, total=1.0)
+    return lambda: equation.solve(n=n)
+
+
+def of_dense(n: int) -> Callable[[], Any]:
+    x = np.linspace(-0.9, 0.9, 11)
+    return lambda: erdogan_gupta(np.sinh, -1.0, 1.0, n, x)
+
+
+MEASURED = {
+    "pieces": (of_pieces, "solve and 101 pressures, n pieces"),
+    "points": (of_points, "n pressures of the rounded punch"),
+    "unknowns": (of_unknowns, "Cauchy equation, n unknowns, by transforms"),
+    "dense": (of_dense, "Erdogan-Gupta, dense, n unknowns"),
+}
+
+
+def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:
+    """Of growth over the last three sizes."""
+    return float(np.polyfit(np.log(sizes[-3:]), np.log(values[-3:]), 1)[0])
+
+
+def peak_memory(run: Callable[[], Any]) -> float:
+    """Bytes."""
+    tracemalloc.start()
+    try:
+        run()
+        return float(tracemalloc.get_traced_memory()[1])
+    finally:
+        tracemalloc.stop()
+
+
+def compute(quick: bool) -> Iterator[Record]:
+    times, memory = {}, {}
+    for name, (make, says) in MEASURED.items():
+        yield Doing(says)
+        sizes = SIZES[name][0 if quick else 1]
+        runs = [make(n) for n in sizes]
+        times[name] = exponent(sizes, seconds := medians(runs, patience=0.5))
+        yield Curve("time", says, sizes, [1e3 * s for s in seconds], "both")
+        used = [peak_memory(run) for run in runs]
+        memory[name] = exponent(sizes, used)
+        yield Curve("memory", says, sizes, [u / 2**20 for u in used], "both")
+    for name in ("pieces", "points", "unknowns"):
+        what = MEASURED[name][1]
+        by, wrong = "this project: close to linear", MEASURED["dense"][1]
+        yield Claim(f"{what}: exponent of time", by, times[name], times["dense"], wrong, high=LINEAR)
+        yield Claim(f"{what}: exponent of memory", by, memory[name], memory["dense"], wrong, high=LINEAR)
+
+
+def figures(found: Found) -> Iterator[Figure]:
+    for name, label in (("time", "time [ms]"), ("memory", "peak of memory taken [MiB]")):
+        drawing, ax = axes()
+        draw(ax, found.curves(name))
+        labelled(ax, "n", label, log="xy")
+        legend(ax)
+        yield Figure("growth-" + name, drawing, f"{label.split(' [')[0].capitalize()} against size; a slope of one is linear growth.")

@@ -1,0 +1,54 @@
+"""The README's table of accuracy and speed, written by `python -m validation --readme` from the numbers of that run, never by hand.
+
+What it was written from is kept in validation/readme.json, so that a test can tell whether the two have parted.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from . import pressure
+
+ROOT = Path(__file__).parent.parent
+README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"
+BEGIN, END = "<!-- from validation/readme.json by `python -m validation --readme` -->\n", "<!-- end -->\n"
+FORMATS = ("{}", "{:.1e}", "{:.1e}", "{:.1e}", "{}", "{:.2f} ms", "{:.1f}")
+HEADER = (*pressure.HEADER[:5], "solve + 1001 p", "ratio")
+SHOWN = pressure.QUICK
+
+
+def rows(report: Mapping[str, Any]) -> list[list[Any]]:
+    """From the JSON of a report: the cases that the README shows, the first of each kind."""
+    topic = report["topics"].get("pressure")
+    if topic is None:
+        raise ValueError("the report has no topic `pressure`, of which the README's table is made: run it without --only, or with it")
+    table = next(r for r in topic if r["kind"] == "table" and r["title"] == pressure.TABLE)
+    first: dict[str, list[Any]] = {}
+    for row in table["rows"]:
+        first.setdefault(re.split(r"-[Pr]=", row[0])[0], row)
+    return [first[name] for name in SHOWN]
+
+
+def markdown(rows: list[list[Any]]) -> str:
+    lines = [
+        HEADER,
+        ("---",) * len(HEADER),
+        *([f.format(v).replace("|", r"\|") for f, v in zip(FORMATS, row, strict=True)] for row in rows),
+    ]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def with_table(text: str, table: str) -> str:
+    """The README with another table between its marks."""
+    before, rest = text.split(BEGIN)
+    return before + BEGIN + table + END + rest.split(END)[1]
+
+
+def write(report: Mapping[str, Any]) -> None:
+    found = rows(report)
+    KEPT.write_text(json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    README.write_text(with_table(README.read_text(encoding="utf-8"), markdown(found)), encoding="utf-8")
