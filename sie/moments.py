@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from . import chebyshev
 from .geometry import NARROW_ANGLE, Geometry, narrow_order, quadrature_order
 from .interval import Interval
-from .slope import Row, Slope
+from .slope import SEEN_JUMP, Row, Slope
 
 Array = NDArray[np.float64]
 
@@ -76,6 +76,7 @@ def _summed(g: Geometry, order: int) -> Moments:
     if slope.functions:
         # ∫H' dφ = ∫ (dH/dφ) / (r cos φ) dφ, with dH/dφ from the quadrature's own interpolant
         functions = H - slope.without_functions.local(g.k, g.ends[0], g.tails[0], offset)
+        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
         dJ = dJ + _weighted_derivative(functions) / (g.contact.r * cos_phi)
     JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
     if not slope.continuous:
@@ -92,14 +93,24 @@ def _weighted_derivative(values: Array) -> Array:
 
 def _jumps(g: Geometry, H: Array) -> Array:
     """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
-    jump: Array = chebyshev.differentiation(H.shape[1])[1] @ H.T
-    jump[1] *= -1.0
+    jump = rises(chebyshev.differentiation(H.shape[1])[1] @ H.T, g.k)
     half_cos = g.root_left * g.root_right
     if g.cut_left:
         jump[0, 0], half_cos[0, 0] = 0.0, 1.0
     if g.cut_right:
         jump[1, -1], half_cos[1, -1] = 0.0, 1.0
     return jump / (2.0 * g.contact.r * half_cos)
+
+
+def rises(H: Array, k: NDArray[np.int64]) -> Array:
+    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two pieces meet within rounding.
+
+    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all there is.
+    """
+    enter, leave = H
+    size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
+    met = (np.diff(k) == 1) & (np.abs(enter[1:] - leave[:-1]) <= size)
+    return np.stack((np.where(np.append(False, met), 0.0, enter), np.where(np.append(met, False), 0.0, -leave)))
 
 
 def _sum(a: Array) -> float:
@@ -110,7 +121,7 @@ def _sum(a: Array) -> float:
 
 
 class _Cut(NamedTuple):
-    """One piece in the contact; see `Geometry`: roots of the distances of lo and hi, angles, and which ends are edges."""
+    """One piece in the contact; see `Geometry`: roots of the distances of lo and hi, and angles."""
 
     base: float  # lo - origin
     length: float
@@ -118,7 +129,6 @@ class _Cut(NamedTuple):
     from_edge: float
     sign: float
     angle: float
-    ends_are_edges: tuple[bool, bool]
 
 
 def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
@@ -127,11 +137,9 @@ def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
         cut = _cut(row, contact, lower)
         if cut is None:
             continue
-        parts = _integrals(row.coefficients, cut, 2.0 * contact.r, slope.degree)
-        if not slope.continuous:
-            parts = _with_jumps(parts, row.coefficients, cut, 2.0 * contact.r)
-        total = tuple(map(float.__add__, total, parts))
-    return Moments(*total)
+        total = tuple(map(float.__add__, total, _integrals(row.coefficients, cut, 2.0 * contact.r, slope.degree)))
+    found = Moments(*total)
+    return found if slope.continuous else _with_jumps(found, slope, contact, lower)
 
 
 def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
@@ -155,7 +163,7 @@ def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
     angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
     left = lo_left + hi_left < width
     from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
-    return _Cut((start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle, (at_left, at_right))
+    return _Cut((start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle)
 
 
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
@@ -186,22 +194,19 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
     return I0, I1, C2, JR, JL, positive, negative
 
 
-def _with_jumps(parts: tuple[float, ...], c: tuple[float, ...], cut: _Cut, width: float) -> tuple[float, ...]:
-    """JR and JL with H entering at lo and leaving at hi, over r cos φ there."""
-    I0, I1, C2, JR, JL, positive, negative = parts
-    a, b, c_, d = cut.roots
-    for y, edge, left, right, sign in (
-        (cut.base, cut.ends_are_edges[0], a, b, 1.0),
-        (cut.base + cut.length, cut.ends_are_edges[1], c_, d, -1.0),
-    ):
-        if not edge:
-            H = 0.0
-            for v in c:
-                H = H * y + v
-            jump = sign * H / (width * left * right)
-            JR += jump * 2.0 * left * left
-            JL += jump * 2.0 * right * right
-    return I0, I1, C2, JR, JL, positive, negative
+def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:
+    """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
+    rises = slope.rises
+    if lower is not None:
+        rises = ((lower, slope.after(lower)), *((b, rise) for b, rise in rises if b > lower))
+    JR, JL = found.JR, found.JL
+    for b, rise in rises:
+        left, right = contact.from_left(b), contact.from_right(b)
+        if left > 0.0 and right > 0.0 and rise:
+            steep = math.sqrt(left) / math.sqrt(right)
+            JR += rise / contact.r * steep
+            JL += rise / contact.r / steep
+    return found._replace(JR=JR, JL=JL)
 
 
 @lru_cache(maxsize=32)

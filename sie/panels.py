@@ -27,7 +27,7 @@ from . import chebyshev
 from .batched import Pieces, combined
 from .geometry import Geometry, quadrature_order
 from .interval import EPS
-from .slope import JUMP
+from .slope import JUMP, SEEN_JUMP
 from .summation import SEPARATED, KernelSums
 
 Array = NDArray[np.float64]
@@ -37,8 +37,6 @@ GROWTH = 64.0
 # Beyond this many widths from the centre the far field takes out the moment that vanishes.
 FAR_FIELD = 1.5
 FAR_FIELD_NODES = 22  # and half the degree: reach rounding there
-# Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
-SEEN_JUMP = 1e-9
 # Beyond so many pieces a loop over them costs more than pairs of pieces and points.
 MANY = 24
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.

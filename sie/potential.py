@@ -24,8 +24,8 @@ from . import chebyshev
 from .batched_plane import BatchedPlane, Points
 from .geometry import quadrature_order
 from .interval import Interval
-from .panels import FAR_FIELD, SEEN_JUMP, Panels
-from .slope import JUMP
+from .panels import FAR_FIELD, Panels
+from .slope import JUMP, SEEN_JUMP
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -28,7 +28,7 @@ from .batched_plane import Points
 from .density import PanelDensity
 from .geometry import Geometry, quadrature_order
 from .interval import EPS, Interval
-from .moments import Moments
+from .moments import Moments, rises
 from .panels import Panels
 from .potential import Plane
 from .slope import Slope
@@ -39,6 +39,7 @@ Complex = NDArray[np.complex128]
 # Gauss-Legendre nodes for each e-fold of the distance from an edge, beyond those of a smooth integrand.
 NODES_PER_FOLD = 3
 SPARE = 6
+SHORTEST = 1e-300  # half a length that may be divided by
 
 
 class SlidingGeometry(Geometry):
@@ -126,8 +127,9 @@ def _summed(g: SlidingGeometry) -> Moments:
 
 def _derivative(g: SlidingGeometry, offset: Array) -> Array:
     """H' at the nodes, from each piece's Chebyshev series: it steers Newton's steps only."""
-    half = 0.5 * g.length[:, None]
+    half = np.maximum(0.5 * g.length[:, None], SHORTEST)
     series = g.chebyshev_slope(max(g.slope.degree + 1, 2))
+    series[np.abs(series[:, 1:]).sum(axis=1) <= 4.0 * EPS * np.abs(series[:, 0])] = 0.0  # rounding on a piece that short
     derivative = np.polynomial.chebyshev.chebder(series, axis=1)
     s = offset / half - 1.0
     out: Array = np.einsum("nkm,kn->km", chebyshev.polynomials(derivative.shape[1], s), derivative) / half
@@ -137,7 +139,7 @@ def _derivative(g: SlidingGeometry, offset: Array) -> Array:
 def _jumps(g: SlidingGeometry) -> Array:
     """(2, K): H enters at lo and leaves at hi, over w there; an edge of the contact is not a jump."""
     series = g.chebyshev_slope(g.slope.degree + 1)
-    jump = np.stack((series @ (-1.0) ** np.arange(series.shape[1]), -series.sum(axis=1)))
+    jump = rises(np.stack((series @ (-1.0) ** np.arange(series.shape[1]), series.sum(axis=1))), g.k)
     w = g.left ** (0.5 + g.epsilon) * g.right ** (0.5 - g.epsilon)
     if g.cut_left:
         jump[0, 0], w[0, 0] = 0.0, 1.0

@@ -30,6 +30,8 @@ FEW, LOW = 6, 4
 
 # A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump exceeds rounding by this factor.
 JUMP = 256.0 * EPS
+# Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
+SEEN_JUMP = 1e-9
 
 
 class Row(NamedTuple):
@@ -39,6 +41,12 @@ class Row(NamedTuple):
     hi: float
     origin: float
     coefficients: tuple[float, ...]
+
+    def at(self, x: float) -> float:
+        value = 0.0
+        for c in self.coefficients:
+            value = value * (x - self.origin) + c
+        return value
 
 
 @dataclass(frozen=True)
@@ -176,9 +184,20 @@ class Slope:
         if self.few:
             before = {row.hi: row for row in self.rows}
             after = {row.lo: row for row in self.rows}
-            return tuple(_value(before, b) for b in inner.tolist()), tuple(_value(after, b) for b in inner.tolist())
+            ends = inner.tolist()  # a flat piece has no row
+            return tuple(before[b].at(b) if b in before else 0.0 for b in ends), tuple(after[b].at(b) if b in after else 0.0 for b in ends)
         left, right = self._sides
         return tuple(left.tolist()), tuple(right.tolist())
+
+    @cached_property
+    def rises(self) -> tuple[tuple[float, float], ...]:
+        """(break, what H rises by there), of the inner breaks where that is more than rounding."""
+        found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
+        return tuple((b, above - below) for b, below, above in found if abs(above - below) > JUMP * max(abs(below), abs(above)))
+
+    def after(self, x: float) -> float:
+        """H just right of x, of few pieces."""
+        return next((row.at(x) for row in self.rows if row.lo <= x < row.hi), 0.0)
 
     @cached_property
     def _sides(self) -> tuple[Array, Array]:
@@ -250,15 +269,6 @@ class Slope:
         c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
-
-
-def _value(rows: dict[float, Row], at: float) -> float:
-    """H at an end of the row that ends there, 0 if the piece is flat."""
-    value = 0.0
-    if at in rows:
-        for c in rows[at].coefficients:
-            value = value * (at - rows[at].origin) + c
-    return value
 
 
 def polynomial_slope(breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]) -> Slope:
