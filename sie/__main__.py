@@ -288,7 +288,9 @@ def _parser() -> argparse.ArgumentParser:
     solving.add_argument("--grid", metavar="NXxNY", type=_grid, default=SIZE, help="points of that grid (%(default)s)")
     solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
     solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
-    comparing.add_argument("mesh", nargs="?", metavar="fem.csv", help="columns x and p or q, named in the first line")
+    comparing.add_argument(
+        "mesh", nargs="?", metavar="fem.csv", help="columns x, depth y, and p, q, sxx, syy, sxy, szz or mises, named in the first line"
+    )
     comparing.add_argument("--tol", metavar="T", type=float, default=1e-2, help="l2 error, relative, that is let pass (%(default)s)")
     comparing.add_argument("--plot", metavar="FILE", help="draw both and their difference (needs Matplotlib)")
     comparing.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write the norms; without FILE, print them")

@@ -1,12 +1,16 @@
 """A mesh result beside the exact answer: error norms, and the shift in x that fits best.
 
-With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them
+With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them (over points scattered in the body,
+sums with equal weights)
 
     l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
     resultant = ∫f_mesh over that of f on the whole contact, less 1
     shift     the d for which f(x - d) is nearest to f_mesh in l2: a mesh whose origin is elsewhere, or a contact that creeps
 
 A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges, corners) are left out and counted.
+
+Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth is y >= 0, as everywhere here. In a file
+whose y points out of the body (none is positive) depth is -y, and σ_xy has the other sign.
 """
 
 from __future__ import annotations
@@ -25,14 +29,35 @@ from .traces import header_of, read_columns
 
 Array = NDArray[np.float64]
 
-# The columns of a file that can be compared: their names, and the exact values at points (x, y). Stresses inside would join here.
-QUANTITIES: dict[str, Callable[[Solution, Array, Array], Array]] = {
+Exact = Callable[[Solution, Array, Array], Array]
+
+# The columns of a file that can be compared: their names, and the exact values at points (x, depth).
+TRACTIONS: dict[str, Exact] = {
     "p": lambda solution, x, y: solution.pressure(x),
     "q": lambda solution, x, y: solution.shear(x),
 }
+STRESSES: dict[str, Exact] = {
+    "sxx": lambda solution, x, y: solution.stress(x, y).xx,
+    "syy": lambda solution, x, y: solution.stress(x, y).yy,
+    "sxy": lambda solution, x, y: solution.stress(x, y).xy,
+    "szz": lambda solution, x, y: solution.stress(x, y).zz,
+    "mises": lambda solution, x, y: solution.stress(x, y).mises,
+}
+QUANTITIES = TRACTIONS | STRESSES
 RESULTANTS: dict[str, Callable[[Solution], float]] = {"p": lambda s: s.normal_load, "q": lambda s: s.tangential_load}
-NAMES = {"pressure": "p", "cpress": "p", "contact pressure": "p", "shear": "q", "cshear1": "q", "traction": "q"}
-WITH_DEPTH: frozenset[str] = frozenset()  # quantities that y belongs to; the others are on the surface
+# What mesh codes and their users call them, in lower case.
+NAMES = {
+    **dict.fromkeys(("pressure", "cpress", "contact pressure", "contact_pressure"), "p"),
+    **dict.fromkeys(("shear", "cshear1", "traction"), "q"),
+    **{
+        name: q
+        for q, ij in zip(STRESSES, ("11", "22", "12", "33"), strict=False)
+        for name in (f"s{ij}", f"s-s{ij}", f"s:s{ij}", f"s.s{ij}")
+    },
+    **{f"{word}{q[1:]}": q for q in ("sxx", "syy", "sxy", "szz") for word in ("sigma_", "sigma", "stress_", "s_", "σ_", "σ")},
+    **{"tau_xy": "sxy", "txy": "sxy", "τ_xy": "sxy"},
+    **dict.fromkeys(("von mises", "von_mises", "s_mises", "s-mises", "s.mises", "seqv", "sigma_mises"), "mises"),
+}
 FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
@@ -40,17 +65,27 @@ REFINED = 1e-9  # half-widths
 
 @dataclass(frozen=True)
 class Mesh:
-    """The columns of a file: x, y (0 on the surface), and the quantities that were found in it."""
+    """The columns of a file: x, depth y (0 on the surface), and the quantities that were found in it, by ascending x."""
 
     name: str
     x: Array
     y: Array
     values: dict[str, Array]
 
+    def points(self, quantity: str) -> tuple[Array, Array, Array]:
+        """(x, y, values) where the quantity is compared: all points, or those on the surface."""
+        chosen = (self.y == 0.0) if quantity in TRACTIONS else np.ones(len(self.x), dtype=bool)
+        return self.x[chosen], self.y[chosen], self.values[quantity][chosen]
+
+    def scattered(self, quantity: str) -> bool:
+        """Whether these points are not on a line at one depth."""
+        x, y, _ = self.points(quantity)
+        return bool(np.ptp(y) > 0.0 or (np.diff(x) == 0.0).any())
+
 
 @dataclass(frozen=True)
 class Difference:
-    """What a mesh result differs by from the exact one, relative; `at` is where it differs most, `infinite` points were left out."""
+    """What a mesh result differs by from the exact one, relative; `at` and `depth` are where most, `infinite` points were left out."""
 
     points: int
     infinite: int
@@ -58,6 +93,7 @@ class Difference:
     l2: float
     largest: float
     at: float
+    depth: float
     resultant: float | None
     shift: float
     l2_shifted: float
@@ -87,7 +123,7 @@ class Comparison:
                 f"{name}: {d.points} points of {self.mesh.name}{left_out}",
                 f"  l1     {d.l1:.3e}",
                 f"  l2     {d.l2:.3e}",
-                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}",
+                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}" + (f", y = {d.depth:.6g}" if d.depth else ""),
                 *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
                 f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
             ]
@@ -109,16 +145,27 @@ def read_mesh(path: str | Path) -> Mesh:
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
     columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known)), strict=True))
-    order = np.argsort(columns["x"], kind="stable")
-    x, y = columns["x"][order], columns.get("y", np.zeros(len(order)))[order]
-    if len(x) < 2 or x[0] == x[-1]:
-        raise ValueError(f"{path.name} holds {len(x)} points at one x: a comparison needs at least two")
-    if np.any(y != 0.0) and not WITH_DEPTH.intersection(found):
-        surface = y == 0.0
-        if np.count_nonzero(surface) < 2:
-            raise ValueError(f"{path.name} has no points on the surface, y = 0: {' and '.join(found)} are compared there")
-        return Mesh(path.name, x[surface], y[surface], {name: columns[name][order][surface] for name in found})
-    return Mesh(path.name, x, y, {name: columns[name][order] for name in found})
+    y = _depths(path.name, columns)
+    order = np.lexsort((y, columns["x"]))
+    mesh = Mesh(path.name, columns["x"][order], y[order], {name: columns[name][order] for name in found})
+    for name in found:
+        x, _, _ = mesh.points(name)
+        if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
+            where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
+            raise ValueError(f"{path.name} holds {len(x)} points of {name}{where}: a comparison needs at least two")
+    return mesh
+
+
+def _depths(name: str, columns: dict[str, Array]) -> Array:
+    """y >= 0; a file whose y points the other way is turned over, and σ_xy in it."""
+    y = columns.get("y")
+    if y is None:
+        return np.zeros(len(columns["x"]))
+    if y.min() < 0.0 < y.max():
+        raise ValueError(f"{name} has y from {y.min():.6g} to {y.max():.6g}: the body is on one side of y = 0, leave the other out")
+    if y.min() < 0.0 and "sxy" in columns:
+        columns["sxy"] = -columns["sxy"]
+    return np.abs(y)
 
 
 def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
@@ -133,43 +180,46 @@ def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
 
 
 def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
+    x, y, values = mesh.points(name)
+    weight = np.ones_like(x) if mesh.scattered(name) else _weights(x)
+
     def exact_at(shift: float) -> Array:
-        return QUANTITIES[name](solution, mesh.x - shift, mesh.y)
+        return QUANTITIES[name](solution, x - shift, y)
 
     exact = exact_at(0.0)
     finite = np.isfinite(exact)
-    x, f, e = mesh.x[finite], exact[finite], (mesh.values[name] - exact)[finite]
-    weight = _weights(x)
-    measure = np.where(f.any(), f, solution.pressure(x))  # a traction that ought to be zero is measured by the pressure
+    f, e, w = exact[finite], (values - exact)[finite], weight[finite]
+    measure = f if f.any() else solution.pressure(x[finite])  # what ought to be zero is measured by the pressure
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
-    shift = _best_shift(exact_at, mesh.values[name], mesh.x, solution.half_width)
-    l2 = float(np.sqrt(weight @ e**2 / (weight @ measure**2)))
+    shift = _best_shift(exact_at, values, weight, solution.half_width)
+    l2 = float(np.sqrt(w @ e**2 / (w @ measure**2)))
+    worst = np.abs(e).argmax()
     return Difference(
-        points=len(x),
+        points=len(f),
         infinite=int(np.count_nonzero(~finite)),
-        l1=float(weight @ np.abs(e) / (weight @ np.abs(measure))),
+        l1=float(w @ np.abs(e) / (w @ np.abs(measure))),
         l2=l2,
         largest=float(np.abs(e).max() / np.abs(measure).max()),
-        at=float(x[np.abs(e).argmax()]),
-        resultant=float(_weights(mesh.x) @ mesh.values[name]) / whole - 1.0 if whole else None,
+        at=float(x[finite][worst]),
+        depth=float(y[finite][worst]),
+        resultant=float(weight @ values) / whole - 1.0 if whole else None,
         shift=shift,
-        l2_shifted=_misfit(exact_at(shift), mesh.values[name], mesh.x) if shift else l2,
+        l2_shifted=_misfit(exact_at(shift), values, weight) if shift else l2,
     )
 
 
-def _misfit(exact: Array, values: Array, x: Array) -> float:
+def _misfit(exact: Array, values: Array, weight: Array) -> float:
     finite = np.isfinite(exact)
-    weight = _weights(x[finite])
-    f = exact[finite]
-    below = float(weight @ f**2)
-    return float(np.sqrt(weight @ (values[finite] - f) ** 2 / below)) if below > 0.0 else float("inf")
+    f, w = exact[finite], weight[finite]
+    below = float(w @ f**2)
+    return float(np.sqrt(w @ (values[finite] - f) ** 2 / below)) if below > 0.0 else float("inf")
 
 
-def _best_shift(exact_at: Callable[[float], Array], values: Array, x: Array, r: float) -> float:
+def _best_shift(exact_at: Callable[[float], Array], values: Array, weight: Array, r: float) -> float:
     from scipy.optimize import minimize_scalar  # noqa: PLC0415 -- heavy, and for comparisons only
 
     def misfit(shift: float) -> float:
-        return _misfit(exact_at(shift), values, x)
+        return _misfit(exact_at(shift), values, weight)
 
     grid = np.linspace(-FARTHEST_SHIFT * r, FARTHEST_SHIFT * r, SHIFTS)
     best = int(np.argmin([misfit(d) for d in grid.tolist()]))

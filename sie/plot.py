@@ -63,6 +63,15 @@ HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for th
 LOOP_POINTS = 24  # from one turning point to the next
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 DIGITS = 4
+LABELS = {
+    "p": "$p$",
+    "q": "$q$",
+    "sxx": r"$\sigma_{xx}$",
+    "syy": r"$\sigma_{yy}$",
+    "sxy": r"$\sigma_{xy}$",
+    "szz": r"$\sigma_{zz}$",
+    "mises": "Mises",
+}
 # A length in mm may be read in these; in other units a power of ten stands before the unit.
 METRIC = ((1e-3, "m"), (1.0, "mm"), (1e3, "µm"), (1e6, "nm"))
 READABLE = (0.1, 1e4)  # largest values that need no other unit
@@ -105,40 +114,66 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
 
 
 def comparison_picture(solution: Solution, comparison: Comparison, units: Units = UNITS, title: str = "") -> Figure:
-    """For each quantity of a mesh result a panel with both curves, and one with their difference, as a part of the largest exact value."""
-    mesh, names = comparison.mesh, list(comparison.differences)
+    """For each quantity of a mesh result a panel with both curves, and one with their difference, as a part of the largest exact value.
+
+    Points scattered in the body are drawn where they are, coloured by the mesh's value and by the difference.
+    """
+    names = list(comparison.differences)
     figure = Figure(figsize=(WIDTH, 0.5 + 2.5 * len(names)), dpi=DPI, layout="constrained")
     panels = figure.subplots(2 * len(names), 1, sharex=True, height_ratios=(1.6, 1.0) * len(names))
     factor, length = _scaled(solution.half_width, units.length)
-    x = np.unique(np.concatenate((abscissae(solution, POINTS), mesh.x)))
-    x = x[(x >= mesh.x[0]) & (x <= mesh.x[-1])]
     for name, upper, lower in zip(names, panels[::2], panels[1::2], strict=True):
-        exact, at_mesh = (QUANTITIES[name](solution, at, np.zeros_like(at)) for at in (x, mesh.x))
-        finite = np.isfinite(at_mesh)
-        largest = float(np.abs(at_mesh[finite]).max()) or ceiling(solution)
+        x, y, values = comparison.mesh.points(name)
+        exact = QUANTITIES[name](solution, x, y)
+        finite = np.isfinite(exact)
+        largest = float(np.abs(exact[finite]).max()) or ceiling(solution)
         scale, stress = _scaled(largest, units.stress)
-        bound = 2.0 * HEADROOM * largest
-        upper.plot(x * factor, np.clip(exact, -bound, bound) * scale, color=BLUE, linewidth=1.0, zorder=2, label="exact")
-        style = {"color": VERMILLION, "marker": "o", "markersize": 1.8, "linewidth": 0.0, "zorder": 3}
-        upper.plot(mesh.x * factor, mesh.values[name] * scale, label="mesh", **style)
-        upper.set_ylim(min(0.0, HEADROOM * float(np.min(at_mesh[finite])) * scale), HEADROOM * largest * scale)
-        upper.set_ylabel(f"${name}$ ({stress})", fontproperties=_font())
-        upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.1, ncols=2, prop=_font(SMALL), frameon=False)
-        difference = (mesh.values[name] - at_mesh)[finite] / largest
-        lower.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
-        lower.plot(mesh.x[finite] * factor, 100.0 * difference, color=VERMILLION, linewidth=0.9, zorder=2)
-        lower.set_ylabel("difference (%)", fontproperties=_font())
+        label = f"{LABELS[name]} ({stress})"
+        percent = np.where(finite, 100.0 * (values - np.where(finite, exact, 0.0)) / largest, np.nan)
+        if comparison.mesh.scattered(name):
+            for axes, shown, text in ((upper, values * scale, label), (lower, percent, "difference (%)")):
+                _points(figure, axes, (x * factor, y * factor), shown, text)
+                axes.set_ylabel(f"$y$ ({length})", fontproperties=_font())
+        else:
+            fine = np.unique(np.concatenate((abscissae(solution, POINTS), x)))
+            fine = fine[(fine >= x[0]) & (fine <= x[-1])]
+            curve, bound = QUANTITIES[name](solution, fine, np.full_like(fine, y[0])), 2.0 * HEADROOM * largest
+            upper.plot(fine * factor, np.clip(curve, -bound, bound) * scale, color=BLUE, linewidth=1.0, zorder=2, label="exact")
+            style = {"color": VERMILLION, "marker": "o", "markersize": 1.8, "linewidth": 0.0, "zorder": 3}
+            upper.plot(x * factor, values * scale, label="mesh", **style)
+            low, high = (HEADROOM * float(end) * scale for end in (np.min(exact[finite]), np.max(exact[finite])))
+            upper.set_ylim(min(0.0, low), max(0.0, high) or None)
+            upper.set_ylabel(label, fontproperties=_font())
+            upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.1, ncols=2, prop=_font(SMALL), frameon=False)
+            lower.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
+            lower.plot(x * factor, percent, color=VERMILLION, linewidth=0.9, zorder=2)
+            lower.set_ylabel("difference (%)", fontproperties=_font())
+            for axes in (upper, lower):
+                for edge in solution.edges:
+                    axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=0.5)
         for axes in (upper, lower):
-            for edge in solution.edges:
-                axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=0.5)
             _plain(axes)
-        lower.yaxis.set_major_locator(MaxNLocator(nbins=4))
+            axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
     panels[-1].set_xlabel(f"$x$ ({length})", fontproperties=_font())
     panels[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
     figure.align_ylabels()
     if title:
         figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
     return figure
+
+
+def _points(figure: Figure, axes: Axes, at: tuple[Array, Array], values: Array, label: str) -> None:
+    """Points in the body, depth downwards, with a scale of colours that is white at zero."""
+    bound = float(np.nanmax(np.abs(values))) or 1.0
+    drawn = axes.scatter(
+        *at, c=values, s=float(np.clip(8000.0 / len(values), 0.5, 16.0)), cmap="RdBu_r", vmin=-bound, vmax=bound, linewidths=0.0
+    )
+    bar = figure.colorbar(drawn, ax=axes, pad=0.02, aspect=14)
+    bar.set_label(label, fontproperties=_font(SMALL))
+    for text in bar.ax.get_yticklabels():
+        text.set_fontproperties(_font(SMALL))
+    if not axes.yaxis_inverted():
+        axes.invert_yaxis()
 
 
 def suffixes() -> tuple[str, ...]:

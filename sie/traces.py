@@ -42,7 +42,7 @@ def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, d
     bad = ~np.isfinite(table).all(axis=1)
     if bad.any() and not drop_missing:
         lacking = [line for (line, _), is_bad in zip(rows, bad.tolist(), strict=True) if is_bad]
-        raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: mend = True leaves such lines out")
+        raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: leave such lines out, as mend = True does for a trace")
     return tuple(table[~bad].T)
 
 
