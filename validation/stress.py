@@ -28,7 +28,7 @@ SPOILED = 1e-11
 
 FRICTION = 0.3
 DEPTHS = (1e-10, 1e-6, 1e-2, 1.0, 1e3)
-QUICK = ("parabola", "rounded", "sinh", "six")
+QUICK = ("rounded", "sinh")
 _X, _Y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]
 
 
