@@ -104,7 +104,9 @@ def bonded_punch(beta: float) -> Row:
 
 def thin_layer(factor: float = 1.0, height: float = 0.02) -> sie.CauchyEquation:
     """`factor` multiplies the right-hand side."""
-    return sie.CauchyEquation((-1.0, 1.0), lambda x: factor * np.exp(x), k=lambda x, t: 0.5 * height / ((t - x) ** 2 + height**2) / np.pi, total=0.0)
+    return sie.CauchyEquation(
+        (-1.0, 1.0), lambda x: factor * np.exp(x), k=lambda x, t: 0.5 * height / ((t - x) ** 2 + height**2) / np.pi, total=0.0
+    )
 
 
 def growth(sizes: tuple[int, ...]) -> Iterator[Row]:
