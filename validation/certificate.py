@@ -1,9 +1,9 @@
 """Does the certificate know? Random contacts, right ones and wrong ones, each with its true error beside the certificate's estimate.
 
 Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar bodies, parabolas known by samples, and the
-shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 30 digits; half of the answers are
+shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 22 digits; half of the answers are
 then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The estimate
-must never be smaller than a third of the true error. That is the largest at three random places within 0.95 r of the centre, over the peak
+must never be smaller than a third of the true error. That is the largest at one to three random places within 0.95 r of the centre, over the peak
 (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of its spline explains.
 """
 
@@ -23,12 +23,12 @@ from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"
-SECONDS = (3.0, 30.0)
-COUNTS = (400, 3000)
+SECONDS = (2.0, 35.0)
+COUNTS = (100, 2000)
 SEED = 20260711
-mp = context(30)
+mp = context(22)
 SHARE = 1 / 3
-REACH, AT = 0.95, 3  # of the half-width; places in each contact
+REACH, AT = 0.95, 3  # of the half-width; places in each contact, one where the closed form is itself an integral or an iteration
 
 Truth = Callable[[Any], Any]
 
@@ -48,6 +48,7 @@ class Contact(NamedTuple):
     form: Truth
     quantity: str = "pressure"
     rounding: float = 0.0
+    places: int = AT
 
 
 def random_contact(rng: np.random.Generator) -> Contact:
@@ -89,13 +90,13 @@ def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     a, P = b * float(rng.uniform(0.1, 0.9)), E * b * b / R * float(10.0 ** rng.uniform(-2, 0))
     given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "coupling": mp.mpf(coupling), "lib": mp}
     scene = sie.Scene(profile=sie.RoundedFlat(a, R), normal_load=P, **common)
-    return Contact(kind, scene, lambda x: sliding_rounded_flat.pressure(x, **given))
+    return Contact(kind, scene, lambda x: sliding_rounded_flat.pressure(x, **given), places=1)
 
 
 def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
     """A parabola at random points: its spline is the parabola, but for the rounding of the spline's coefficients."""
     b, E, _ = sizes
-    x = b * np.sort(np.concatenate(([-2.0, 2.0], rng.uniform(-1.9, 1.9, int(rng.integers(8, 60))))))
+    x = b * np.sort(np.concatenate(([-2.0, 2.0], rng.uniform(-1.9, 1.9, int(rng.integers(8, 30))))))
     x = x[np.concatenate(([True], np.diff(x) > 1e-3 * b))]
     R = b  # so that the heights are of the order of b
     profile = sie.Sampled(x, 0.5 * x * x / R)
@@ -113,7 +114,7 @@ def _slipping(kind: str, rng: np.random.Generator, sizes: tuple[float, float, fl
     Q = share * f * P
     given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "friction": f, "tangential_load": mp.mpf(Q), "lib": mp}
     scene = sie.Scene(profile=sie.RoundedFlat(a, R), modulus=E, normal_load=P, friction=f, tangential_load=Q)
-    return Contact(kind, scene, lambda x: cattaneo_rounded.shear(x, **given), "shear")
+    return Contact(kind, scene, lambda x: cattaneo_rounded.shear(x, **given), "shear", places=1)
 
 
 MAKERS: dict[str, Callable[[str, np.random.Generator, tuple[float, float, float]], Contact]] = {
@@ -122,7 +123,7 @@ MAKERS: dict[str, Callable[[str, np.random.Generator, tuple[float, float, float]
     "samples": _sampled,
     "partial slip": _slipping,
 }
-KINDS = dict(zip(MAKERS, (0.3, 0.05, 0.1, 0.15, 0.1, 0.1, 0.05, 0.15), strict=True))  # how often
+KINDS = dict(zip(MAKERS, (0.4, 0.05, 0.1, 0.15, 0.1, 0.05, 0.05, 0.1), strict=True))  # how often
 
 
 SHAPES: tuple[Callable[[Any], Any], ...] = (
@@ -140,7 +141,7 @@ def judged(rng: np.random.Generator, wrong: bool) -> Judged:
     made = random_contact(rng)
     solution = sie.solve(made.scene)
     m, r, (x1, x2) = solution.centre, solution.half_width, solution.edges
-    x = m + r * rng.uniform(-REACH, REACH, AT)
+    x = m + r * rng.uniform(-REACH, REACH, made.places)
     ends = [*made.scene.profile.breaks, *(c for zone in solution.stick for c in zone), 9e99]
     if made.kind != "samples":
         x = x[np.abs(x[:, None] - np.array(ends)).min(axis=1) > 1e-4 * r]
