@@ -220,7 +220,7 @@ def figures(found: Found) -> Iterator[Figure]:
     drawing, ax = axes()
     curves = found.curves("judged")
     for curve in curves:
-        ax.plot(np.maximum(curve.x, 1e-18), curve.y, ".", ms=3, label=curve.label, alpha=0.6, mew=0)
+        ax.plot(np.maximum(curve.x, 1e-18), curve.y, "o", ms=2.5, label=curve.label, alpha=0.6, mew=0)
     line = np.array([1e-18, 1e-1])
     draw(ax, [Curve("", "a third of the true error", line, line / 3, "dashed", {"colour": "tab:red"})])
     labelled(ax, "true error of the pressure / peak", "the certificate's estimate", log="xy")

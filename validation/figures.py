@@ -6,7 +6,6 @@ Figures are drawn as narrow as a phone, so that their letters stay readable ther
 from __future__ import annotations
 
 import io
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -69,19 +68,23 @@ def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
 
 
 def _decades(ax: Any, name: str, axis: Any) -> None:
-    """A logarithmic axis with a tick at each power of ten, or at some: as plain text, which costs a hundredth of Matplotlib's formulas."""
+    """A logarithmic axis, ticks as plain text, which costs a hundredth of Matplotlib's formulas: powers of ten, or 1, 2, 5 of a few."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator  # noqa: PLC0415
 
     (ax.set_xscale if name == "x" else ax.set_yscale)("log")
-    axis.set_major_locator(LogLocator(numticks=9))
-    axis.set_major_formatter(FuncFormatter(power_of_ten))
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,), numticks=9))
+    axis.set_major_formatter(FuncFormatter(tick))
     axis.set_minor_locator(NullLocator())
 
 
-def power_of_ten(value: float, _: int = 0) -> str:
-    """10⁻⁵ of 1e-5; 1 and 10 as they are."""
-    exponent = round(math.log10(value)) if value > 0.0 else 0
-    return {0: "1", 1: "10"}.get(exponent, "10" + str(exponent).translate(SUPERSCRIPTS))
+def tick(value: float, _: int = 0) -> str:
+    """10⁻⁵ of 1e-5, 2·10⁻⁵ of 2e-5; 0.2, 1, 50 as they are."""
+    if 0.01 <= value < 1000.0:
+        return f"{value:g}"
+    digits, exponent = f"{value:.0e}".split("e")
+    power = "10" + str(int(exponent)).translate(SUPERSCRIPTS)
+    return power if digits == "1" else f"{digits}·{power}"
 
 
 def draw(ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None) -> None:

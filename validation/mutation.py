@@ -219,7 +219,7 @@ def figures(found: Found) -> Iterator[Figure]:
     for curve, marker, colour in ((wrong, "x", "tab:red"), (right, "o", "tab:green")):
         ax.plot(np.clip(np.array(curve.y, dtype=float), 1e-17, 1e3), curve.x, marker, color=colour, mfc="none", label=curve.label)
     ax.set_yticks(wrong.x, wrong.about["names"])
-    ax.invert_yaxis()
+    ax.set_ylim(len(wrong.x) - 0.3, -0.7)
     ax.axvline(BAR, color="black", linewidth=0.8)
     labelled(ax, "what the checker measures", "", log="x")
     ax.legend(fontsize=8, frameon=False, ncols=2, loc="lower center", bbox_to_anchor=(0.4, 1.0))

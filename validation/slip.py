@@ -258,7 +258,9 @@ def figures(found: Found) -> Iterator[Figure]:
     labelled(ax, "decades of (Q/fP)/(1 - Q/fP)", "error / largest value", log="y")
     legend(ax)
     yield Figure(
-        "slip-loading", drawing, "First loading, from next to no slip to next to sliding. The line is the bar of the shear, 1e-13."
+        "slip-loading",
+        drawing,
+        "First loading, from next to no slip to next to sliding. The line is the bar of the shear, 1e-13; what ulps explain is drawn at 1e-18.",
     )
     for contact in CONTACTS:
         yield _shears(found, f"turns: {contact.name}", "x [lengths of R]", "q / (f P) [1/R]",
@@ -267,6 +269,7 @@ def figures(found: Found) -> Iterator[Figure]:
     drawing, ax = axes()
     draw(ax, found.curves("loops"))
     labelled(ax, "shift between the bodies [R]", "Q/(fP)")
+    ax.locator_params(axis="x", nbins=5)
     legend(ax)
     yield Figure(
         "slip-loops", drawing, "Rounded flat: Q over the shift beyond the elastic one, first loading left out; the area is the energy lost."
