@@ -1,10 +1,11 @@
 """Does the certificate know? Random contacts, right ones and wrong ones, each with its true error beside the certificate's estimate.
 
 Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar bodies, parabolas known by samples, and the
-shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 22 digits; half of the answers are
-then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The estimate
-must never be smaller than a third of the true error. That is the largest at one to three random places within 0.95 r of the centre, over the peak
-(of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of its spline explains.
+shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 22 digits; half of the answers
+are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The
+estimate must never be smaller than a third of the true error. That is the largest at one to three random places within 0.95 r of the
+centre, over the peak (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of its
+spline explains.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Wrong programs of the newer parts: shear, load paths, sliding, bonded punches, traces, stress inside, sums over many pieces.
 
-Each is this package with one of its parts replaced while it solves; what it answers is held against a closed form that shares no code with it.
+Each is this package with one of its parts replaced while it solves; its answer is held against a closed form that shares no code with it.
 """
 
 from __future__ import annotations
@@ -184,27 +184,71 @@ def _no_derivative(right: Any, *args: Any) -> Any:
 
 
 PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
-    ("sign of the slip zones", "slip against the load", partial(number, _instead(slip, "_one_way", lambda f, s, g: f(s, -g)), _shear, _true_shear)),
-    ("reduced load P - Q", "friction forgotten in P - Q/f",
-     partial(number, _instead(slip, "remaining", lambda _, f, P, Q: P - abs(Q)), _shear, _true_shear)),
-    ("reduced load off by 1e-10", "P - Q/f off in the tenth digit",
-     partial(number, _instead(slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)), _shear, _true_shear)),
-    ("Masing's factor", "1 in place of 2 after a turn of the load",
-     partial(number, _property(ladder.Ladder, "corners", _once), _unloading, _true_unloading)),
-    ("energy of a branch", "a cycle counts one branch",
-     partial(number, _instead(history.History, "step_energy", lambda right, self, k: right(self, k) * (0.5 if k else 1.0)), _cycle, _true_cycle)),
-    ("bulk stress as strain", "τ = σ/2 in place of σ/4", partial(number, _property(sie.Scene, "tau", lambda t: 2.0 * t), _bulk, _true_bulk)),
-    ("edge rule of similar bodies", "Gauss-Chebyshev weights next to frictional edges",
-     partial(number, _instead(sliding, "edge_rule", lambda right, n, power: right(n, -0.5)), _sliding, _true_sliding)),
-    ("sign of β f in sliding", "friction pulls the other way",
-     partial(number, _property(sie.Scene, "slides", lambda s: -s), _sliding, _true_sliding)),
+    (
+        "sign of the slip zones",
+        "slip against the load",
+        partial(number, _instead(slip, "_one_way", lambda f, s, g: f(s, -g)), _shear, _true_shear),
+    ),
+    (
+        "reduced load P - Q",
+        "friction forgotten in P - Q/f",
+        partial(number, _instead(slip, "remaining", lambda _, f, P, Q: P - abs(Q)), _shear, _true_shear),
+    ),
+    (
+        "reduced load off by 1e-10",
+        "P - Q/f off in the tenth digit",
+        partial(number, _instead(slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)), _shear, _true_shear),
+    ),
+    (
+        "Masing's factor",
+        "1 in place of 2 after a turn of the load",
+        partial(number, _property(ladder.Ladder, "corners", _once), _unloading, _true_unloading),
+    ),
+    (
+        "energy of a branch",
+        "a cycle counts one branch",
+        partial(
+            number,
+            _instead(history.History, "step_energy", lambda right, self, k: right(self, k) * (0.5 if k else 1.0)),
+            _cycle,
+            _true_cycle,
+        ),
+    ),
+    (
+        "bulk stress as strain",
+        "τ = σ/2 in place of σ/4",
+        partial(number, _property(sie.Scene, "tau", lambda t: 2.0 * t), _bulk, _true_bulk),
+    ),
+    (
+        "edge rule of similar bodies",
+        "Gauss-Chebyshev weights next to frictional edges",
+        partial(number, _instead(sliding, "edge_rule", lambda right, n, power: right(n, -0.5)), _sliding, _true_sliding),
+    ),
+    (
+        "sign of β f in sliding",
+        "friction pulls the other way",
+        partial(number, _property(sie.Scene, "slides", lambda s: -s), _sliding, _true_sliding),
+    ),
     ("sign of β when bonded", "the bodies exchanged", partial(number, _property(sie.Scene, "beta", lambda b: -b), _stuck, _true_stuck)),
-    ("natural spline", "h'' = 0 at the ends of a trace", partial(number, _instead(sampled, "interpolating_spline", lambda _, x, h: _natural(x, h)),
-                                                         _trace, _true_parabola)),
-    ("half the far-field terms", "moments of far pieces cut off", partial(number, _instead(summation, "_series", _fewer_terms), _cut_parabola, _true_cut)),
-    ("far field off by 1e-9", "sums over far pieces", partial(number, _instead(summation, "_series", lambda right, *a: right(*a) * (1 + 1e-9)),
-                                                            _cut_parabola, _true_cut)),
+    (
+        "natural spline",
+        "h'' = 0 at the ends of a trace",
+        partial(number, _instead(sampled, "interpolating_spline", lambda _, x, h: _natural(x, h)), _trace, _true_parabola),
+    ),
+    (
+        "half the far-field terms",
+        "moments of far pieces cut off",
+        partial(number, _instead(summation, "_series", _fewer_terms), _cut_parabola, _true_cut),
+    ),
+    (
+        "far field off by 1e-9",
+        "sums over far pieces",
+        partial(number, _instead(summation, "_series", lambda right, *a: right(*a) * (1 + 1e-9)), _cut_parabola, _true_cut),
+    ),
     ("dropped Φ'", "stress inside without y Φ'", partial(number, _instead(field, "potentials", _no_derivative), _stress, _true_stress)),
-    ("sign of far stress", "the outer series with the other sign",
-     partial(number, _instead(Plane, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))), _stress, _true_stress)),
-)  # fmt: skip
+    (
+        "sign of far stress",
+        "the outer series with the other sign",
+        partial(number, _instead(Plane, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))), _stress, _true_stress),
+    ),
+)

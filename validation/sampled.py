@@ -80,14 +80,23 @@ def spline(n: int) -> Iterator[Record]:
         truth = contact(exact_slope(x, heights(x)), 1.0, solution.edges, load=0.5)
         exact = [truth.pressure(v) for v in at.tolist()]
     yield checked(
-        lambda factor: apart(solution.pressure(at), exact, factor), 1.0, 1.0 + SPOILED,
-        what=f"spline through {n} samples: error of the pressure / peak against 40 digits on the same spline", by="README",
-        named=f"pressures off by {SPOILED:.0e}", high=BAR,
-    )  # fmt: skip
+        lambda factor: apart(solution.pressure(at), exact, factor),
+        1.0,
+        1.0 + SPOILED,
+        what=f"spline through {n} samples: error of the pressure / peak against 40 digits on the same spline",
+        by="README",
+        named=f"pressures off by {SPOILED:.0e}",
+        high=BAR,
+    )
     yield checked(
-        lambda factor: apart(solution.edges, (truth.x1, truth.x2), factor), 1.0, 1.0 + SPOILED,
-        what=f"spline through {n} samples: error of the edges / half-width", by="README", named=f"edges off by {SPOILED:.0e}", high=BAR,
-    )  # fmt: skip
+        lambda factor: apart(solution.edges, (truth.x1, truth.x2), factor),
+        1.0,
+        1.0 + SPOILED,
+        what=f"spline through {n} samples: error of the edges / half-width",
+        by="README",
+        named=f"edges off by {SPOILED:.0e}",
+        high=BAR,
+    )
     s = np.linspace(x1, x2, 401)
     yield Curve("spline", f"spline through {n} samples", s, solution.pressure(s))
     yield Curve("spline", "40 digits", at, [float(p) for p in exact], "points")
@@ -116,9 +125,13 @@ def growth() -> Iterator[Record]:
     yield Curve("growth", "this package", SIZES, [1e3 * t for t in times], "both", {"colour": "black", "strong": True})
     yield Curve("growth", "a logarithm for each piece and point", (SIZES[0], DENSE), [1e3 * few, 1e3 * many], "both")
     yield Claim(
-        "time of 10^4 samples and 10^4 pressures over that of 100 and 100", "this project: close to linear", times[-1] / times[0],
-        many / few, f"a dense sum, at {DENSE} already", high=GROWTH,
-    )  # fmt: skip
+        "time of 10^4 samples and 10^4 pressures over that of 100 and 100",
+        "this project: close to linear",
+        times[-1] / times[0],
+        many / few,
+        f"a dense sum, at {DENSE} already",
+        high=GROWTH,
+    )
 
 
 # -- noise -----------------------------------------------------------------------------------------------------------------
@@ -147,9 +160,13 @@ def noise(n: int) -> Iterator[Record]:
     p = solution.pressure(s)
     seconds = perf_counter() - start
     yield Claim(
-        f"trace of {n} points with noise: error of the half-width under a load", "this project: within 1 %", measured,
-        error(noisy(3000, 0.0)), "the noise left in the trace", high=ONE_PERCENT,
-    )  # fmt: skip
+        f"trace of {n} points with noise: error of the half-width under a load",
+        "this project: within 1 %",
+        measured,
+        error(noisy(3000, 0.0)),
+        "the noise left in the trace",
+        high=ONE_PERCENT,
+    )
     x, h = scene.profile.points, scene.profile.heights  # type: ignore[attr-defined]
     yield Curve("noise", f"{n} points, smoothed by cross validation", s, p)
     yield Curve("noise", "Hertz", s, 0.5 * np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)), "dashed")
@@ -158,10 +175,11 @@ def noise(n: int) -> Iterator[Record]:
     yield Curve("trace", "the spline's", x[some], scene.profile.height(x[some]) - 0.5 * x[some] ** 2)
     rms = float(np.sqrt(np.mean((p - hertz.pressure(s, radius=1.0, modulus=1.0, half_width=b)) ** 2)))
     yield Table(
-        "A trace with noise", ("points", "noise / R", "λ of the smoothing", "misfit / R", "half-width / Hertz - 1", "rms of p / peak", "time [s]"),
+        "A trace with noise",
+        ("points", "noise / R", "λ of the smoothing", "misfit / R", "half-width / Hertz - 1", "rms of p / peak", "time [s]"),
         [(n, NOISE, scene.profile.lam, scene.profile.misfit, solution.half_width / b - 1.0, 2.0 * rms, seconds)],  # type: ignore[attr-defined]
         "The time is that of smoothing, solving and 401 pressures, once.",
-    )  # fmt: skip
+    )
 
 
 # -- drawing ---------------------------------------------------------------------------------------------------------------

@@ -57,19 +57,29 @@ FLAT = {"half_width": 1.0, "normal_load": 1.0}
 PUNCH = {"normal_load": 0.3, "half_flat": 0.5, "radius": 1.0, "modulus": 1.0}
 SLIDERS = (
     Slider(
-        "parabola", sie.Parabola(1.0), {"half_width": 1.0}, lambda x, k: sliding_hertz.pressure(x, **HERTZ, coupling=k, lib=mp),
-        lambda z, k: sliding_hertz.potential(z, **HERTZ, coupling=k, lib=mp), lambda k: sliding_hertz.moment(**HERTZ, coupling=k, lib=mp),
+        "parabola",
+        sie.Parabola(1.0),
+        {"half_width": 1.0},
+        lambda x, k: sliding_hertz.pressure(x, **HERTZ, coupling=k, lib=mp),
+        lambda z, k: sliding_hertz.potential(z, **HERTZ, coupling=k, lib=mp),
+        lambda k: sliding_hertz.moment(**HERTZ, coupling=k, lib=mp),
     ),
     Slider(
-        "flat", sie.Flat(1.0), {"normal_load": 1.0}, lambda x, k: sliding_flat.pressure(x, **FLAT, coupling=k, lib=mp),
-        lambda z, k: sliding_flat.potential(z, **FLAT, coupling=k, lib=mp), lambda k: sliding_flat.upright_moment(**FLAT, coupling=k, lib=mp),
+        "flat",
+        sie.Flat(1.0),
+        {"normal_load": 1.0},
+        lambda x, k: sliding_flat.pressure(x, **FLAT, coupling=k, lib=mp),
+        lambda z, k: sliding_flat.potential(z, **FLAT, coupling=k, lib=mp),
+        lambda k: sliding_flat.upright_moment(**FLAT, coupling=k, lib=mp),
     ),
     Slider(
-        "rounded flat", sie.RoundedFlat(0.5, 1.0), {"normal_load": 0.3},
+        "rounded flat",
+        sie.RoundedFlat(0.5, 1.0),
+        {"normal_load": 0.3},
         lambda x, k: sliding_rounded_flat.pressure(x, **PUNCH, coupling=k, lib=mp),
         moment=lambda k: sliding_rounded_flat.moment(**PUNCH, coupling=k, lib=mp),
     ),
-)  # fmt: skip
+)
 
 
 def compute(quick: bool) -> Iterator[Record]:
@@ -114,9 +124,13 @@ def _claims(slider: Slider, found: list[tuple[float, float, float | None, float]
     if found[0][2] is not None:
         spoiled = judged(slider, 0.3, 1.0 + SPOILED)[2] or 0.0
         yield Claim(
-            f"sliding {right}: largest relative error of the potential, 1e-8 to 100 half-widths deep", by, max(f[2] or 0.0 for f in found),
-            spoiled, f"potentials off by {SPOILED:.0e}", high=BAR,
-        )  # fmt: skip
+            f"sliding {right}: largest relative error of the potential, 1e-8 to 100 half-widths deep",
+            by,
+            max(f[2] or 0.0 for f in found),
+            spoiled,
+            f"potentials off by {SPOILED:.0e}",
+            high=BAR,
+        )
 
 
 def _drawn(slider: Slider, k: float) -> Iterator[Curve]:
@@ -143,14 +157,22 @@ def full_stick(quick: bool) -> Iterator[Record]:
         tilts.append(relative(solution.tilt, bonded_flat.tilt(**given)))
     by = "both packages"
     yield Claim(
-        "bonded flat: largest error of p + iq / largest value", by, max(worst), _bonded(0.3, P, Q, -0.3),
-        "the closed form with β of the other sign", high=BAR,
-    )  # fmt: skip
+        "bonded flat: largest error of p + iq / largest value",
+        by,
+        max(worst),
+        _bonded(0.3, P, Q, -0.3),
+        "the closed form with β of the other sign",
+        high=BAR,
+    )
     given["moment"] = mp.mpf("0.2001")
     yield Claim(
-        "bonded flat: largest relative error of the tilt under a moment", by, max(tilts), relative(solution.tilt, bonded_flat.tilt(**given)),
-        "a moment off by 0.05 %", high=BAR,
-    )  # fmt: skip
+        "bonded flat: largest relative error of the tilt under a moment",
+        by,
+        max(tilts),
+        relative(solution.tilt, bonded_flat.tilt(**given)),
+        "a moment off by 0.05 %",
+        high=BAR,
+    )
     solution = sie.solve(_bonded_scene(0.3, P, Q))
     x = np.cos(np.linspace(np.pi, 0.0, 201)[3:-3])
     yield Curve("bonded", "p b/P", x, solution.pressure(x) / P)

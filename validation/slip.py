@@ -1,10 +1,10 @@
 """Partial slip of similar bodies against closed forms in 25 digits: first loading, unloading, reloading, bulk stress, cycles.
 
-Under a constant normal load P the tangential load Q rises, falls and rises again. Hertz: Cattaneo (1938), Mindlin (1949), with a bulk stress
-Nowell & Hills (1987); the rounded flat: Ciavarella, Hills & Monno (1998), § 3. Errors are over the largest value; what one
-ulp of x and one of a zone's end do to the slip in zones a millionth long is not counted. The solver is given the loads and finds zones,
-shear, slip and energy; the closed forms, which share no code with it, are evaluated in mpmath for the same doubles. A closed loop must
-close, and the area of the loop of Q over the bodies' shift, by Simpson's rule, must be the energy lost.
+Under a constant normal load P the tangential load Q rises, falls and rises again. Hertz: Cattaneo (1938), Mindlin (1949), with a bulk
+stress Nowell & Hills (1987); the rounded flat: Ciavarella, Hills & Monno (1998), § 3. Errors are over the largest value; what one ulp of x
+and one of a zone's end do to the slip in zones a millionth long is not counted. The solver is given the loads and finds zones, shear, slip
+and energy; the closed forms, which share no code with it, are evaluated in mpmath for the same doubles. A closed loop must close, and the
+area of the loop of Q over the bodies' shift, by Simpson's rule, must be the energy lost.
 """
 
 from __future__ import annotations
@@ -76,9 +76,7 @@ def compute(quick: bool) -> Iterator[Record]:
         yield from _loading(contact, fractions, found)
         yield Doing(f"{contact.name}: unloading and reloading")
         yield from turned(contact)
-    yield Table(
-        "First loading: errors over the largest value", ("contact", "Q/fP", "shear", "slip", "half-width of the stick zone"), rows
-    )  # fmt: skip
+    yield Table("First loading: errors over the largest value", ("contact", "Q/fP", "shear", "slip", "half-width of the stick zone"), rows)
     yield Doing("bulk stress")
     yield from bulk()
     yield Doing("cycles")
@@ -127,8 +125,12 @@ def _loading(contact: Contact, fractions: Sequence[float], found: Sequence[tuple
         errors = [row[k] for row in found]
         yield Claim(
             f"{contact.name}, Q/fP from {fractions[0]:g} to 1 - {1 - fractions[-1]:.0e}: largest error of the {name}",
-            "README: partial slip to 1e-12", max(errors), spoiled[k], f"answers off by {SPOILED:.0e}", high=bar,
-        )  # fmt: skip
+            "README: partial slip to 1e-12",
+            max(errors),
+            spoiled[k],
+            f"answers off by {SPOILED:.0e}",
+            high=bar,
+        )
         decades = [float(np.log10(v / (1.0 - v))) for v in fractions]
         yield Curve("loading", f"{contact.name}: {name}", decades, errors, "both")
 
@@ -149,24 +151,38 @@ def turned(contact: Contact) -> Iterator[Record]:
         if k:
             first = history[0].shear(x)
             yield checked(
-                lambda q, exact=exact: apart(q, exact), history[k].shear(x), first, what=f"{contact.name}: error of the {name[:-6]} shear",
-                by="Mindlin & Deresiewicz 1953", named="the shear at the first turning point", high=BAR,
-            )  # fmt: skip
+                lambda q, exact=exact: apart(q, exact),
+                history[k].shear(x),
+                first,
+                what=f"{contact.name}: error of the {name[:-6]} shear",
+                by="Mindlin & Deresiewicz 1953",
+                named="the shear at the first turning point",
+                high=BAR,
+            )
     Q = TURNS[0] * FP
     cycle = sie.follow(contact.scene(), sie.Path([(P, Q), (P, -Q), (P, Q)]))
     given = contact.given | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
     exact_energy = contact.module.dissipation(**(given | {"modulus": E} if contact is PUNCH else _without_width(given)))
     lost = cycle[2].energy_lost - cycle[0].energy_lost
     yield checked(
-        lambda W: relative(W, exact_energy), lost, cycle[2].energy_lost, what=f"{contact.name}: relative error of the energy lost in a cycle",
-        by="README: energy to 1e-12", named="with that of the first loading", high=BAR_OF_SLIP,
-    )  # fmt: skip
+        lambda W: relative(W, exact_energy),
+        lost,
+        cycle[2].energy_lost,
+        what=f"{contact.name}: relative error of the energy lost in a cycle",
+        by="README: energy to 1e-12",
+        named="with that of the first loading",
+        high=BAR_OF_SLIP,
+    )
     peak = float(np.abs(cycle[0].shear(x)).max())
     yield checked(
-        lambda k: float(np.abs(cycle[k].shear(x) - cycle[0].shear(x)).max()) / peak, 2, 1,
-        what=f"{contact.name}: a closed loop leaves the shear as it was; difference over its peak", by="this project",
-        named="half of the loop", high=BAR,
-    )  # fmt: skip
+        lambda k: float(np.abs(cycle[k].shear(x) - cycle[0].shear(x)).max()) / peak,
+        2,
+        1,
+        what=f"{contact.name}: a closed loop leaves the shear as it was; difference over its peak",
+        by="this project",
+        named="half of the loop",
+        high=BAR,
+    )
 
 
 def _without_width(given: dict[str, Any]) -> dict[str, Any]:
@@ -197,9 +213,13 @@ def bulk() -> Iterator[Record]:
     yield Claim("Hertz with bulk stress: largest error of the shear", by, max(w[0] for w in worst), control, wrong, high=BAR)
     spoiled = apart(sie.solve(HERTZ.scene(tangential_load=Q)).stick[0], cattaneo.bulk_stick(**given))
     yield Claim(
-        "Hertz with bulk stress: error of the ends of the stick zone / half-width", by, max(w[1] for w in worst), spoiled,
-        "without bulk stress", high=BAR_OF_SLIP,
-    )  # fmt: skip
+        "Hertz with bulk stress: error of the ends of the stick zone / half-width",
+        by,
+        max(w[1] for w in worst),
+        spoiled,
+        "without bulk stress",
+        high=BAR_OF_SLIP,
+    )
 
 
 # -- cycles ----------------------------------------------------------------------------------------------------------------
@@ -213,9 +233,14 @@ def loops(quick: bool) -> Iterator[Record]:
         yield Curve("loops", f"Q = ±{amplitude:g} fP", [s.shift for s in history], amplitude * np.cos(angles))
     lost, area = enclosed(0.8, SIMPSON[not quick])
     yield checked(
-        lambda a: abs(a / lost - 1.0), area, enclosed(0.81, SIMPSON[not quick])[1], what="rounded flat: ∮Q dδ against the energy lost in the cycle",
-        by="this project", named="the loop of Q = ±0.81 fP", high=1e-6,
-    )  # fmt: skip
+        lambda a: abs(a / lost - 1.0),
+        area,
+        enclosed(0.81, SIMPSON[not quick])[1],
+        what="rounded flat: ∮Q dδ against the energy lost in the cycle",
+        by="this project",
+        named="the loop of Q = ±0.81 fP",
+        high=1e-6,
+    )
 
 
 def enclosed(amplitude: float, n: int) -> tuple[float, float]:
@@ -243,9 +268,13 @@ def cost(steps: int) -> Claim:
 
     _, ratio = compared(followed, lambda: one_by_one(1), patience=0.2)
     return Claim(
-        f"a cycle of {steps} steps: time over that of as many single scenes", "this project: cheaper than one by one", ratio / 10.0,
-        1.0, "the single scenes themselves", high=0.7,
-    )  # fmt: skip
+        f"a cycle of {steps} steps: time over that of as many single scenes",
+        "this project: cheaper than one by one",
+        ratio / 10.0,
+        1.0,
+        "the single scenes themselves",
+        high=0.7,
+    )
 
 
 # -- drawing ---------------------------------------------------------------------------------------------------------------
@@ -260,11 +289,16 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "slip-loading",
         drawing,
-        "First loading, from next to no slip to next to sliding. The line is the bar of the shear, 1e-13; what ulps explain is drawn at 1e-18.",
+        "First loading, from next to no slip to next to sliding. The line: the bar, 1e-13. What ulps explain is drawn at 1e-18.",
     )
     for contact in CONTACTS:
-        yield _shears(found, f"turns: {contact.name}", "x [lengths of R]", "q / (f P) [1/R]",
-                      f"Shear of the {contact.name} contact in loading, unloading and reloading.")  # fmt: skip
+        yield _shears(
+            found,
+            f"turns: {contact.name}",
+            "x [lengths of R]",
+            "q / (f P) [1/R]",
+            f"Shear of the {contact.name} contact in loading, unloading and reloading.",
+        )
     yield _shears(found, "bulk", "x/b", "q / (f P) [1/R]", "Hertz under Q = 0.6 fP and a bulk stress that rises with it.")
     drawing, ax = axes()
     draw(ax, found.curves("loops"))
