@@ -21,7 +21,8 @@ from .report import Section, machine, number, page
 
 # Modules of this package, in the order of the page.
 TOPICS = (
-    "paper", "appendix", "pressure", "stress", "collocation", "work_precision", "growth", "stability", "certificate", "economy", "mutation",
+    "paper", "appendix", "pressure", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth", "stability",
+    "certificate", "economy", "mutation",
 )  # fmt: skip
 
 

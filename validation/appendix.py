@@ -27,6 +27,7 @@ SECONDS = (4.0, 12.0)
 
 DIGITS = 50
 mp = context(DIGITS + GUARD)
+few = context(12)
 WRONG = mp.mpf(10) ** -20  # relative change of φ0 that a checker of 50 digits must see
 
 # (a, b, x, R): doubles, so that both packages are asked the same question
@@ -160,12 +161,12 @@ def _split(s: Setting) -> Any:
 
 
 def _misprinted_root(s: Setting) -> Any:
-    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x."""
-    b, x = mp.mpf(s.b), mp.mpf(s.x)
-    lo, hi = s.angles["right"]
-    cut = min(max(s.phi, lo), hi)
+    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits tell that it is another number."""
+    b, x = few.mpf(s.b), few.mpf(s.x)
+    lo, hi = (few.mpf(angle) for angle in s.angles["right"])
+    cut = min(max(few.mpf(s.phi), lo), hi)
     parts = [(p, q) for p, q in ((lo, cut), (cut, hi)) if q > p]
-    return sum(mp.quad(lambda f: 1 / mp.sqrt(mp.mpc(b * mp.sin(f) - x)), [p, q]) for p, q in parts)
+    return mp.mpmathify(sum(few.quad(lambda f: 1 / few.sqrt(few.mpc(b * few.sin(f) - x)), [p, q]) for p, q in parts))
 
 
 def _punch(s: Setting) -> float:

@@ -1,9 +1,11 @@
 """Does the certificate know? Random contacts, right ones and wrong ones, each with its true error beside the certificate's estimate.
 
-Rounded flats, parabolas, wedges and powers of random sizes, loads and moduli, whose truth is a closed form in 40 digits; half of the
-answers are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back.
-The estimate must never be smaller than a third of the true error. That is the largest within 0.95 r of the centre, less what one ulp of x
-and of the edges explains.
+Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar bodies, parabolas known by samples, and the
+shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 22 digits; half of the answers
+are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The
+estimate must never be smaller than a third of the true error. That is the largest at one to three random places within 0.95 r of the
+centre, over the peak (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of its
+spline explains.
 """
 
 from __future__ import annotations
@@ -14,20 +16,20 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import sie
-from analytic import hertz, power, rounded_flat, wedge
+from analytic import cattaneo_rounded, hertz, power, rounded_flat, sliding_hertz, sliding_rounded_flat, wedge
 
 from .figures import Figure, axes, draw, labelled, legend
 from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table
-from .wrong import with_pressure
+from .wrong import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"
-SECONDS = (3.0, 30.0)
-COUNTS = (120, 2000)
+SECONDS = (2.0, 35.0)
+COUNTS = (100, 2000)
 SEED = 20260711
-mp = context(40)
+mp = context(22)
 SHARE = 1 / 3
-PLACES = np.array([-0.93, -0.61, -0.17, 0.08, 0.42, 0.77, 0.949])
+REACH, AT = 0.95, 3  # of the half-width; places in each contact, one where the closed form is itself an integral or an iteration
 
 Truth = Callable[[Any], Any]
 
@@ -39,13 +41,34 @@ class Judged(NamedTuple):
     wrong: bool
 
 
-def random_contact(rng: np.random.Generator) -> tuple[str, sie.Scene, Truth]:
-    """A scene with half-width b, and its pressure as a function of an mpmath number."""
-    kind = str(rng.choice(["rounded flat", "parabola", "wedge", "power"], p=[0.55, 0.1, 0.15, 0.2]))
+class Contact(NamedTuple):
+    """`form` is the truth of `quantity`, a function of an mpmath number; `rounding` what the profile's own doubles do to it."""
+
+    kind: str
+    scene: sie.Scene
+    form: Truth
+    quantity: str = "pressure"
+    rounding: float = 0.0
+    places: int = AT
+
+
+def random_contact(rng: np.random.Generator) -> Contact:
+    """Of a random kind, with half-width b or under a load."""
+    kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     b, E, R = (float(10.0 ** rng.uniform(-3, 3)) for _ in range(3))
+    return MAKERS[kind](kind, rng, (b, E, R))
+
+
+def _away(rng: np.random.Generator, b: float) -> float:
+    """Half a flat base in a contact of half-width b: next to nothing, or next to all of it."""
+    away = float(10.0 ** rng.uniform(-6, -0.3))
+    return b * (away if rng.random() < 0.5 else 1.0 - away)
+
+
+def _pressed(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
+    b, E, R = sizes
     if kind == "rounded flat":
-        away = float(10.0 ** rng.uniform(-6, -0.3))
-        a = b * (away if rng.random() < 0.5 else 1.0 - away)
+        a = _away(rng, b)
         profile: sie.Profile = sie.RoundedFlat(a, R)
         form = lambda x: rounded_flat.pressure(x, half_flat=a, radius=R, modulus=E, half_width=b, lib=mp)  # noqa: E731
     elif kind == "parabola":
@@ -55,7 +78,53 @@ def random_contact(rng: np.random.Generator) -> tuple[str, sie.Scene, Truth]:
     else:
         m = int(rng.integers(3, 9))
         profile, form = sie.Power(m, R), lambda x: power.pressure(x, exponent=m, coefficient=R, modulus=E, half_width=b, lib=mp)
-    return kind, sie.Scene(profile=profile, modulus=E, half_width=b), form
+    return Contact(kind, sie.Scene(profile=profile, modulus=E, half_width=b), form)
+
+
+def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
+    b, E, R = sizes
+    coupling = float(rng.uniform(-0.49, 0.49))
+    common = {"modulus": E, "dundurs": coupling / 2.0, "friction": 2.0, "sliding": 1}
+    if kind == "sliding parabola":
+        given = {"half_width": b, "radius": R, "modulus": E, "coupling": mp.mpf(coupling), "lib": mp}
+        return Contact(kind, sie.Scene(profile=sie.Parabola(R), half_width=b, **common), lambda x: sliding_hertz.pressure(x, **given))
+    a, P = b * float(rng.uniform(0.1, 0.9)), E * b * b / R * float(10.0 ** rng.uniform(-2, 0))
+    given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "coupling": mp.mpf(coupling), "lib": mp}
+    scene = sie.Scene(profile=sie.RoundedFlat(a, R), normal_load=P, **common)
+    return Contact(kind, scene, lambda x: sliding_rounded_flat.pressure(x, **given), places=1)
+
+
+def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
+    """A parabola at random points: its spline is the parabola, but for the rounding of the spline's coefficients."""
+    b, E, _ = sizes
+    x = b * np.sort(np.concatenate(([-2.0, 2.0], rng.uniform(-1.9, 1.9, int(rng.integers(8, 30))))))
+    x = x[np.concatenate(([True], np.diff(x) > 1e-3 * b))]
+    R = b  # so that the heights are of the order of b
+    profile = sie.Sampled(x, 0.5 * x * x / R)
+    t = np.concatenate([x, x[:-1] + 1e-6 * b, 0.5 * (x[1:] + x[:-1])])
+    t = t[(np.abs(t) < b)]
+    rounding = 2.0 * float(np.abs(profile.slope(t) - t / R).max())  # p/peak ~ twice the change of slope, the peak being E* b/(2R)
+    scene = sie.Scene(profile=profile, modulus=E, half_width=b)
+    return Contact(kind, scene, lambda v: hertz.pressure(v, radius=R, modulus=E, half_width=b, lib=mp), rounding=rounding)
+
+
+def _slipping(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
+    b, E, R = sizes
+    a, P = b * float(rng.uniform(0.05, 0.9)), E * b * b / R * float(10.0 ** rng.uniform(-2, 0))
+    f, share = float(rng.uniform(0.1, 1.0)), float(rng.uniform(0.05, 0.95))
+    Q = share * f * P
+    given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "friction": f, "tangential_load": mp.mpf(Q), "lib": mp}
+    scene = sie.Scene(profile=sie.RoundedFlat(a, R), modulus=E, normal_load=P, friction=f, tangential_load=Q)
+    return Contact(kind, scene, lambda x: cattaneo_rounded.shear(x, **given), "shear", places=1)
+
+
+MAKERS: dict[str, Callable[[str, np.random.Generator, tuple[float, float, float]], Contact]] = {
+    **dict.fromkeys(("rounded flat", "parabola", "wedge", "power"), _pressed),
+    **dict.fromkeys(("sliding parabola", "sliding rounded flat"), _sliding),
+    "samples": _sampled,
+    "partial slip": _slipping,
+}
+KINDS = dict(zip(MAKERS, (0.4, 0.05, 0.1, 0.15, 0.1, 0.05, 0.05, 0.1), strict=True))  # how often
 
 
 SHAPES: tuple[Callable[[Any], Any], ...] = (
@@ -70,26 +139,30 @@ SHAPES: tuple[Callable[[Any], Any], ...] = (
 
 def judged(rng: np.random.Generator, wrong: bool) -> Judged:
     """One contact, solved and judged."""
-    kind, scene, form = random_contact(rng)
-    solution = sie.solve(scene)
-    right, (x1, x2) = solution.pressure, solution.edges
-    x = solution.centre + solution.half_width * PLACES
-    x = x[[float(np.abs(v - np.array([*scene.profile.breaks, 9e99])).min()) > 1e-4 * solution.half_width for v in x]]
-    true = [form(mp.mpf(v)) for v in x.tolist()]
-    peak = peak_of(solution)
+    made = random_contact(rng)
+    solution = sie.solve(made.scene)
+    m, r, (x1, x2) = solution.centre, solution.half_width, solution.edges
+    x = m + r * rng.uniform(-REACH, REACH, made.places)
+    ends = [*made.scene.profile.breaks, *(c for zone in solution.stick for c in zone), 9e99]
+    if made.kind != "samples":
+        x = x[np.abs(x[:, None] - np.array(ends)).min(axis=1) > 1e-4 * r]
+    right = getattr(solution, made.quantity)
+    true = [made.form(mp.mpf(v)) for v in x.tolist()]
+    peak = peak_of(solution) * (made.scene.friction if made.quantity == "shear" else 1.0)
     values = right
     if wrong:
         size, shape = peak * float(10.0 ** rng.uniform(-13, -2)), SHAPES[int(rng.integers(len(SHAPES)))]
-        m, r = solution.centre, solution.half_width
 
         def values(t: Any) -> Any:
             return right(t) + size * shape((t - m) / r)
 
-        solution = with_pressure(scene, values)
+        solution = (with_shear if made.quantity == "shear" else with_pressure)(made.scene, values)
     ulp = np.spacing(max(abs(x1), abs(x2)))
-    explained = np.max([np.abs(right(x + d) - right(x)) for d in (-ulp, ulp)], axis=0)
+    explained = np.max([np.abs(right(x + d) - right(x)) for d in (-ulp, ulp)], axis=0) + made.rounding * peak
     errors = np.array([abs(float(mp.mpf(float(p)) - t)) for p, t in zip(values(x), true, strict=True)])
-    return Judged(kind, float((errors - explained).max().clip(0.0)) / peak, solution.check().error, wrong)
+    found = solution.check()
+    estimate = found.shear.error if made.quantity == "shear" and found.shear is not None else found.error
+    return Judged(made.kind, float((errors - explained).max(initial=0.0).clip(0.0)) / peak, estimate, wrong)
 
 
 def peak_of(solution: sie.Solution) -> float:
@@ -148,7 +221,7 @@ def figures(found: Found) -> Iterator[Figure]:
     drawing, ax = axes()
     curves = found.curves("judged")
     for curve in curves:
-        ax.plot(np.maximum(curve.x, 1e-18), curve.y, ".", ms=3, label=curve.label, alpha=0.6, mew=0)
+        ax.plot(np.maximum(curve.x, 1e-18), curve.y, "o", ms=2.5, label=curve.label, alpha=0.6, mew=0)
     line = np.array([1e-18, 1e-1])
     draw(ax, [Curve("", "a third of the true error", line, line / 3, "dashed", {"colour": "tab:red"})])
     labelled(ax, "true error of the pressure / peak", "the certificate's estimate", log="xy")

@@ -21,6 +21,7 @@ from sie import normal, panels, sliding
 
 from . import peers
 from .figures import Figure, axes, labelled
+from .mutation_parts import PARTS
 from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import PUNCH, SKEW, SMOOTH, closed_form, gauss_chebyshev, root, with_pressure
 
@@ -192,7 +193,8 @@ SHEARS = (
     _shear("stick zone of another load", "Q off by 1e-9", {"tangential_load": 0.09}, {"tangential_load": 0.09 * (1 + 1e-9)}),
 )  # fmt: skip
 
-MUTANTS = (*STAND_INS, *REPLACED, *(SHEARS if hasattr(sie.Solution, "tangential") else ()))
+OF_PARTS = tuple(Mutant(name, says, "closed form", measure) for name, says, measure in PARTS)
+MUTANTS = (*STAND_INS, *REPLACED, *SHEARS, *OF_PARTS)
 
 
 def compute(quick: bool) -> Iterator[Record]:
@@ -217,7 +219,7 @@ def figures(found: Found) -> Iterator[Figure]:
     for curve, marker, colour in ((wrong, "x", "tab:red"), (right, "o", "tab:green")):
         ax.plot(np.clip(np.array(curve.y, dtype=float), 1e-17, 1e3), curve.x, marker, color=colour, mfc="none", label=curve.label)
     ax.set_yticks(wrong.x, wrong.about["names"])
-    ax.invert_yaxis()
+    ax.set_ylim(len(wrong.x) - 0.3, -0.7)
     ax.axvline(BAR, color="black", linewidth=0.8)
     labelled(ax, "what the checker measures", "", log="x")
     ax.legend(fontsize=8, frameon=False, ncols=2, loc="lower center", bbox_to_anchor=(0.4, 1.0))

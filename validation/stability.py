@@ -39,7 +39,7 @@ def all_sweeps(quick: bool) -> tuple[Sweep, ...]:
         Sweep("a/b, width given", FLATNESS, lambda v: sweeps.flatness(v, "width"), shares, (-15.2, 15.2), decades=logit),
         Sweep("length", "decades of the length", lambda v: sweeps.scale(v, 1.0), _powers(-300, 300, 50 if quick else 25), (-150, 150)),
         Sweep("modulus", "decades of E*", lambda v: sweeps.scale(1.0, v), _powers(-300, 300, 100 if quick else 50), (-150, 150)),
-        Sweep("pieces", "decades of their number", sweeps.pieces, _powers(1, 3 if quick else 4, 1), (0, 5)),
+        Sweep("pieces", "decades of their number", sweeps.pieces, _powers(1, 3 if quick else 5, 1), (0, 5)),
         Sweep("depth", "decades of the depth / b", sweeps.depth, _powers(-18, 12, 5 if quick else 2), (-15, 6)),
         Sweep("distance to a kink", "decades of the distance / b", sweeps.at_kink, _doubles(decades, 0.5), (-16, 0)),
         Sweep("distance to an edge", "decades of the distance / b", sweeps.at_edge, _doubles(decades, 1.0), (-16, 0)),
@@ -198,7 +198,7 @@ def _frontier(found: Found) -> Figure:
             ax.plot(_compressed(x[some]), np.full(some.sum(), row), "s", color=colour, ms=5, label=state if row == 0 else None)
         ax.plot(_compressed(np.array(curve.about["promised"])), [row - 0.32] * 2, color="black", lw=1.2, label=None if row else "promised")
     ax.set_yticks(range(len(keys)), [key.removeprefix("sweep: ") for key in keys])
-    ticks = np.array([-300, -100, -15, -5, 0, 5, 15, 100, 300])
+    ticks = np.array([-300, -100, -15, 0, 15, 100, 300])
     ax.set_xticks(_compressed(ticks), [str(t) for t in ticks])
     labelled(ax, "decades, on a compressed axis", "")
     ax.legend(fontsize=8, frameon=False, ncols=4, loc="lower center", bbox_to_anchor=(0.4, 1.0))

@@ -28,7 +28,7 @@ SPOILED = 1e-11
 
 FRICTION = 0.3
 DEPTHS = (1e-10, 1e-6, 1e-2, 1.0, 1e3)
-QUICK = ("parabola", "rounded", "sinh", "six")
+QUICK = ("rounded", "sinh")
 _X, _Y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]
 
 
@@ -43,7 +43,7 @@ class Row:
 def rows(quick: bool = False) -> Iterator[Row]:
     seen: set[str] = set()
     for case in SMOOTH_CASES:
-        if quick and (case.name not in QUICK or case.name in seen):
+        if case.name in seen or (quick and case.name not in QUICK):
             continue
         seen.add(case.name)
         yield row(case)

@@ -124,18 +124,23 @@ def _has_elements(problem: Problem) -> bool:
     return problem.gap is not None and problem.closed is not None
 
 
-METHODS = (
+OURS_AND_TEXTBOOKS = (
     Method("this package", (3, 6, 9, 13), _package, lambda problem: True),
     Method("Gauss-Chebyshev, one series", (8, 32, 128, 512, 2048, 8192), _chebyshev, _has_series),
     Method("collocation (sie.CauchyEquation)", _powers(3, 9), _collocation, lambda problem: True),
     Method("Erdogan-Gupta, dense", _powers(3, 8), _dense, _has_series),
     Method("FFT boundary elements", (32, 128, 512, 2048), _own_elements, _has_elements),
-    *(
+)
+
+
+def methods() -> tuple[Method, ...]:
+    """Those of this package and of textbooks, and the codes of others that are installed."""
+    others = (
         Method(name, (32, 128, 512, 2048), _elements(solver), lambda problem: bool(problem.period))
         for name, (module, solver) in peers.INSTALLABLE.items()
         if installed(module)
-    ),
-)
+    )
+    return (*OURS_AND_TEXTBOOKS, *others)
 
 
 def error(problem: Problem, method: Method, n: int, answer: Any) -> float:
@@ -163,7 +168,7 @@ def compute(quick: bool) -> Iterator[Record]:
     rows = []
     for problem in problems(quick):
         best: dict[str, tuple[float, float]] = {}
-        for method in METHODS:
+        for method in methods():
             if not method.applies(problem):
                 continue
             yield Doing(f"{problem.name}, {method.name}")

@@ -39,6 +39,26 @@ def with_pressure(scene: sie.Scene, values: Values | None = None, **claims: Any)
     return solution
 
 
+class WrongState:
+    """A state of slip with another shear."""
+
+    def __init__(self, state: Any, shear: Wrong) -> None:
+        self.right, self.shear = state, shear
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self.right, name)
+
+
+def with_shear(scene: sie.Scene, values: Values) -> sie.Solution:
+    """A solution whose shear takes other values."""
+    solution = sie.solve(scene)
+    state = solution.tangential
+    solution.__dict__["tangential"] = WrongState(state, Wrong(state.shear, values))
+    return solution
+
+
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
 SKEW = sie.Scene(profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))), modulus=1.0, half_width=1.125)
 SMOOTH = sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"), modulus=1.0, half_width=1.5)
