@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 from . import jacobi
 from .errors import ContactError
 from .interval import EPS
+from .kernel import Series
 from .question import (
     PROBES,
     TAIL,
     Attempt,
+    Kernel,
     Problem,
     Terms,
     attempted,
@@ -65,11 +67,11 @@ class System:
 
     Rows in this order: interval by interval its projections on p̃, a condition before them where κ = 1, without the one too many
     where κ = -1; then those that were left out and the conditions that are left, to match the free constants. So the matrix is the
-    identity plus what is smooth, but for that border.
+    identity plus what is smooth, but for that border. The kernel is called once, or not at all where its series is given.
     """
 
-    def __init__(self, problem: Problem, sizes: tuple[int, ...]) -> None:
-        self.problem, self.sizes = problem, sizes
+    def __init__(self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None) -> None:
+        self.problem, self.sizes, self.series = problem, sizes, series
         self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
         self.kernel = self._kernel()
         sampled = [sample(name, f, np.concatenate([b.x for b in self.blocks])) for name, f in problem.functions]
@@ -82,12 +84,16 @@ class System:
         """What is smooth, rows by columns, times dx/ds of the row."""
         x, t = np.concatenate([b.x for b in self.blocks]), np.concatenate([b.t for b in self.blocks])
         stretch = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
-        k = self.problem.k
-        regular = 0.0 if k is None else sample_kernel(k, x, t) * stretch
+        regular = 0.0 if self.problem.k is None else self._regular(self.problem.k, x, t) * stretch
         blocks = range(len(self.blocks))
         cauchy = np.concatenate([np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks])
         out: Array = regular + (real_if_real(self.problem.b) / np.pi) * cauchy
         return out
+
+    def _regular(self, k: Kernel, x: Array, t: Array) -> Array:
+        if self.series is None:
+            return sample_kernel(k, x, t)
+        return self.series.at([0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks])
 
     def _cauchy(self, i: int, j: int) -> Array:
         rows, columns = self.blocks[i], self.blocks[j]
