@@ -9,7 +9,7 @@ free constants u_j answer the equation too many that κ = -1 brings.
 
 Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`). Otherwise the matrix is square, and
 about as well conditioned as the identity plus k (`system`). The sizes grow until coefficients have decayed, the residual is small at
-points that were not used, and the kernel's own coefficients show that its integrals are resolved.
+points that were not used, and the kernel's own coefficients show that its integrals are resolved. k itself is called once (`kernel`).
 
 Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J. Numer. Anal. 19 (1982), for the weighted
 spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. Comput. 17 (1996), for GMRES on equations of the second kind.
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from .errors import ContactError
 from .jacobi_density import JacobiDensity
+from .kernel import Series, series
 from .question import Attempt, Problem
 from .system import System
 from .transform import by_transform
@@ -38,10 +39,10 @@ INCONSISTENT = 1e-9
 
 def solve(problem: Problem, tol: float) -> JacobiDensity:
     """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
-    sizes, idle = _first_sizes(problem, tol), 0
+    sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
     best: JacobiDensity | None = None
     while True:
-        tried = attempt(problem, sizes)
+        tried = attempt(problem, sizes, kernel)
         more = tried.unresolved(tol)
         if not more.any():
             return consistent(tried)
@@ -59,7 +60,7 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
-    """Where there is a kernel on one interval: as many nodes as g needs without it, so that a smooth k is called once."""
+    """Where there is a kernel on one interval: as many nodes as g needs without it, by transforms."""
     sizes, free_of_kernel = problem.first_sizes(), replace(problem, k=None)
     if problem.is_transform or not free_of_kernel.is_transform:
         return sizes
@@ -86,9 +87,9 @@ def consistent(found: Attempt) -> JacobiDensity:
     return found.density
 
 
-def attempt(problem: Problem, sizes: tuple[int, ...]) -> Attempt:
-    """The density with so many nodes on each interval."""
+def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:
+    """The density with so many nodes on each interval; with the kernel's series, if it is known, in place of the kernel."""
     if problem.is_transform:
         return by_transform(problem, sizes[0])
-    system = System(problem, sizes)
+    system = System(problem, sizes, kernel)
     return system.attempt(system.solution())

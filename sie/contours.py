@@ -20,7 +20,7 @@ from .solution import Solution
 
 LEVELS = np.arange(1, 11) / 10.0
 NX, NY = 321, 161
-HEIGHT = 2.25  # inches
+HEIGHT, LINE = 2.25, 0.2  # inches; of a line of the title
 BAR, STICK_BAR = 2.2, 4.5  # points
 ABOVE = 0.14  # of the depth: room above the surface for the bars
 COLOURS = "YlGnBu"
@@ -33,7 +33,8 @@ def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figur
     root = np.sqrt(grid.stress.j2)
     top = weakest.stress if math.isfinite(weakest.stress) else float(np.quantile(root[np.isfinite(root)], 0.999))
     factor, length = _scaled(solution.half_width, units.length)
-    figure = Figure(figsize=(WIDTH, HEIGHT), dpi=DPI, layout="constrained")
+    heading = textwrap.fill(title, TITLE_COLUMNS)
+    figure = Figure(figsize=(WIDTH, HEIGHT + LINE * len(heading.splitlines())), dpi=DPI, layout="constrained")
     axes = figure.subplots()
     x, y = grid.x * factor, grid.y * factor
     filled = axes.contourf(x, y, np.minimum(root, top) / top, levels=[0.0, *LEVELS], cmap=COLOURS)
@@ -49,7 +50,7 @@ def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figur
     bar.set_label(rf"$\sqrt{{J_2}}$ / {_quantity(top, top, units.stress)}", fontproperties=_font(SMALL))
     axes.set_title(_caption(weakest.ratio), fontproperties=_font(SMALL), loc="left")
     if title:
-        figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
+        figure.suptitle(heading, fontproperties=_font(), parse_math=False)
     return figure
 
 

@@ -179,7 +179,8 @@ class CauchyEquation:
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
         """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.
 
-        k is called once for each size that is tried, sizes growing by half. Raises ContactError, with the best `reached["density"]`, when
+        k is called once, on a grid that resolves a smooth kernel whatever g asks for; once more where it is narrower, up to 1000 points;
+        and size by size, growing by half, where it is rougher than that. Raises ContactError, with the best `reached["density"]`, when
         tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
         """
         tol = checks.positive("tol", tol)

@@ -8,7 +8,7 @@
            edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt                                     always
            pressure {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}                                         if wanted
            gap {x: [..], gap: [..]}                                                                                  if wanted
-           shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost, x: [..], q: [..],
+           shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost if known, x: [..], q: [..],
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
            check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, tension, overlap, error, ok} if wanted
@@ -173,7 +173,7 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
         f"# contact from x1 = {x1!r} to x2 = {x2!r}, load {solution.normal_load!r}",
     )
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
-    if solution.sheared:
+    if solution.carries_shear:
         columns |= {"q": solution.shear(x)} | slip_of(solution, x)
     head = (*head, ",".join(columns))
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
@@ -235,17 +235,32 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
         return {}
 
 
+def energy_of(solution: Solution) -> dict[str, float]:
+    """The energy lost, {} where it is not known: dissimilar bodies that slide have slipped in part before."""
+    return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
+
+
+def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
+    """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
+    if solution.scene.epsilon:
+        return ((*solution.edges, float(solution.scene.slides)),)
+    return tuple(solution.tangential.slipped) if solution.sheared else ()
+
+
 def _shear(solution: Solution, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
-    return {
-        "stick": [list(zone) for zone in solution.stick],
-        "slipping": [list(zone) for zone in solution.tangential.slipped] if solution.sheared else [],
-        "resultant": q.resultant,
-        "moment": q.moment,
-        "energy_lost": solution.energy_lost,
-        "x": x.tolist(),
-        "q": q(x).tolist(),
-    } | {name: values.tolist() for name, values in slip_of(solution, x).items()}
+    return (
+        {
+            "stick": [list(zone) for zone in solution.stick],
+            "slipping": [list(zone) for zone in slipping(solution)],
+            "resultant": q.resultant,
+            "moment": q.moment,
+            "x": x.tolist(),
+            "q": q(x).tolist(),
+        }
+        | energy_of(solution)
+        | {name: values.tolist() for name, values in slip_of(solution, x).items()}
+    )
 
 
 def _path(solution: Followed) -> list[dict[str, Any]]:
@@ -341,15 +356,16 @@ def gap_summary(solution: Solution, units: Units) -> str:
 
 def shear_summary(solution: Solution, units: Units) -> str:
     """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
-    if not solution.sheared:
+    if not solution.carries_shear:
         return _rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
-    rows = [("shear load", f"Q = {_number(scene.tangential_load)} {units.force}; f P = {_number(scene.friction * solution.normal_load)}")]
+    limit = "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
+    rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
     rows += [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")] if scene.bulk_stress else []
     rows += [("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}") for lo, hi in solution.stick] or [("stick", "none")]
-    for lo, hi, sign in solution.tangential.slipped:
+    for lo, hi, sign in slipping(solution):
         rows.append(("slip", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p"))
-    rows.append(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
+    rows += [("energy lost", f"{_number(energy)} {units.moment}") for energy in energy_of(solution).values()]
     table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
     return "\n\n".join([_rows(*rows), *table])
 

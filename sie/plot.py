@@ -84,15 +84,16 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     notebook's cell.
     """
     view = _View(solution, units)
-    rows = ["pressure", "gap", *(["shear"] if solution.sheared else []), *(["loop"] if _has_loop(solution) else [])]
+    sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
+    rows = ["pressure", "gap", *(["shear"] if sheared else []), *(["loop"] if _has_loop(solution) else [])]
     figure = Figure(figsize=(WIDTH, HEIGHT * len(rows) / 2.0), dpi=DPI, layout="constrained")
     grid = figure.add_gridspec(len(rows), 1, height_ratios=[1.2 if name == "pressure" else 1.0 for name in rows])
     upper = figure.add_subplot(grid[0])
-    shared = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 3 if solution.sheared else 2))]
+    shared = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 3 if sheared else 2))]
     lower = shared[-1]
     _draw_pressure(upper, view)
     _draw_gap(shared[1], view)
-    if solution.sheared:
+    if sheared:
         _draw_shear(lower, view)
     if _has_loop(solution):
         loop = figure.add_subplot(grid[-1])

@@ -28,6 +28,7 @@ DECAYED = 0.1  # ... to this part of the tolerance, relative to the largest
 # Points on no grid, where the equation's residual is measured.
 PROBES = np.array([-0.967, -0.871, -0.537, 0.071, 0.467, 0.859, 0.973])
 ROUNDING = 4.0 * EPS  # of the largest term of the equation: coefficients below it have decayed
+SUBNORMAL = 64.0 * 5e-324  # what numbers below 2e-308, with fewer digits than others, are rounded to
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to rounding.
 SINGULAR = 1e10
 
@@ -154,6 +155,17 @@ def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
     return values
 
 
+def unsure(x: Array, values: Array, stretch: Array) -> float:
+    """How far values(x) dx/ds are off because x are doubles: what the values vary by over a rounding of x.
+
+    It counts far from x = 0, and where values vary across a narrow gap; no solver could do better.
+    """
+    order = np.argsort(x)
+    at, of, dx = x[order], values[order], stretch[order]
+    steepness = np.abs(np.diff(of)) / np.maximum(np.diff(at), np.spacing(np.abs(at[1:])))
+    return float((steepness * EPS * np.abs(at[1:]) * np.minimum(dx[1:], dx[:-1])).max())
+
+
 def _numeric(name: str, values: Array) -> Array:
     if values.dtype.kind not in "biufc":
         raise ValueError(f"{name} returned values of type {values.dtype}: return numbers")
@@ -177,29 +189,32 @@ def solved(matrix: Array, rhs: Array) -> Array:
 
 
 class Attempt(NamedTuple):
-    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to) and rounding; the constant that g
-    lacks: all relative."""
+    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to), below what both are rounding; the
+    constant that g lacks: all relative."""
 
     density: JacobiDensity
     tails: Array
     residuals: Array
     rounding: Array
+    noise: Array
     defect: float
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
-        unresolved: NDArray[np.bool_] = (self.tails > np.maximum(DECAYED * tol, self.rounding)) | (self.residuals > tol)
+        tails, residuals = self.tails > np.maximum(DECAYED * tol, self.rounding), self.residuals > np.maximum(tol, self.noise)
+        unresolved: NDArray[np.bool_] = tails | residuals
         return unresolved
 
 
 class Terms(NamedTuple):
     """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it everywhere; times dx/ds.
-    And what its nodes miss of the integrals over it, relative."""
+    And what its nodes miss of the integrals over it, relative; and how far the terms may be off because positions are rounded."""
 
     n: int
     left_over: Array
     wanted: Array
     other: Array
     aliased: float
+    unsure: float
 
 
 def attempted(problem: Problem, coefficients: list[Array], unknown: Array, terms: list[Terms]) -> Attempt:
@@ -212,7 +227,7 @@ def attempted(problem: Problem, coefficients: list[Array], unknown: Array, terms
     density = JacobiDensity(parts, tuple(constants.tolist()), tuple(of.n for of in terms), error, float(residuals.max()))
     g = max(float(np.abs(of.wanted).max()) for of in terms)
     defect = float(np.abs(lacking).max(initial=0.0)) * max(m.stretch for m in measured) / positive(g)
-    return Attempt(density, tails, residuals, np.array([of.rounding for of in measured]), defect)
+    return Attempt(density, tails, residuals, np.array([of.rounding for of in measured]), np.array([of.noise for of in measured]), defect)
 
 
 class _Measured(NamedTuple):
@@ -220,6 +235,7 @@ class _Measured(NamedTuple):
     tail: float
     residual: float
     rounding: float
+    noise: float
     stretch: float
 
 
@@ -234,10 +250,11 @@ def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> 
     inverse = weight.inverse
     norm = (1.0 - PROBES) ** (0.5 * inverse.alpha.real + 0.25) * (1.0 + PROBES) ** (0.5 * inverse.beta.real + 0.25)
     residual = max(float((np.abs(of.left_over) * norm).max() / (term * norm.max())), of.aliased)
-    rounding = ROUNDING * term * abs(inverse.total) ** 0.5 / (abs(constant_of(problem, weight)) * scale)
+    rough = max(ROUNDING * term, of.unsure, SUBNORMAL)
+    rounding = rough * abs(inverse.total) ** 0.5 / (abs(constant_of(problem, weight)) * scale)
     part = Part(interval, weight, c[: chebyshev.chopped_length(c, 0.25 * EPS * scale)])
     middle = interval.distances(np.ones(1), np.ones(1))[2]
-    return _Measured(part, float(np.abs(c[-TAIL:]).max()) / scale, residual, float(rounding), float(middle[0]))
+    return _Measured(part, float(np.abs(c[-TAIL:]).max()) / scale, residual, float(rounding), rough / term, float(middle[0]))
 
 
 def positive(*scales: Any) -> float:

@@ -132,6 +132,11 @@ class Solution:
         """Whether there is friction, and a load that shears, and not pressure and shear are one problem."""
         return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
 
+    @property
+    def carries_shear(self) -> bool:
+        """Whether there is a shear traction: of partial slip, or of bodies that slide or are bonded with their pressure."""
+        return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
+
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""

@@ -16,10 +16,12 @@ from numpy.typing import NDArray
 from . import jacobi
 from .errors import ContactError
 from .interval import EPS
+from .kernel import Series
 from .question import (
     PROBES,
     TAIL,
     Attempt,
+    Kernel,
     Problem,
     Terms,
     attempted,
@@ -33,6 +35,7 @@ from .question import (
     sample,
     sample_kernel,
     solved,
+    unsure,
 )  # fmt: skip
 
 Array = NDArray[Any]
@@ -65,29 +68,33 @@ class System:
 
     Rows in this order: interval by interval its projections on p̃, a condition before them where κ = 1, without the one too many
     where κ = -1; then those that were left out and the conditions that are left, to match the free constants. So the matrix is the
-    identity plus what is smooth, but for that border.
+    identity plus what is smooth, but for that border. The kernel is called once, or not at all where its series is given.
     """
 
-    def __init__(self, problem: Problem, sizes: tuple[int, ...]) -> None:
-        self.problem, self.sizes = problem, sizes
+    def __init__(self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None) -> None:
+        self.problem, self.sizes, self.series = problem, sizes, series
         self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
-        self.kernel = self._kernel()
+        self.regular, self.kernel = self._kernel()
         sampled = [sample(name, f, np.concatenate([b.x for b in self.blocks])) for name, f in problem.functions]
         stretch = np.concatenate([b.rows[2] for b in self.blocks])
         self.sampled = np.stack(sampled) * stretch
         of = [functionals(*parts) for parts in zip(problem.maps, problem.weights, sizes, strict=True)]
         self.conditions, self.values = condition_rows(problem, of)
 
-    def _kernel(self) -> Array:
-        """What is smooth, rows by columns, times dx/ds of the row."""
+    def _kernel(self) -> tuple[Array | None, Array]:
+        """k, and all that is smooth, rows by columns, times dx/ds of the row."""
         x, t = np.concatenate([b.x for b in self.blocks]), np.concatenate([b.t for b in self.blocks])
         stretch = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
-        k = self.problem.k
-        regular = 0.0 if k is None else sample_kernel(k, x, t) * stretch
+        regular = None if self.problem.k is None else self._regular(self.problem.k, x, t) * stretch
         blocks = range(len(self.blocks))
         cauchy = np.concatenate([np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks])
-        out: Array = regular + (real_if_real(self.problem.b) / np.pi) * cauchy
-        return out
+        out: Array = (real_if_real(self.problem.b) / np.pi) * cauchy
+        return regular, out if regular is None else regular + out
+
+    def _regular(self, k: Kernel, x: Array, t: Array) -> Array:
+        if self.series is None:
+            return sample_kernel(k, x, t)
+        return self.series.at([0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks])
 
     def _cauchy(self, i: int, j: int) -> Array:
         rows, columns = self.blocks[i], self.blocks[j]
@@ -213,12 +220,14 @@ class System:
         wanted = np.concatenate(([1.0], d)) @ self.sampled
         size = [positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max()) for rows in self._row_slices]
         aliased = self._aliased(c, np.repeat(size, [len(b.x) for b in self.blocks]))
+        varying = wanted if self.regular is None else wanted - self.regular @ self._weighted(c)
         terms = []
         for i, (block, rows, at) in enumerate(zip(self.blocks, self._row_slices, self._column_slices, strict=True)):
             weight, probes = self.problem.weights[i], slice(rows.stop - len(PROBES), rows.stop)
             second = constant_of(self.problem, weight) * jacobi.evaluate(weight.inverse, moved(c[at], block.kappa), PROBES)
             left_over = second + smooth[probes] - wanted[probes]
-            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i]))
+            off = unsure(block.x, varying[rows] / block.rows[2], block.rows[2])
+            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i], off))
         return attempted(self.problem, [c[at] for at in self._column_slices], d, terms)
 
 

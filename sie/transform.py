@@ -13,7 +13,20 @@ from numpy.typing import NDArray
 
 from . import chebyshev, jacobi
 from .jacobi import Weight
-from .question import PROBES, Attempt, Problem, Terms, attempted, condition_rows, constant_of, functionals, positions, sample, solved
+from .question import (
+    PROBES,
+    Attempt,
+    Problem,
+    Terms,
+    attempted,
+    condition_rows,
+    constant_of,
+    functionals,
+    positions,
+    sample,
+    solved,
+    unsure,
+)
 
 Array = NDArray[Any]
 
@@ -33,7 +46,7 @@ def by_transform(problem: Problem, n: int) -> Attempt:
     multiples = np.concatenate(([1.0], unknown))
     wanted = multiples @ sampled
     left_over = constant * jacobi.evaluate(weight.inverse, multiples @ second, PROBES) - wanted[m:]
-    return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0)])
+    return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0, unsure(x, wanted / stretch, stretch))])
 
 
 def _closed(c: Array, defects: Array, rows: Array, values: Array, kappa: int) -> tuple[Array, Array]:

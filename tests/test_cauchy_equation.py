@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie import collocation, jacobi, question, system
+from sie import collocation, jacobi, kernel, question, system
 from sie.jacobi import Weight
+from sie.system import System
 
 mp = mpmath.mp.clone()
 mp.dps = 40
@@ -197,18 +198,80 @@ def test_the_iteration_takes_no_more_steps_for_more_unknowns():
     assert max(counts) <= 2 * min(counts) < 30
 
 
-@pytest.mark.parametrize("intervals", [((-1.0, 1.0),), ((-1.0, 0.0), (0.01, 1.0))])
-def test_the_kernel_is_called_once_for_each_size(intervals, monkeypatch):
+def counted(k, intervals=((-1.0, 1.0),), g=1.0, a=0.0):
+    """(calls of k, density, points at which it is known by nodes of its own, all in one call)."""
+    calls = []
+
+    def counting(x, t):
+        calls.append(x.shape)
+        return k(x, t)
+
+    equation = sie.CauchyEquation(intervals, g, k=counting, a=a, total=(0.0,) * len(intervals))
+    density = equation.solve()
+    count = len(calls)
+    x = np.concatenate([x1 + (x2 - x1) * np.linspace(0.01, 0.99, 23) for x1, x2 in intervals])
+    direct = equation.solve(n=max(64, *density.n))
+    assert np.abs(density(x) - direct(x)).max() <= 1e-13 * np.abs(direct(x)).max()
+    return count, density
+
+
+SMOOTH_KERNELS = [
+    lambda x, t: 0.3, smooth_kernel, lambda x, t: np.cos(5.0 * x * t), lambda x, t: 1.0 / (1.0 + (x - t) ** 2),
+    lambda x, t: 0.2j * np.exp(x),
+    lambda x, t: (0.5 / np.tan(0.5 * (t - x)) - 1.0 / (t - x)) / np.pi,  # 0/0 at x = t, as a periodic row has it
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("k", range(len(SMOOTH_KERNELS)))
+@pytest.mark.parametrize("g", [1.0, lambda x: 1.0 / (x - 1.2)], ids=["short", "long"])
+def test_a_smooth_kernel_is_called_once_whatever_g_asks_for(k, g):
+    assert counted(SMOOTH_KERNELS[k], g=g)[0] == 1
+
+
+@pytest.mark.parametrize(
+    "intervals", [((-1.0, 0.0), (0.01, 1.0)), ((-1.0, 0.0), (0.9, 2.0), (5.0, 5.5)), tuple((2.0 * i, 2.0 * i + 1.0) for i in range(20))]
+)
+def test_on_several_intervals_a_smooth_kernel_is_called_once(intervals):
+    assert counted(lambda x, t: 0.1 * np.cos(0.3 * (x - t)), intervals, np.cos)[0] == 1
+
+
+@pytest.mark.parametrize("height", [0.3, 0.1])
+def test_a_narrow_kernel_is_called_twice(height):
+    """The first grid's coefficients tell how fine the second must be."""
+    count, density = counted(lambda x, t: height / ((t - x) ** 2 + height**2) / np.pi)
+    assert count == 2
+    assert density.n[0] < 25 / height
+
+
+def test_a_kernel_without_a_short_series_is_called_once_for_each_size(monkeypatch):
+    """A kink at x = t: after two grids in vain it is sampled at the nodes of every size that is tried."""
     tried, calls = [], []
-    attempt = collocation.attempt
-    monkeypatch.setattr(collocation, "attempt", lambda problem, sizes: tried.append(sizes) or attempt(problem, sizes))
+    attempt = System.attempt
+    monkeypatch.setattr(System, "attempt", lambda of, unknown: tried.append(of.sizes) or attempt(of, unknown))
+    monkeypatch.setattr(collocation, "LARGEST", 200)
 
     def k(x, t):
         calls.append(x.shape)
-        return smooth_kernel(x, t)
+        return 0.1 * np.abs(x - t)
 
-    sie.CauchyEquation(intervals, np.exp, k=k, total=(0.0,) * len(intervals)).solve()
-    assert len(calls) == len(tried) == len(set(tried))
+    with pytest.raises(sie.ContactError, match="did not settle"):
+        sie.CauchyEquation((-1.0, 1.0), 1.0, k=k, total=0.0).solve()
+    assert len(calls) - 2 == len(tried) == len(set(tried)) > 5
+
+
+@pytest.mark.parametrize("k", [lambda x, t: np.cos(x * t) * np.exp(t), lambda x, t: 1.0 / ((x - t) ** 2 + 0.25)])
+@pytest.mark.parametrize("tol", [1e-13, 1e-6])
+def test_the_series_is_the_kernel_to_the_tolerance(k, tol):
+    s, sigma = np.linspace(-1.0, 1.0, 101), np.linspace(-1.0, 1.0, 77)
+    found = kernel.series(sie.CauchyEquation((0.0, 3.0), 1.0, k=k, total=0.0).problem, tol).at([s], [sigma])
+    exact = k(1.5 + 1.5 * s[:, None], 1.5 + 1.5 * sigma)
+    assert np.abs(found - exact).max() <= tol * np.abs(exact).max()
+
+
+def test_a_series_that_agrees_on_its_grid_only_is_refused():
+    """T_384 is T_0 at the 65 rows (aliases differ by multiples of 128): seen between them."""
+    problem = sie.CauchyEquation((-1.0, 1.0), 1.0, k=lambda x, t: np.cos(384.0 * np.arccos(x)) + 0.0 * t, total=0.0).problem
+    assert kernel.series(problem, 1e-13) is None
 
 
 def test_a_short_series_costs_few_nodes():

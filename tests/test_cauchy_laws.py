@@ -157,6 +157,33 @@ def test_a_narrow_gap_between_intervals_keeps_10_digits(gap, a, ends):
     assert max(density.n) <= 128  # ln(1/gap) only
 
 
+@pytest.mark.parametrize("at", [0.3, -7.0])
+@pytest.mark.parametrize(("a", "ends"), [(0.0, KINDS[0]), (0.3, KINDS[1]), (0.2, KINDS[3])])
+def test_a_narrow_gap_far_from_zero_keeps_10_digits(at, a, ends):
+    """There neighbouring doubles are 1e-10 gaps apart, and g, that varies across the gap, is no smoother: no reason to give up."""
+    intervals, both = ((at - 1.0, at), (at + 1e-6, at + 1.5)), (ends, ends[::-1])
+    manufactured = [
+        Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
+    ]
+    density = equation_of(manufactured, a, 1.0, both).solve()
+    for d in manufactured:
+        agrees(density(inside(d)), exact(d.value, inside(d)), 1e-10, "value")
+
+
+@pytest.mark.parametrize("offset", [1e3, 1e6])
+@pytest.mark.parametrize("k", [None, lambda x, t: 0.1 * np.cos(x - t)])
+def test_far_from_zero_the_density_is_as_good_as_positions_and_says_so(offset, k):
+    """A double at x is x EPS off; of g and k, smooth over a length of 1, as much is unknown."""
+
+    def moved(by):
+        return sie.CauchyEquation((by, 1.0 + by), lambda x: np.exp(x - by), k=k, total=1.0).solve()
+
+    x = np.linspace(0.125, 0.875, 9)  # exact doubles, also with the offset
+    far = moved(offset)
+    agrees(far(x + offset), moved(0.0)(x), 4.0 * offset * 2.2e-16, "value")
+    assert 0.01 * offset * 2.2e-16 <= far.error <= 100.0 * offset * 2.2e-16
+
+
 # -- everywhere in the plane ------------------------------------------------------------------------------------------
 
 PLACES = [complex(s, y) for s in (-1.0, -0.4, 0.9, 1.0) for y in (1e-12, -1e-6, 1e-2, 0.5)]

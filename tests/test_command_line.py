@@ -156,6 +156,28 @@ def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path,
     assert sie.solve(eval(found["scene"], vars(sie) | {"inf": float("inf")})).edges == solution.edges
 
 
+def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv(tmp_path, monkeypatch, capsys):
+    """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not known."""
+    monkeypatch.chdir(tmp_path)
+    path = example("sliding", tmp_path)
+    solution = sie.solve(scenefile.read(path).scene)
+    assert main(["solve", path, "--want", "shear", "--csv", "out.csv"]) == 0
+    assert "Q = 12 N/mm; f P = 12" in capsys.readouterr().out
+    with open("out.csv", encoding="utf-8") as lines:
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    assert [float(row["q"]) for row in rows] == pytest.approx([0.6 * float(row["p"]) for row in rows], rel=1e-15)
+    assert main(["solve", path, "--want", "shear", "--json"]) == 0
+    shear = strict(capsys.readouterr().out)["shear"]
+    assert shear["slipping"] == [[*solution.edges, 1.0]] and shear["stick"] == []
+    assert shear["resultant"] == solution.shear.resultant and "energy_lost" not in shear
+
+
+def test_the_shear_of_bonded_bodies_is_told(tmp_path):
+    flat = sie.Scene(profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0, friction=np.inf, tangential_load=3.0)
+    told = export.shear_summary(sie.solve(flat), scenefile.UNITS)
+    assert "Q = 3" in told and "bonded" in told and "inf" not in told
+
+
 def test_an_infinite_pressure_is_a_string_that_reads_as_a_number(tmp_path, capsys):
     main(["solve", example("flat", tmp_path), "--json"])
     p = strict(capsys.readouterr().out)["pressure"]["p"]

@@ -52,6 +52,15 @@ def test_a_slit_under_a_polynomial_load(coefficients):
     assert intensity_factors(density)[0] == pytest.approx((size * left, size * right), abs=PROMISE * scale)
 
 
+@pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
+def test_a_slit_under_a_linear_load_as_small_or_large_as_numbers_are(p):
+    """Below 2e-308 numbers have fewer digits: the density has as many as they."""
+    density = slit(2.0, lambda x: p * (1.0 + 0.5 * x))
+    x = np.array([-1.2, 0.7])
+    closed = p * (x + 0.5 * x * x - 1.0) / np.sqrt(4.0 - x * x)
+    assert density(x) == pytest.approx(closed, rel=max(1e-13, 1e-321 / p))
+
+
 @pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
 @pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
 def test_a_slit_under_a_point_load(place, height):

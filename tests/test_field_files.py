@@ -101,3 +101,19 @@ def test_the_picture_marks_the_contact_and_the_weakest_points():
         weakest = next(line for line in axes.lines if line.get_marker() == "x")
         assert list(zip(weakest.get_xdata(), weakest.get_ydata(), strict=True)) == list(solution.elastic_limit().places)
         assert axes.get_ylim()[0] > 0.0 > axes.get_ylim()[1]  # depth runs downwards
+
+
+@pytest.mark.parametrize(
+    "title", ["", "Fretting pad", "Steel punch with rounded edges sliding on rubber-like polymer, dry, unworn, at 20 degrees"]
+)
+def test_no_title_pushes_a_label_out_of_the_picture(title):
+    pytest.importorskip("matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+
+    from sie.contours import contours  # noqa: PLC0415
+
+    figure = contours(sie.solve(SCENE), title=title)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    label = figure.axes[0].xaxis.label.get_window_extent(canvas.get_renderer())
+    assert 0.0 <= label.y0 < label.y1 <= figure.bbox.height

@@ -10,12 +10,13 @@ import pytest
 
 import sie
 from validation import certificate, economy, peers, pressure, readme, stability
-from validation.__main__ import TOPICS, main, run, summary
-from validation.figures import Figure, axes, draw, labelled, svg
+from validation.__main__ import TOPICS, main, summary
+from validation.figures import Figure, axes, draw, drawn, labelled, svg
 from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
 from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
 from validation.report import Section, number, page
+from validation.running import run
 from validation.sweeps import SPOILED, Outcome
 from validation.timing import medians
 
@@ -192,7 +193,7 @@ def a_section(name="one"):
     drawing, ax = axes()
     draw(ax, found.curves("figure"))
     labelled(ax, "x [mm]", "y", log="y")
-    return Section(name, "Title", "Words.\n\nMore words.", found, [Figure(name, drawing, "What is seen.")], 0.1)
+    return Section(name, "Title", "Words.\n\nMore words.", found, [drawn(Figure(name, drawing, "What is seen."))], 0.1)
 
 
 def test_the_page_needs_no_network_and_fits_a_phone():
@@ -249,19 +250,29 @@ def test_the_bar_moves_forward_and_never_beyond_the_end():
         def isatty(self):
             return True
 
-    progress = Progress([1.0, 3.0], Terminal())
+    progress = Progress({"one": 1.0, "two": 3.0}, Terminal())
     shares = [progress.share()]
     for name in ("one", "two"):
         progress.topic(name)
         progress.tell("something")
         shares.append(progress.share())
+        progress.behind(name)
+        shares.append(progress.share())
     assert shares == sorted(shares)
-    assert 0.25 <= shares[-1] < 1.0
+    assert shares[2] == 0.25 <= shares[3] < shares[4] == 1.0
     assert "two: something" in progress.stream.getvalue()
-    silent = Progress([1.0], StringIO())
+    silent = Progress({"one": 1.0, "two": 1.0}, StringIO())
     silent.topic("one")
     silent.tell("nothing but a line for each topic")
-    assert silent.stream.getvalue() == "one ...\n"
+    silent.behind("one")
+    silent.behind("two")
+    assert silent.stream.getvalue() == "one ...\ntwo done\n"
+
+
+def test_topics_beside_each_other_find_what_they_find_alone():
+    alone, beside = run(["mutation"], quick=True)[0][0], run(["mutation", "appendix"], quick=True)[0]
+    assert [s.name for s in beside] == ["mutation", "appendix"]
+    assert alone.found.as_json() == beside[0].found.as_json()
 
 
 def test_one_topic_by_the_command_line(tmp_path, capsys):

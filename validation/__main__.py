@@ -9,15 +9,12 @@ import argparse
 import importlib
 import json
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
-from types import ModuleType
 
 from . import readme
-from .progress import Progress
-from .records import kept
 from .report import Section, machine, number, page
+from .running import run
 
 # Modules of this package, in the order of the page.
 TOPICS = (
@@ -45,20 +42,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if given.readme:
         readme.write(numbers)
     return summary(sections, seconds, given.out)
-
-
-def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
-    """The sections of the page, and the seconds they took."""
-    topics: dict[str, ModuleType] = {name: importlib.import_module(f"validation.{name}") for name in names}
-    progress = Progress([topic.SECONDS[0 if quick else 1] for topic in topics.values()])
-    sections = []
-    for name, topic in topics.items():
-        progress.topic(name)
-        start = time.perf_counter()
-        found = kept(topic.compute(quick), progress.tell)
-        progress.tell("figures")
-        sections.append(Section(name, topic.TITLE, topic.__doc__ or "", found, list(topic.figures(found)), time.perf_counter() - start))
-    return sections, progress.done()
 
 
 def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:

@@ -24,6 +24,7 @@ from .records import Claim, Curve, Doing, Found, Record, Table
 
 TITLE = "The appendix: (24) to (35)"
 SECONDS = (4.0, 12.0)
+TIMED = False
 
 DIGITS = 50
 mp = context(DIGITS + GUARD)

@@ -25,6 +25,7 @@ from .wrong import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"
 SECONDS = (2.0, 35.0)
+TIMED = False
 COUNTS = (100, 2000)
 SEED = 20260711
 mp = context(22)

@@ -29,6 +29,7 @@ mp.dps = 40
 
 TITLE = "Cauchy equations: accuracy and growth of the general solver"
 SECONDS = (4.0, 20.0)
+TIMED = True
 
 LIGAMENTS = tuple(10.0**-k for k in range(9))
 SIZES = (200, 400, 800, 1600, 3200)

@@ -20,6 +20,7 @@ from .timing import medians
 
 TITLE = "Economy: what a scene does not need is not computed"
 SECONDS = (2.0, 4.0)
+TIMED = True
 SAME = 1e-13
 RIM = sie.RoundedFlat(0.5, 1.0)
 SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")

@@ -45,6 +45,19 @@ class Figure:
     caption: str
 
 
+@dataclass(frozen=True)
+class Drawn:
+    """A figure as an SVG element."""
+
+    name: str
+    element: str
+    caption: str
+
+
+def drawn(figure: Figure) -> Drawn:
+    return Drawn(figure.name, svg(figure), figure.caption)
+
+
 def axes(rows: int = 1, *, height: float = HEIGHT, **options: Any) -> tuple[Any, Any]:
     """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array)."""
     import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it

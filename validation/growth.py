@@ -20,6 +20,7 @@ from .timing import fastest
 
 TITLE = "Growth with pieces and points"
 SECONDS = (3.0, 25.0)
+TIMED = True
 LINEAR = 1.25  # exponent: linear, logarithms and a busy machine allowed
 SIZES = {
     "pieces": ((100, 300, 1000), (100, 300, 1000, 3000, 10_000)),

@@ -23,6 +23,7 @@ from .timing import compared
 
 TITLE = "Pressure, edges and load against 40 digits"
 SECONDS = (6.0, 40.0)
+TIMED = True
 
 POINTS = 1001
 PROMISE = 1e-13

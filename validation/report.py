@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import scipy
 
-from .figures import Figure, svg
+from .figures import Drawn
 from .records import Claim, Found, Table
 
 CSS = """
@@ -49,7 +49,7 @@ class Section:
     title: str
     introduction: str
     found: Found
-    figures: Sequence[Figure]
+    figures: Sequence[Drawn]
     seconds: float
 
 
@@ -116,8 +116,8 @@ def _cell(label: str, inner: str, kind: str = "") -> str:
     return f'<td data-label="{label}"{f" class={kind}" if kind else ""}>{inner}</td>'
 
 
-def _figure(figure: Figure) -> str:
-    return f"<figure>{svg(figure)}<figcaption>{escape(figure.caption)}</figcaption></figure>"
+def _figure(figure: Drawn) -> str:
+    return f"<figure>{figure.element}<figcaption>{escape(figure.caption)}</figcaption></figure>"
 
 
 def _table(table: Table) -> str:

@@ -29,6 +29,7 @@ from .timing import fastest
 
 TITLE = "Sampled profiles: splines, growth, noise"
 SECONDS = (2.0, 15.0)
+TIMED = True
 BAR = 1e-11
 SPOILED = 1e-9
 NODES = 12  # of Gauss-Legendre on each piece of a spline: exact to degree 23, and the pieces are short

@@ -25,6 +25,7 @@ from .records import Claim, Curve, Doing, Found, Record, Table
 
 TITLE = "Dissimilar bodies: sliding, and full stick"
 SECONDS = (1.5, 4.0)
+TIMED = False
 BAR = 1e-13
 SPOILED = 1e-11
 mp = context(30)

@@ -24,6 +24,7 @@ from .sweeps import Outcome, Sweep, logit, near_ends
 
 TITLE = "Stability: error maps and the frontier"
 SECONDS = (3.0, 30.0)
+TIMED = False
 BAR = 1e-13
 FLATNESS = "decades of (a/b)/(1 - a/b)"
 STATES = {"full": "tab:green", "known": "gold", "lost": "tab:red"}

@@ -29,6 +29,7 @@ from .timing import compared
 
 TITLE = "Error against run time"
 SECONDS = (4.0, 40.0)
+TIMED = True
 SLOWEST = 0.5  # seconds: a method that took longer is not tried at the next size
 GRID_REACH = 1.6  # elements cover so many half-widths to each side
 

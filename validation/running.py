@@ -1,0 +1,90 @@
+"""Topics computed and drawn: those that measure no time beside each other, those that do one after the other while nothing else runs."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from types import ModuleType
+from typing import Any
+
+from .figures import Drawn, drawn
+from .progress import Progress
+from .records import Found, kept
+from .report import Section
+
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
+    """The sections of the page in the order of the names, and the seconds they took."""
+    topics = {name: _topic(name) for name in names}
+    progress = Progress({name: topic.SECONDS[0 if quick else 1] for name, topic in topics.items()})
+    found: dict[str, tuple[Found, float]] = {}
+    with workers(len(names)) as pool:
+        beside = {pool.submit(computed, name, quick): name for name, topic in topics.items() if not topic.TIMED}
+        progress.tell(f"{len(beside)} topics beside each other")
+        for future in as_completed(beside):
+            found[beside[future]] = future.result()
+            progress.behind(beside[future])
+        for name, topic in topics.items():
+            if topic.TIMED:
+                progress.topic(name)
+                found[name] = computed(name, quick, progress.tell)
+                progress.behind(name)
+        progress.tell("figures")
+        figures = {name: pool.submit(figures_of, name, found[name][0]) for name in names}
+        sections = []
+        for name, topic in topics.items():
+            (records, computing), (drawings, drawing) = found[name], figures[name].result()
+            sections.append(Section(name, topic.TITLE, topic.__doc__ or "", records, drawings, computing + drawing))
+    return sections, progress.done()
+
+
+def computed(name: str, quick: bool, tell: Callable[[str], None] = lambda what: None) -> tuple[Found, float]:
+    """What a topic finds, and the seconds it took."""
+    start = time.perf_counter()
+    return kept(_topic(name).compute(quick), tell), time.perf_counter() - start
+
+
+def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
+    """A topic's figures as SVG, and the seconds they took."""
+    start = time.perf_counter()
+    return [drawn(figure) for figure in _topic(name).figures(found)], time.perf_counter() - start
+
+
+@contextmanager
+def workers(topics: int) -> Iterator[Executor]:
+    """A process for each core, each with one thread of its own; this process alone for a single topic or core."""
+    cores = os.cpu_count() or 1
+    if min(topics, cores) == 1:
+        yield Here()
+        return
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # only what is started from here on reads them
+    try:
+        with ProcessPoolExecutor(min(topics, cores), mp_context=multiprocessing.get_context("spawn")) as pool:
+            yield pool
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+class Here(Executor):
+    """Runs what it is given at once, in this process."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+
+def _topic(name: str) -> ModuleType:
+    return importlib.import_module(f"validation.{name}")
