@@ -38,12 +38,12 @@ SHOWN = (0.0, 0.1, 0.3, 0.49)
 
 @dataclass(frozen=True)
 class Slider:
-    """A profile with E* = 1 and a half-width or load; pressure and potential in closed form, of x or z in mpmath and of βf."""
+    """A profile with E* = 1 and a half-width or load; closed forms of x or z and of βf, the pressure in NumPy or mpmath."""
 
     name: str
     profile: sie.Profile
     loads: dict[str, float]
-    pressure: Callable[[Any, float], Any]
+    pressure: Callable[[Any, float, Any], Any]
     potential: Callable[[Any, float], Any] | None = None
     moment: Callable[[float], Any] | None = None
 
@@ -61,7 +61,7 @@ SLIDERS = (
         "parabola",
         sie.Parabola(1.0),
         {"half_width": 1.0},
-        lambda x, k: sliding_hertz.pressure(x, **HERTZ, coupling=k, lib=mp),
+        lambda x, k, lib: sliding_hertz.pressure(x, **HERTZ, coupling=k, lib=lib),
         lambda z, k: sliding_hertz.potential(z, **HERTZ, coupling=k, lib=mp),
         lambda k: sliding_hertz.moment(**HERTZ, coupling=k, lib=mp),
     ),
@@ -69,7 +69,7 @@ SLIDERS = (
         "flat",
         sie.Flat(1.0),
         {"normal_load": 1.0},
-        lambda x, k: sliding_flat.pressure(x, **FLAT, coupling=k, lib=mp),
+        lambda x, k, lib: sliding_flat.pressure(x, **FLAT, coupling=k, lib=lib),
         lambda z, k: sliding_flat.potential(z, **FLAT, coupling=k, lib=mp),
         lambda k: sliding_flat.upright_moment(**FLAT, coupling=k, lib=mp),
     ),
@@ -77,7 +77,7 @@ SLIDERS = (
         "rounded flat",
         sie.RoundedFlat(0.5, 1.0),
         {"normal_load": 0.3},
-        lambda x, k: sliding_rounded_flat.pressure(x, **PUNCH, coupling=k, lib=mp),
+        lambda x, k, lib: sliding_rounded_flat.pressure(x, **PUNCH, coupling=k, lib=lib),
         moment=lambda k: sliding_rounded_flat.moment(**PUNCH, coupling=k, lib=mp),
     ),
 )
@@ -102,7 +102,7 @@ def judged(slider: Slider, coupling: float, factor: float = 1.0, truth: float | 
     """Errors of pressure, moment and potential, and what the certificate says; `truth` is the βf of the closed form."""
     solution, k = slider.solve(coupling), mp.mpf(coupling if truth is None else truth)
     x = solution.centre + solution.half_width * PLACES
-    p = apart(solution.pressure(x), [slider.pressure(mp.mpf(v), k) for v in x.tolist()], factor)
+    p = apart(solution.pressure(x), [slider.pressure(mp.mpf(v), k, mp) for v in x.tolist()], factor)
     assert slider.moment is not None
     arm = solution.normal_load * solution.half_width
     moment = abs(float(mp.mpf(factor * solution.moment) - slider.moment(k))) / arm
@@ -140,8 +140,7 @@ def _drawn(slider: Slider, k: float) -> Iterator[Curve]:
     x = solution.centre + solution.half_width * s
     yield Curve(f"p: {slider.name}", f"βf = {k:g}", x, scale * solution.pressure(x))
     marks = solution.centre + solution.half_width * PLACES[1:-1]
-    exact = [scale * float(slider.pressure(mp.mpf(v), mp.mpf(k))) for v in marks.tolist()]
-    yield Curve(f"p: {slider.name} points", "", marks, exact, "points")
+    yield Curve(f"p: {slider.name} points", "", marks, scale * slider.pressure(marks, k, np), "points")
 
 
 # -- full stick ------------------------------------------------------------------------------------------------------------
