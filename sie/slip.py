@@ -33,6 +33,7 @@ from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, two_product
 from .moments import moments
+from .narrow import narrow_zones
 from .normal import contact_under
 from .panels import Panels
 from .scene import Scene
@@ -137,8 +138,9 @@ def _two_ways(step: Step) -> TwoWays:
     sign = math.copysign(1.0, tau)
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
     seen_from = rims(step.pressure, step.slope)
-    found = zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
-    slope = refined(step.slope, found.stick.x1, found.stick.x2, EPS)
+    found = narrow_zones(seen_from, contact, drive) or zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
+    # Beyond both ends: a narrow zone may lie between two doubles
+    slope = refined(step.slope, math.nextafter(found.stick.x1, -math.inf), math.nextafter(found.stick.x2, math.inf), EPS)
     I0 = moments(slope, found.stick).I0
     formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
     return TwoWays(step.pressure, step.slope, f, found, formal, step)
