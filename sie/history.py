@@ -204,6 +204,11 @@ class Followed(Solution):
         return Track(self.history, self.index)
 
     @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The zones that stick at this point; found without the scene, which a cycle of many steps would spend its time on."""
+        return self.tangential.stick if self.sheared else ()
+
+    @property
     def energy_lost(self) -> float:
         """What friction turned into heat since the beginning of the path."""
         return self.history.energy(self.index) if self.sheared else 0.0
