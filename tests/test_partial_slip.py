@@ -115,6 +115,19 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
         assert abs(float(solution.shear(x)) / q - 1) < 1e-12 + 2 * math.ulp(x) / mp.sqrt((c - x) * (b - c))  # what an ulp of c does
 
 
+@pytest.mark.parametrize("profile", [sie.Polynomial((0.0, 0.0, 0.06, 0.02, 0.02)), sie.Power(6.5, 0.6), sie.Power(2.5, 0.6)], ids=repr)
+@pytest.mark.parametrize("tilt", [-0.08, 0.03, 0.5])
+def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_first(profile, tilt):
+    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c over the profile's own length, 1e-6."""
+    solution = sheared(profile, 1.0 - 1e-13, tilt=tilt)
+    ((lo, hi),) = solution.stick
+    z, step = 0.5 * (lo + hi), 1e-5
+    curvature = float(np.diff(profile.slope([z - step, z + step]))[0]) / (2.0 * step)
+    c = 0.5 * (hi - lo)
+    assert abs(float(profile.slope(z)) + tilt) < 2e-6 * curvature * c
+    assert c == pytest.approx(math.sqrt(4.0 * float(left_over(solution)) / (math.pi * E * curvature)), rel=1e-6)
+
+
 # -- sliding, sticking, refusing ----------------------------------------------------------------------------------------
 
 
