@@ -43,6 +43,8 @@ from .zones import Drive, zones
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
+# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it lies between two doubles.
+BESIDE = 16.0 * EPS
 # Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they would underflow.
 SMALLEST = 1e-60
 # Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
@@ -139,8 +141,9 @@ def _two_ways(step: Step) -> TwoWays:
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
     seen_from = rims(step.pressure, step.slope)
     found = narrow_zones(seen_from, contact, drive) or zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
-    # Beyond both ends: a narrow zone may lie between two doubles
-    slope = refined(step.slope, math.nextafter(found.stick.x1, -math.inf), math.nextafter(found.stick.x2, math.inf), EPS)
+    lo, hi = step.slope.domain
+    beyond = BESIDE * (contact.r + abs(contact.m))
+    slope = refined(step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS)
     I0 = moments(slope, found.stick).I0
     formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
     return TwoWays(step.pressure, step.slope, f, found, formal, step)

@@ -357,10 +357,16 @@ def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
 @pytest.mark.parametrize("fraction", [0.0, 0.3, -0.99])
 def test_every_bulk_stress_is_solved(profile, fraction):
     """However large: the law holds, and Q is carried."""
-    for strain in (2.0, 10.0, 40.0, 1e3, 1e8):
+    for strain in (2.0, -10.0, 40.0, -1e3, 1e8):
         solution = sheared(profile, fraction, bulk_stress=strain * P)
         assert solution.check().shear.ok, solution.check().shear
         assert 0.0 < solution.energy_lost < math.inf
+
+
+def test_a_stick_zone_between_two_doubles_is_solved_for_a_slope_given_by_a_function():
+    solution = sheared(sie.Power(4.2, 0.2), 1.0 - 1e-9, bulk_stress=-1e3 * P)
+    assert solution.tangential.kind == "two signs"
+    assert solution.check().shear.ok, solution.check().shear
 
 
 @pytest.mark.parametrize("fraction", [1e-7, 3e-5, 1e-3, 9e-3])
