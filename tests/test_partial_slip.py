@@ -353,7 +353,7 @@ def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
     assert solution.check().ok
 
 
-@pytest.mark.parametrize("profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3), sie.Power(3.5, 0.4)], ids=repr)
+@pytest.mark.parametrize("profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3)], ids=repr)
 @pytest.mark.parametrize("fraction", [0.0, 0.3, -0.99])
 def test_every_bulk_stress_is_solved(profile, fraction):
     """However large: the law holds, and Q is carried."""
