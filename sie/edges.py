@@ -191,7 +191,8 @@ class Search:
         ahead = bisect_right(breaks, z)
         if ahead < len(breaks):
             return breaks[ahead] - z
-        return max(z - breaks[0], abs(z)) if breaks and breaks[0] < z else target
+        # Not within rounding of z, where the load would be noise
+        return max(z - breaks[0], abs(z)) if breaks and breaks[0] < z else max(target, math.sqrt(EPS) * abs(z))
 
     def _too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:

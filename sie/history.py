@@ -4,9 +4,11 @@ The first point is answered like a scene: P alone, then Q and σ in proportion. 
 time. What is exact, and covered:
 
     constant P, any Q                  every unloading, reloading and nested loop (`ladder`)
-    constant P, σ in proportion to Q   the same, as long as the zones of slip of the largest amplitude opened monotonically (`slip`)
+    constant P, σ in proportion to Q   the same, as long as the zones of slip of the largest amplitude opened monotonically (`slip`);
+                                       P may change before
     P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with |dQ/dP| on either side of f, or falls.
-                                       The contacts of one profile at one tilt are nested: a given moment would tilt it
+                                       The contacts of one profile at one tilt are nested: a given moment would tilt it (but for moment
+                                       = 0 of a symmetric profile)
 
 Everything else raises ContactError, which names the step and the reason. A path may begin unloaded, at (0, 0, 0).
 """
@@ -18,6 +20,7 @@ from bisect import bisect_left
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, overload
 
 import numpy as np
@@ -201,6 +204,11 @@ class Followed(Solution):
         return Track(self.history, self.index)
 
     @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The zones that stick at this point; found without the scene, which a cycle of many steps would spend its time on."""
+        return self.tangential.stick if self.sheared else ()
+
+    @property
     def energy_lost(self) -> float:
         """What friction turned into heat since the beginning of the path."""
         return self.history.energy(self.index) if self.sheared else 0.0
@@ -326,8 +334,10 @@ class Track(Slip):
 
     @cached_property
     def shift(self) -> float:
-        if any(state.loads[0] != self.P for state in self.history.states[: self.index + 1]):
-            raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed on this path")
+        past = self.history.states[: self.index + 1]
+        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.layers]
+        if any(P != self.P for pair in loads for P in pair):
+            raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed while it was sheared")
         return sum(weight * virgin.shift for weight, virgin in self._terms)
 
 

@@ -267,9 +267,11 @@ def _first_window(scene: Scene) -> tuple[float, float]:
         assert scene.normal_load is not None
         sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
         with np.errstate(invalid="ignore", over="ignore"):
-            H = np.abs(profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi))).reshape(2, -1).max(axis=0)
-            enough = np.flatnonzero(~(0.5 * scene.Estar * WINDOW_SIZES * H < scene.normal_load))
-        size = float(WINDOW_SIZES[enough[0]]) if enough.size else 1.0
+            H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
+            # A tilted profile touches first where its slope has risen to 0, on one side: both have to rise outwards
+            outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
+            enough = [np.flatnonzero(~(force < scene.normal_load)) for force in outwards]
+        size = max((float(WINDOW_SIZES[k[0]]) for k in enough if k.size), default=1.0)
     return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)
 
 

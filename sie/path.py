@@ -17,6 +17,7 @@ from .ladder import Ladder, Overwritten
 from .scene import Scene
 from .slip import refuse_sliding
 
+TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
 PROPORTIONAL = 1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
 
 
@@ -31,9 +32,18 @@ class Path:
     points: tuple[tuple[float, float, float], ...]
 
     def __init__(self, points: Iterable[Sequence[float]]) -> None:
-        object.__setattr__(self, "points", tuple(_point(k, point) for k, point in enumerate(points)))
-        if not self.points:
+        if not isinstance(points, Iterable):
+            raise ValueError(f"{points!r} is not a sequence of points: give [(P, Q, σ), ...]")
+        found = tuple(_point(k, point) for k, point in enumerate(points))
+        if not found:
             raise ValueError("the path has no points: give [(P, Q, σ), ...]")
+        touching = next((k for k, (P, _, _) in enumerate(found) if P > 0.0), None)
+        if touching is None:
+            raise ValueError("P = 0 at every point of the path: nothing ever touches; add a point with P > 0")
+        for k, (P, _, _) in enumerate(found):
+            if P == 0.0 and k > touching:
+                raise ValueError(f"P of point {k} = 0 is not positive: {TOUCHING}")
+        object.__setattr__(self, "points", found)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -50,8 +60,8 @@ def _point(k: int, point: Any) -> tuple[float, float, float]:
     if len(values) not in (2, 3):
         raise ValueError(f"point {k} of the path is {point!r}: give (P, Q) or (P, Q, σ)")
     P, Q, sigma = (checks.finite(f"{name} of point {k}", v) for name, v in zip("PQσ", (*values, 0.0)[:3], strict=True))
-    if P < 0.0 or (P == 0.0 and (k > 0 or Q != 0.0 or sigma != 0.0)):
-        raise ValueError(f"P of point {k} = {P:g} is not positive: the bodies must touch all along the path, which may begin at (0, 0, 0)")
+    if P < 0.0 or (P == 0.0 and (Q != 0.0 or sigma != 0.0)):
+        raise ValueError(f"P of point {k} = {P:g} is not positive: {TOUCHING}")
     return P, Q, sigma
 
 
@@ -98,7 +108,7 @@ def _size(f: float, P: float, unit: tuple[float, float]) -> float:
 
 
 def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], unit: tuple[float, float]) -> State:
-    (P0, Q0, _), (P, Q, sigma), f = before.loads, loads, scene.friction
+    (P0, Q0, sigma0), (P, Q, sigma), f = before.loads, loads, scene.friction
     if f == 0.0:
         return State(loads, Ladder(0.0))
     amplitude = sigma / unit[1] if unit[1] else Q
@@ -109,9 +119,14 @@ def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], uni
         )
     if P == P0:
         return _pulled(loads, before.ladder, amplitude)
+    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and not before.ladder.layers:
+        return State(loads, Ladder(_size(f, P, unit)))  # nothing was ever sheared
     if unit[1]:
-        raise ContactError("P changes while a bulk stress acts: no superposition is exact then; keep P constant, or leave σ out")
-    if scene.moment is not None:
+        raise ContactError(
+            "P changes on a path with a bulk stress, after it or together with it: no superposition is exact then; "
+            "reach P before Q and σ and keep it constant, or leave σ out"
+        )
+    if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
         raise ContactError("P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead")
     if P > P0:
         k = (Q - Q0) / (f * (P - P0))

@@ -286,8 +286,6 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
         raise ValueError(f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out")
     with _Naming("[load]"):
         points = Path(loads.pop("path")).points
-    if points[-1][0] == 0.0:
-        raise ValueError("[load] path has no load: give points [P, Q] with P > 0")
     loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), points[-1], strict=True))
     return points
 

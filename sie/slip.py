@@ -33,6 +33,7 @@ from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, two_product
 from .moments import moments
+from .narrow import narrow_zones
 from .normal import contact_under
 from .panels import Panels
 from .scene import Scene
@@ -42,6 +43,8 @@ from .zones import Drive, zones
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
+# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it lies between two doubles.
+BESIDE = 16.0 * EPS
 # Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they would underflow.
 SMALLEST = 1e-60
 # Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
@@ -137,8 +140,10 @@ def _two_ways(step: Step) -> TwoWays:
     sign = math.copysign(1.0, tau)
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
     seen_from = rims(step.pressure, step.slope)
-    found = zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
-    slope = refined(step.slope, found.stick.x1, found.stick.x2, EPS)
+    found = narrow_zones(seen_from, contact, drive) or zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
+    lo, hi = step.slope.domain
+    beyond = BESIDE * (contact.r + abs(contact.m))
+    slope = refined(step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS)
     I0 = moments(slope, found.stick).I0
     formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
     return TwoWays(step.pressure, step.slope, f, found, formal, step)

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 from .check import ShearCertificate
 from .composite import Rule, composite_rule
 from .density import SlopeDensity
-from .interval import Interval
+from .interval import EPS, Interval
 from .slope import Slope
 from .states import Slip
 
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
+ENDS = 32.0 * EPS  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
 
 
 def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float) -> ShearCertificate:
@@ -42,7 +43,7 @@ def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], r
     return ShearCertificate(
         residual=_residual(state, pressure.contact, rule, q, loads[1]) / peak,
         equilibrium=abs(float(weight @ q) - loads[0]) / size,
-        excess=_excess(state, x, p, q) / float(p.max()),
+        excess=_excess(state, pressure.contact, x, p, q) / float(p.max()),
         opposing=_opposing(state, x),
         abscissae=max(of_force / size, of_equation / peak),
         condition=state.condition,
@@ -64,10 +65,11 @@ def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) 
     return float(np.abs((((q - values[:, None]) / distance) @ rule.weight + whole) / np.pi - tau).max())
 
 
-def _excess(state: Slip, x: Array, p: Array, q: Array) -> float:
+def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
     worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())  # a node on a corner, where p is infinite, was set to 0
+    margin = ENDS * (contact.r + abs(contact.m))
     for lo, hi, sign in state.slipped:
-        slipping = (x > lo) & (x < hi) & (p > 0.0)
+        slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
         worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
     return worst
 
@@ -81,10 +83,15 @@ def _opposing(state: Slip, x: Array) -> float:
 
 
 def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array) -> tuple[float, float]:
-    """What one ulp of x does to ∫q dx, and to q where the equation is measured."""
-    moved = np.abs(_finite(state.shear(np.nextafter(x, contact.m))) - q)
+    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx, and to q where the equation is measured."""
+    ulp = float(np.spacing(contact.r + abs(contact.m)))
+
+    def inwards(x: Array) -> Array:
+        return x + np.where(x < contact.m, ulp, -ulp)
+
     at = _points(state, x)
-    here = np.abs(state.shear(np.nextafter(at, contact.m)) - state.shear(at))
+    moved = np.abs(_finite(state.shear(inwards(x))) - q)
+    here = np.abs(_finite(state.shear(inwards(at))) - state.shear(at))
     return float(weight @ moved), float(here.max(initial=0.0))
 
 

@@ -15,7 +15,7 @@ from .adaptive import refined
 from .check import verify_inequalities
 from .density import ZERO, Density, SlopeDensity
 from .gap import gap
-from .interval import EPS, Interval
+from .interval import EPS, Interval, two_sum
 from .moments import moments
 from .normal import Normal, pressure
 from .scene import Scene
@@ -334,11 +334,13 @@ class TwoWays(_Slipping):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return ((self.found.stick.x1, self.found.stick.x2),)
+        found = self.found
+        return ((found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),)
 
     @cached_property
     def shear(self) -> Density:
-        return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, self.step.tau)
+        held = self.step.tau - math.copysign(self.friction * self.found.spare / math.pi, self.step.tau)
+        return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, held)
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
@@ -361,14 +363,16 @@ class TwoWays(_Slipping):
         return gap(-rim.side * distance, formal, slope, self._more(formal.contact))
 
     def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
-        """What the other zone's shear adds to the outward derivative of slip/f."""
+        """What the other zone's shear, and strain that nothing holds back, add to the outward derivative of slip/f."""
         G, rho = self.pressure.half_modulus, stick.r
 
         def more(x: Array, side: float) -> Array:
             from_far, from_near = (stick.from_left(x), -stick.from_right(x)) if side > 0.0 else (stick.from_right(x), -stick.from_left(x))
             other = self.found.left if side > 0.0 else self.found.right
             near = np.maximum(from_near, 0.0)
-            return 2.0 / (math.pi * G) * np.sqrt(from_far * near) * other.pull(from_far, rho)
+            pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
+            opening: Array = (pull + self.found.spare) / (math.pi * G)
+            return opening
 
         return more
 
@@ -384,10 +388,11 @@ def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -
 
 def seen(density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim) -> tuple[SlopeDensity, Slope]:
     """A density on the stick zone and its slope in the coordinates of a rim."""
-    left, right = lengths
-    ends = (left - rim.width, -right) if rim.side > 0.0 else (left, rim.width - right)
+    near = lengths[rim.side > 0.0]
+    far, rest = two_sum(-near, -2.0 * density.contact.r)  # from the width of the stick zone, which the other length may not tell
+    ends = Interval(far, -near, rest, 0.0) if rim.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = rim.origin
-    return moved(density, Interval(*ends), dx, tail), slope.shifted(dx).shifted(tail)
+    return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
 
 
 def _guess(step: Step, sign: float) -> tuple[float, float]:

@@ -177,6 +177,7 @@ class Zones:
     left: Zone
     right: Zone
     drive: Drive
+    spare: float = 0.0  # of π τ/f: what a stick zone that has no width does not hold back (`narrow`)
 
     def shear(self, x: Array) -> Array:
         """q/f inside the stick zone, x 1-d."""
@@ -229,10 +230,10 @@ def _length(rims: tuple[Rim, Rim], r: float, drive: Drive, lengths: list[float],
         rho = r - 0.5 * (length + other.length)
         return zone(rims[k], length).strong(rho) + sign * (others * other.weak(rho) - drive.load - outward * rho * drive.strain)
 
-    return _root(excess, lengths[k], 2.0 * r - other.length)
+    return root(excess, lengths[k], 2.0 * r - other.length)
 
 
-def _root(function: Callable[[float], float], guess: float, limit: float) -> float:
+def root(function: Callable[[float], float], guess: float, limit: float) -> float:
     """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
     low, high = 0.0, limit
     u, step = min(guess, 0.5 * limit), np.inf

@@ -18,9 +18,10 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "potential", "density", "superposition",
     "jacobi", "grading", "jacobi_density", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "normal", "gap", "composite", "check",
-    "bonded", "zones", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan", "solution", "ladder",
-    "path", "history", "fretting", "charts", "sweep", "scenefile", "compare", "grid", "export", "plot", "contours", "__main__",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "normal", "gap", "composite",
+    "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
+    "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "scenefile", "compare", "grid", "export", "plot",
+    "contours", "__main__",
 )  # fmt: skip
 
 

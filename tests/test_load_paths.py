@@ -177,6 +177,25 @@ def test_energy_of_loading_hertz_with_a_growing_normal_load():
     assert lost == pytest.approx(by_hand, rel=1e-10)
 
 
+def test_normal_load_alone_comes_before_anything():
+    """From (0, 0, 0), up, down: what is applied later, bulk stress included, finds a contact that was never sheared."""
+    Q, sigma = 0.4 * FP, 0.1
+    loads = [(P, Q, sigma), (P, -0.2 * Q, -0.2 * sigma)]
+    later = sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.0, 0.0), (2.0 * P, 0.0), (P, 0.0), *loads]))
+    at_once = sie.follow(HERTZ, sie.Path(loads))
+    x = np.linspace(*at_once[0].edges, 21)
+    for one, other in zip(later[4:], at_once, strict=True):
+        assert one.stick == other.stick and one.energy_lost == other.energy_lost and one.shift == other.shift
+        assert (one.shear(x) == other.shear(x)).all() and (one.slip(x) == other.slip(x)).all()
+
+
+def test_no_moment_on_a_symmetric_profile_is_no_tilt():
+    path = sie.Path([(P, 0.05), (2 * P, 0.3), (P, 0.1)])
+    balanced, upright = (sie.follow(sie.Scene(**fields(HERTZ) | {"tilt": 0.0} | more), path) for more in ({}, {"moment": 0.0}))
+    for one, other in zip(balanced, upright, strict=True):
+        assert one.stick == other.stick and one.energy_lost == other.energy_lost
+
+
 # -- refusals -----------------------------------------------------------------------------------------------------------
 
 
@@ -185,7 +204,7 @@ def test_energy_of_loading_hertz_with_a_growing_normal_load():
     [
         ([(P, 0.1), (P, 0.3)], r"step 1 .*exceeds f P"),
         ([(P, 0.05, 0.01), (P, 0.05, 0.02)], r"step 0 .*not in proportion"),
-        ([(P, 0.05, 0.01), (2 * P, 0.1, 0.02)], r"step 1 .*P changes while a bulk stress acts"),
+        ([(P, 0.05, 0.01), (2 * P, 0.1, 0.02)], r"step 1 .*P changes on a path with a bulk stress"),
     ],
 )
 def test_a_step_that_is_not_covered_is_named_before_work(points, said):
@@ -212,6 +231,8 @@ def test_zones_that_retreat_under_a_bulk_stress_are_refused_with_the_step():
     ("points", "said"),
     [
         ([], "no points"),
+        (None, "None is not a sequence of points"),
+        ([(0.0, 0.0), (0.0, 0.0)], "nothing ever touches"),
         ([(1.0,)], r"\(1\.0,\).*give \(P, Q\)"),
         ([(1.0, np.nan)], "Q of point 0 is nan"),
         ([(1.0, 0.0), (0.0, 0.0)], "P of point 1 = 0"),

@@ -115,6 +115,19 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
         assert abs(float(solution.shear(x)) / q - 1) < 1e-12 + 2 * math.ulp(x) / mp.sqrt((c - x) * (b - c))  # what an ulp of c does
 
 
+@pytest.mark.parametrize("profile", [sie.Polynomial((0.0, 0.0, 0.06, 0.02, 0.02)), sie.Power(6.5, 0.6), sie.Power(2.5, 0.6)], ids=repr)
+@pytest.mark.parametrize("tilt", [-0.08, 0.03, 0.5])
+def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_first(profile, tilt):
+    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c over the profile's own length, 1e-6."""
+    solution = sheared(profile, 1.0 - 1e-13, tilt=tilt)
+    ((lo, hi),) = solution.stick
+    z, step = 0.5 * (lo + hi), 1e-5
+    curvature = float(np.diff(profile.slope([z - step, z + step]))[0]) / (2.0 * step)
+    c = 0.5 * (hi - lo)
+    assert abs(float(profile.slope(z)) + tilt) < 2e-6 * curvature * c
+    assert c == pytest.approx(math.sqrt(4.0 * float(left_over(solution)) / (math.pi * E * curvature)), rel=1e-6)
+
+
 # -- sliding, sticking, refusing ----------------------------------------------------------------------------------------
 
 
@@ -296,6 +309,72 @@ def test_bulk_stress_alone_slips_to_both_sides(sign):
     assert float(solution.shear(x)) == pytest.approx(-sign * F * float(solution.pressure(x)), rel=1e-14)
     assert float(solution.shear(-x)) == -float(solution.shear(x))
     assert solution.check().ok
+
+
+@pytest.mark.parametrize("strain", [2.0, 5.0, 12.0, 20.0])
+def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
+    """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both halves alike; ρ falls below 1e-13 b."""
+    b = math.sqrt(4.0 * P / (math.pi * E))
+    p0 = 2.0 * P / (math.pi * b)
+    solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=4.0 * strain * F * p0)
+    with mp.workdps(160):  # 1 - c²/b²
+        u = mp.findroot(lambda u: mp.ellipk(1 - mp.exp(2 * u)) - mp.ellipe(1 - mp.exp(2 * u)) - mp.pi * strain / 2, -1.57 * strain)
+        c = mp.exp(u)
+    stick = solution.tangential.found.stick
+    assert abs(stick.r / (b * c) - 1) < 1e-12
+    assert abs(stick.m) < 1e-15 * b
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
+def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
+    """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c - t)| dt - τ (x - c)/G, G = E*/2."""
+    b = math.sqrt(4.0 * P / (math.pi * E))
+    solution = sheared(sie.Parabola(1.0), fraction, bulk_stress=8.0 * strain * F * P / (math.pi * b))
+    ((lo, hi),) = solution.stick
+    b, tau, s = mp.sqrt(4 * mp.mpf(P) / (mp.pi * E)), mp.mpf(solution.scene.bulk_stress) / 4, fraction * mp.mpf(P)
+
+    def p(t):
+        return E / mp.mpf(2) * mp.sqrt(abs(b * b - t * t))
+
+    def beyond(c):  # the load to the right of c
+        t = c / b
+        return E * b * b / 4 * (mp.acos(t) - t * mp.sqrt(1 - t * t))
+
+    c = mp.findroot(lambda c: P - 2 * beyond(c) - s, lo)
+    assert lo == hi and abs(lo - c) < 1e-15 * b
+    for x in (solution.edges[0], 0.5 * solution.edges[1], solution.edges[1]):
+        X = mp.mpf(x)
+        stops = sorted({-b, c, min(max(X, -b), b), b})
+        pull = mp.quad(lambda t, X=X: F * p(t) * (1 if t < c else -1) * mp.log(abs((X - t) / (t - c))), stops)
+        assert abs(float(solution.slip(x)) / (2 / (mp.pi * E) * pull - 2 * tau / E * (X - c)) - 1) < 1e-13
+    x = np.array([c - 0.1 * b, c + 0.1 * b], dtype=float)
+    assert (solution.shear(x) == F * solution.pressure(x) * [1.0, -1.0]).all()
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("profile", [sie.RoundedFlat(0.5, 1.0), sie.Flat(1.0), sie.Wedge(0.3)], ids=repr)
+@pytest.mark.parametrize("fraction", [0.0, 0.3, -0.99])
+def test_every_bulk_stress_is_solved(profile, fraction):
+    """However large: the law holds, and Q is carried."""
+    for strain in (2.0, -10.0, 40.0, -1e3, 1e8):
+        solution = sheared(profile, fraction, bulk_stress=strain * P)
+        assert solution.check().shear.ok, solution.check().shear
+        assert 0.0 < solution.energy_lost < math.inf
+
+
+def test_a_stick_zone_between_two_doubles_is_solved_for_a_slope_given_by_a_function():
+    solution = sheared(sie.Power(4.2, 0.2), 1.0 - 1e-9, bulk_stress=-1e3 * P)
+    assert solution.tangential.kind == "two signs"
+    assert solution.check().shear.ok, solution.check().shear
+
+
+@pytest.mark.parametrize("fraction", [1e-7, 3e-5, 1e-3, 9e-3])
+@pytest.mark.parametrize("tilt", [0.0, 0.03, 0.1])
+def test_the_certificate_of_thin_zones_raises_no_false_alarm(fraction, tilt):
+    """The end of a zone is known to some ulps; within these q is off f p by the root of them."""
+    for profile in (sie.Parabola(1.0) + sie.Wedge(0.07).shifted(0.15), sie.RoundedFlat(0.3, 2.0), sie.Power(3.0, 0.5)):
+        assert sheared(profile, fraction, tilt=tilt).check().ok
 
 
 PAIRS = st.tuples(st.integers(-90, 90), st.integers(-100, 100)).map(lambda pair: (pair[0] / 100, pair[1] / 100))

@@ -211,7 +211,7 @@ def test_a_load_path_takes_the_place_of_the_loads():
         ("path = [[1]]\n", r"give \(P, Q\)"),
         ("path = [[1, 'a']]\n", "not a number"),
         ("path = 3\n", "not a list"),
-        ("path = [[0, 0]]\n", "no load"),
+        ("path = [[0, 0]]\n", "nothing ever touches"),
     ],
 )
 def test_a_load_path_that_means_nothing_is_refused(load, said):
