@@ -120,8 +120,10 @@ def test_no_point_of_a_fine_scan_is_worse_than_the_maximum_found(scene, friction
     s = solution.stress(x, y)
     scan = np.sqrt(s.j2) if criterion == "mises" else s.max_shear
     assert scan[np.isfinite(scan)].max() <= found.stress * (1 + 1e-12)
-    here = solution.stress(found.x, found.y)
-    assert float(np.sqrt(here.j2) if criterion == "mises" else here.max_shear) == pytest.approx(found.stress, rel=1e-9)
+    # An edge is known beyond its double, and next to it the stress changes like the root of the distance.
+    here = solution.stress(found.x + np.spacing(found.x) * np.arange(-4.0, 5.0), found.y)
+    around = np.sqrt(here.j2) if criterion == "mises" else here.max_shear
+    assert abs(around[4] - found.stress) <= 1e-9 * found.stress + np.ptp(around[np.isfinite(around)])
 
 
 @pytest.mark.parametrize("a", [0.0, 0.3, 0.95, 1 - 1e-9])

@@ -11,7 +11,7 @@ import pytest
 import sie
 from validation import certificate, economy, peers, pressure, readme, stability
 from validation.__main__ import TOPICS, main, summary
-from validation.figures import Figure, axes, draw, drawn, labelled, svg
+from validation.figures import Figure, axes, draw, drawn, labelled
 from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
 from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
@@ -72,7 +72,7 @@ def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
         assert made.ok or "time" in made.what or "over two logarithms" in made.what, made
     for figure in section.figures:
         assert figure.caption
-        assert svg(figure).startswith("<svg")
+        assert figure.element.startswith("<svg")
 
 
 def test_every_topic_says_what_it_is():
@@ -83,6 +83,7 @@ def test_every_topic_says_what_it_is():
         assert topic.__doc__
         assert topic.TITLE
         assert len(topic.SECONDS) == 2
+        assert topic.TIMED in (False, True)
 
 
 def test_the_economy_measures_a_difference_and_a_footprint():
