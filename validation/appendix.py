@@ -23,7 +23,7 @@ from .principal import GUARD, context, integral, principal_value
 from .records import Claim, Curve, Doing, Found, Record, Table
 
 TITLE = "The appendix: (24) to (35)"
-SECONDS = (4.0, 12.0)
+SECONDS = (1.5, 3.0)
 TIMED = False
 
 DIGITS = 50

@@ -24,7 +24,7 @@ from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"
-SECONDS = (2.0, 35.0)
+SECONDS = (1.5, 50.0)
 TIMED = False
 COUNTS = (100, 2000)
 SEED = 20260711

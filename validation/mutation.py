@@ -26,7 +26,7 @@ from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import PUNCH, SKEW, SMOOTH, closed_form, gauss_chebyshev, root, with_pressure
 
 TITLE = "Mutation: wrong programs, and what catches them"
-SECONDS = (2.0, 4.0)
+SECONDS = (1.0, 2.5)
 TIMED = False
 BAR = 1e-13  # a right program stays within, a wrong one must not
 X = np.array([-0.9, -0.42, 0.03, 0.31, 0.77])

@@ -22,7 +22,7 @@ from .records import Claim, Curve, Doing, Found, Record, Table, checked
 from .timing import compared
 
 TITLE = "Pressure, edges and load against 40 digits"
-SECONDS = (6.0, 40.0)
+SECONDS = (4.0, 20.0)
 TIMED = True
 
 POINTS = 1001

@@ -1,4 +1,7 @@
-"""Topics computed and drawn: those that measure no time beside each other, those that do one after the other while nothing else runs."""
+"""Topics computed and drawn: those that measure time one after the other while nothing else runs, the others beside each other.
+
+A ratio of times measured in turns is no such time: what runs beside slows both.
+"""
 
 from __future__ import annotations
 
@@ -23,10 +26,11 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
     """The sections of the page in the order of the names, and the seconds they took."""
     topics = {name: _topic(name) for name in names}
-    progress = Progress({name: topic.SECONDS[0 if quick else 1] for name, topic in topics.items()})
+    progress = Progress({name: topic.SECONDS[not quick] for name, topic in topics.items()})
     found: dict[str, tuple[Found, float]] = {}
     with workers(len(names)) as pool:
-        beside = {pool.submit(computed, name, quick): name for name, topic in topics.items() if not topic.TIMED}
+        longest = sorted((name for name in names if not topics[name].TIMED), key=lambda name: -topics[name].SECONDS[not quick])
+        beside = {pool.submit(computed, name, quick): name for name in longest}
         progress.tell(f"{len(beside)} topics beside each other")
         for future in as_completed(beside):
             found[beside[future]] = future.result()

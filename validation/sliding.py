@@ -24,7 +24,7 @@ from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table
 
 TITLE = "Dissimilar bodies: sliding, and full stick"
-SECONDS = (1.5, 4.0)
+SECONDS = (2.0, 3.0)
 TIMED = False
 BAR = 1e-13
 SPOILED = 1e-11

@@ -23,7 +23,7 @@ from .records import Claim, Curve, Doing, Found, Map, Record, Table, checked
 from .sweeps import Outcome, Sweep, logit, near_ends
 
 TITLE = "Stability: error maps and the frontier"
-SECONDS = (3.0, 30.0)
+SECONDS = (4.0, 25.0)
 TIMED = False
 BAR = 1e-13
 FLATNESS = "decades of (a/b)/(1 - a/b)"

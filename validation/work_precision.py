@@ -28,7 +28,7 @@ from .records import Claim, Doing, Found, Record, Table, checked
 from .timing import compared
 
 TITLE = "Error against run time"
-SECONDS = (4.0, 40.0)
+SECONDS = (1.5, 28.0)
 TIMED = True
 SLOWEST = 0.5  # seconds: a method that took longer is not tried at the next size
 GRID_REACH = 1.6  # elements cover so many half-widths to each side
