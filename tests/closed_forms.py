@@ -87,6 +87,35 @@ def bad_numbers_are_refused(function: Callable[..., Any], given: dict[str, Any])
                     call(function, {**given, name: bad}, lib=lib)
 
 
+def of_every_call(calls: Sequence[Call]) -> type:
+    """The tests that every closed form passes, as a class for pytest to collect."""
+    each_call = every_call(calls)
+
+    class OfEveryCall:
+        @each_call
+        def test_numpy_and_mpmath_agree(self, function, given) -> None:
+            numpy_agrees_with_mpmath(function, given)
+
+        @each_call
+        def test_a_context_gives_all_its_digits(self, function, given) -> None:
+            context_gives_its_digits(function, given)
+
+        @each_call
+        def test_arrays_broadcast(self, function, given) -> None:
+            arrays_broadcast(function, given)
+
+        @each_call
+        @pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
+        def test_results_scale_with_lengths_and_moduli(self, function, given, length: float, stress: float) -> None:
+            scales(function, given, length, stress)
+
+        @each_call
+        def test_bad_numbers_are_refused(self, function, given) -> None:
+            bad_numbers_are_refused(function, given)
+
+    return OfEveryCall
+
+
 def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[Any]) -> Any:
     """(1/pi) PV∫ density(t)/(x-t) dt from the first to the last of `breaks`, 30 digits, by t = m + r cos(angle).
 

@@ -4,22 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import (
-    EPS,
-    Call,
-    arrays_broadcast,
-    bad_numbers_are_refused,
-    call,
-    coarse,
-    context_gives_its_digits,
-    every_call,
-    mp,
-    numpy_agrees_with_mpmath,
-    principal_value,
-    resultant,
-    scales,
-    short,
-)
+from closed_forms import EPS, Call, call, coarse, mp, of_every_call, principal_value, resultant, short
 
 from analytic import cattaneo, cattaneo_rounded, hertz, rounded_flat
 
@@ -260,33 +245,7 @@ CALLS: list[Call] = [
     (cattaneo_rounded.slip, {"x": -0.82, **PART}),
     (cattaneo_rounded.dissipation, PART),
 ]
-each_call = every_call(CALLS)
-
-
-@each_call
-def test_numpy_and_mpmath_agree(function, given) -> None:
-    numpy_agrees_with_mpmath(function, given)
-
-
-@each_call
-def test_a_context_gives_all_its_digits(function, given) -> None:
-    context_gives_its_digits(function, given)
-
-
-@each_call
-def test_arrays_broadcast(function, given) -> None:
-    arrays_broadcast(function, given)
-
-
-@each_call
-@pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
-def test_results_scale_with_lengths_and_moduli(function, given, length: float, stress: float) -> None:
-    scales(function, given, length, stress)
-
-
-@each_call
-def test_bad_numbers_are_refused(function, given) -> None:
-    bad_numbers_are_refused(function, given)
+TestEveryCall = of_every_call(CALLS)
 
 
 @pytest.mark.parametrize("lib", [np, coarse])

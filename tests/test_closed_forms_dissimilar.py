@@ -5,22 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from closed_forms import (
-    EPS,
-    Call,
-    arrays_broadcast,
-    bad_numbers_are_refused,
-    call,
-    coarse,
-    context_gives_its_digits,
-    every_call,
-    mp,
-    numpy_agrees_with_mpmath,
-    principal_value,
-    resultant,
-    scales,
-    short,
-)
+from closed_forms import EPS, Call, call, coarse, mp, of_every_call, principal_value, resultant, short
 
 from analytic import bonded_flat, flat, hertz, rounded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
 
@@ -303,33 +288,7 @@ CALLS: list[Call] = [
     (sliding_rounded_flat.moment, {**ROUNDED, "coupling": -0.3}),
     *((sliding_rounded_flat.pressure, {"x": x, **ROUNDED, "coupling": 0.49}) for x in (-0.6, -0.4, 0.0, 0.5, 0.52)),
 ]
-each_call = every_call(CALLS)
-
-
-@each_call
-def test_numpy_and_mpmath_agree(function, given) -> None:
-    numpy_agrees_with_mpmath(function, given)
-
-
-@each_call
-def test_a_context_gives_all_its_digits(function, given) -> None:
-    context_gives_its_digits(function, given)
-
-
-@each_call
-def test_arrays_broadcast(function, given) -> None:
-    arrays_broadcast(function, given)
-
-
-@each_call
-@pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
-def test_results_scale_with_lengths_and_moduli(function, given, length: float, stress: float) -> None:
-    scales(function, given, length, stress)
-
-
-@each_call
-def test_bad_numbers_are_refused(function, given) -> None:
-    bad_numbers_are_refused(function, given)
+TestEveryCall = of_every_call(CALLS)
 
 
 def test_pressure_is_infinite_at_sharp_corners_only_and_zero_outside() -> None:

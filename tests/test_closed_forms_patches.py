@@ -4,20 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import (
-    EPS,
-    Call,
-    arrays_broadcast,
-    bad_numbers_are_refused,
-    coarse,
-    context_gives_its_digits,
-    every_call,
-    mp,
-    numpy_agrees_with_mpmath,
-    principal_value,
-    resultant,
-    scales,
-)
+from closed_forms import EPS, Call, coarse, mp, of_every_call, principal_value, resultant
 
 from analytic import cracks, flat, flat_row, hertz, two_flats, two_parabolas, wavy
 
@@ -253,33 +240,7 @@ CALLS: list[Call] = [
     (cracks.pair, {"inner": 0.1, "outer": 2.0, "tension": -3.0}),
     (cracks.row, {"half_length": 0.4, "period": 1.0, "tension": 3.0}),
 ]
-each_call = every_call(CALLS)
-
-
-@each_call
-def test_numpy_and_mpmath_agree(function, given) -> None:
-    numpy_agrees_with_mpmath(function, given)
-
-
-@each_call
-def test_a_context_gives_all_its_digits(function, given) -> None:
-    context_gives_its_digits(function, given)
-
-
-@each_call
-def test_arrays_broadcast(function, given) -> None:
-    arrays_broadcast(function, given)
-
-
-@each_call
-@pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
-def test_results_scale_with_lengths_and_moduli(function, given, length: float, stress: float) -> None:
-    scales(function, given, length, stress)
-
-
-@each_call
-def test_bad_numbers_are_refused(function, given) -> None:
-    bad_numbers_are_refused(function, given)
+TestEveryCall = of_every_call(CALLS)
 
 
 def test_pressure_is_zero_beside_the_patches_and_infinite_at_sharp_corners_only() -> None:
