@@ -71,6 +71,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _solve(arguments: argparse.Namespace) -> int:
     """Everything is checked, then everything is computed, then the files are written."""
     outputs = _outputs(arguments)
+    if arguments.grid and not arguments.field:
+        raise ValueError("--grid says how many points --field writes: give --field FILE too, with one of the suffixes .csv, .npz, .vti")
     file = _scene(arguments)
     solution = _solution(file, arguments.tol)
     contents = {path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()}
@@ -195,7 +197,7 @@ def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile,
     if kind == "field":
         head = (f"{file.title or 'plane contact'} (sie {__version__})", repr(solution.scene), f"lengths in {file.units.length}, "
                 f"stresses in {file.units.stress}", f"contact from x1 = {solution.edges[0]!r} to x2 = {solution.edges[1]!r}")  # fmt: skip
-        return file_bytes(Grid(solution, *arguments.grid), path.suffix[1:].lower(), head)
+        return file_bytes(Grid(solution, *(arguments.grid or SIZE)), path.suffix[1:].lower(), head)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes
         figure = _figure(solution, file)
@@ -285,7 +287,7 @@ def _parser() -> argparse.ArgumentParser:
     solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap, shear, slip")
     solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
     solving.add_argument("--field", metavar="FILE", help="write the stress on a grid: .csv, .npz or .vti (ParaView)")
-    solving.add_argument("--grid", metavar="NXxNY", type=_grid, default=SIZE, help="points of that grid (%(default)s)")
+    solving.add_argument("--grid", metavar="NXxNY", type=_grid, help=f"points of that grid ({SIZE[0]}x{SIZE[1]})")
     solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
     solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
     comparing.add_argument(

@@ -80,6 +80,7 @@ def test_the_json_text_holds_the_numbers_of_the_solution(scene, capsys):
     [
         (["--field", "f.vtu"], 'suffix ".vtu": use .csv, .npz, .vti'),
         (["--grid", "1x5"], "1x5 is not a grid"),
+        (["--grid", "5x5"], "give --field FILE too"),
         (["--grid", "200"], "200 is not a grid"),
         (["--field", "scene.toml"], "suffix"),
     ],

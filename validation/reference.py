@@ -27,6 +27,8 @@ NODES = 32
 LONGEST = 0.6  # of a panel in φ, where only the slope's own analyticity counts
 KINK = mpmath.mpf(10) ** -14  # panels are halved down to this towards a break where the slope is not analytic from either side
 
+KNOT = mpmath.mpf(10) ** -38  # the same towards a pole that is a break itself
+
 Number = Any
 
 
@@ -201,7 +203,7 @@ def _panels(lo: Number, hi: Number, poles: Sequence[Number], kinks: Sequence[Num
         length = b - a
         near = min((_distance(p, a, b) for p in poles), default=mp.inf)
         kink = min((_distance(p, a, b) for p in kinks), default=mp.inf)
-        if length > LONGEST or length > 2 * near or (length > 2 * kink and length > KINK):
+        if length > LONGEST or (length > 2 * near and length > KNOT) or (length > 2 * kink and length > KINK):
             stack += [(a, (a + b) / 2), ((a + b) / 2, b)]
         else:
             done.append((a, b))
