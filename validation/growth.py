@@ -107,7 +107,7 @@ def compute(quick: bool) -> Iterator[Record]:
         yield Doing(says)
         sizes = SIZES[name][0 if quick else 1]
         runs = [make(n) for n in sizes]
-        times[name] = exponent(sizes, seconds := fastest(runs, patience=0.25 if quick else 0.5))
+        times[name] = exponent(sizes, seconds := fastest(runs, patience=0.1 if quick else 0.5))
         yield Curve("time", says, sizes, [1e3 * s for s in seconds], "both")
         used = [peak_memory(run) for run in runs]
         memory[name] = exponent(sizes, used)
