@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
-from .errors import ContactError
+from .errors import ContactError, InequalityError, LoadError
+from .normal import Normal
 from .profile import Profile
 from .sampled import Sampled
 from .scene import Scene
@@ -18,10 +19,13 @@ HALVINGS = 2  # ... and then that step is halved in the logarithm so often
 DIGITS = 2
 
 
-def with_smoothing(error: ContactError, scene: Scene, attempt: Callable[[Scene], object]) -> ContactError:
+def with_smoothing(
+    error: ContactError, scene: Scene, attempt: Callable[[Scene], Normal], verify: Callable[[Scene, Normal], object]
+) -> ContactError:
     """The error with the smoothing that makes it one patch in its message and in `reached["smoothing"]`; itself, if there is none.
 
-    `attempt` answers a scene or raises ContactError.
+    `attempt` finds the contact of a scene or raises ContactError; `verify` raises InequalityError, with the intervals of tension and
+    overlap, if a scene cannot touch there. So a load that found no contact at all is told where the smoothed trace's would lift off.
     """
     trace = _trace(scene.profile)
     if trace is None or "end" in error.reached:
@@ -31,6 +35,11 @@ def with_smoothing(error: ContactError, scene: Scene, attempt: Callable[[Scene],
     if lam is None:
         advice = "no smoothing makes it one patch under this load"
     else:
+        if isinstance(error, LoadError):
+            try:
+                verify(scene, attempt(replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))))
+            except InequalityError as found:
+                error = found
         advice = (
             f"smoothing = {lam:g} makes it one patch (and leaves {trace.smoothed(lam).misfit:.3g} rms of the heights, "
             f"where cross validation, with {least:.2g}, leaves {trace.smoothed(least).misfit:.3g})"

@@ -72,7 +72,8 @@ class Solution:
         try:
             return self._one_patch()
         except ContactError as error:
-            raise with_smoothing(error, self.scene, lambda scene: Solution(scene, self.tol, self.economy)._one_patch()) from None
+            attempt = lambda scene: Solution(scene, self.tol, self.economy)._one_patch()  # noqa: E731
+            raise with_smoothing(error, self.scene, attempt, self._verified) from None
 
     def _one_patch(self) -> Normal:
         try:
