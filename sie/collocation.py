@@ -40,22 +40,23 @@ INCONSISTENT = 1e-9
 def solve(problem: Problem, tol: float) -> JacobiDensity:
     """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
     sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
-    best: JacobiDensity | None = None
+    best: Attempt | None = None
     while True:
         tried = attempt(problem, sizes, kernel)
         more = tried.unresolved(tol)
         if not more.any():
             return consistent(tried)
-        if best is None or tried.density.error < 0.5 * best.error:
-            best, idle = tried.density, 0
+        if best is None or tried.progress < 0.5 * best.progress:
+            best, idle = tried, 0
         else:
             idle += 1
         sizes = _enlarged(sizes, more)
-        if sum(sizes) > (LARGEST_TRANSFORM if problem.is_transform else LARGEST) or (idle >= IDLE and best.error < SETTLED):
+        if sum(sizes) > (LARGEST_TRANSFORM if problem.is_transform else LARGEST) or (idle >= IDLE and best.progress < SETTLED):
+            reached = best.answer()
             raise ContactError(
-                f"the density did not settle to tol = {tol:.1e}: with n = {best.n} nodes its estimated error is {best.error:.1e}; "
+                f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its estimated error is {reached.error:.1e}; "
                 "g or k is noisy or not smooth: raise tol, or end the intervals where it is not smooth",
-                density=best,
+                density=reached,
             )
 
 
@@ -82,9 +83,9 @@ def consistent(found: Attempt) -> JacobiDensity:
         raise ContactError(
             f"the right-hand side is not consistent: bounded ends ask for an integral of g that vanishes, and it misses a constant of "
             f"{found.defect:.1e} times g; free a constant, or let an end be singular",
-            density=found.density,
+            density=found.answer(),
         )
-    return found.density
+    return found.answer()
 
 
 def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:

@@ -174,7 +174,7 @@ class CauchyEquation:
 
     @cached_property
     def problem(self) -> Problem:
-        return Problem(maps(self.interval), self.weights, self.a, self.b, self.g, self.k, self._conditions, tuple(self.free))
+        return Problem(maps(self.interval, self.weights), self.weights, self.a, self.b, self.g, self.k, self._conditions, tuple(self.free))
 
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
         """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -16,6 +16,7 @@ from .grading import Affine, Map
 from .interval import EPS
 from .jacobi import Weight
 from .jacobi_density import JacobiDensity, Part
+from .roundoff import Spread
 
 Array = NDArray[Any]
 Function = Callable[[Array], Any] | complex
@@ -96,7 +97,8 @@ def functionals(interval: Map, weight: Weight, n: int) -> tuple[Array, Array]:
         moment[:2] += interval.r * np.array(jacobi.first_moment(weight))
         return total, moment
     sigma, quadrature = jacobi.analysis(weight, n)
-    return total, positions(interval, 1.0 - sigma, 1.0 + sigma)[0] @ quadrature
+    x, _, _, _, rest = positions(interval, 1.0 - sigma, 1.0 + sigma)
+    return total if interval.is_even else rest @ quadrature, (x * rest) @ quadrature
 
 
 def condition_rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> tuple[Array, Array]:
@@ -113,10 +115,10 @@ def condition_rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> 
     return matrix / scale[:, None], np.array([real_if_real(complex(c.value)) for c in problem.conditions]) / scale
 
 
-def positions(interval: Map, right: Array, left: Array) -> tuple[Array, Array, Array, Array]:
-    """x from the nearer end, x2 - x, x - x1, dx/ds."""
-    to_right, to_left, stretch = interval.distances(right, left)
-    return np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right), to_right, to_left, stretch
+def positions(interval: Map, right: Array, left: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ."""
+    to_right, to_left, rho, rest = interval.distances(right, left)
+    return np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right), to_right, to_left, rho, rest
 
 
 def moved(c: Array, index: int) -> Array:
@@ -155,17 +157,6 @@ def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
     return values
 
 
-def unsure(x: Array, values: Array, stretch: Array) -> float:
-    """How far values(x) dx/ds are off because x are doubles: what the values vary by over a rounding of x.
-
-    It counts far from x = 0, and where values vary across a narrow gap; no solver could do better.
-    """
-    order = np.argsort(x)
-    at, of, dx = x[order], values[order], stretch[order]
-    steepness = np.abs(np.diff(of)) / np.maximum(np.diff(at), np.spacing(np.abs(at[1:])))
-    return float((steepness * EPS * np.abs(at[1:]) * np.minimum(dx[1:], dx[:-1])).max())
-
-
 def _numeric(name: str, values: Array) -> Array:
     if values.dtype.kind not in "biufc":
         raise ValueError(f"{name} returned values of type {values.dtype}: return numbers")
@@ -190,7 +181,7 @@ def solved(matrix: Array, rhs: Array) -> Array:
 
 class Attempt(NamedTuple):
     """A density; by intervals how far its coefficients decayed, residual (and what it is blind to), below what both are rounding; the
-    constant that g lacks: all relative."""
+    constant that g lacks: all relative. And what rounding makes of each interval, where that takes another solution."""
 
     density: JacobiDensity
     tails: Array
@@ -198,11 +189,25 @@ class Attempt(NamedTuple):
     rounding: Array
     noise: Array
     defect: float
+    spreads: Callable[[], list[Spread]] = list
+
+    @property
+    def progress(self) -> float:
+        """What more nodes may lessen: the error but for rounding."""
+        return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
         tails, residuals = self.tails > np.maximum(DECAYED * tol, self.rounding), self.residuals > np.maximum(tol, self.noise)
         unresolved: NDArray[np.bool_] = tails | residuals
         return unresolved
+
+    def answer(self) -> JacobiDensity:
+        """The density, its errors with those of rounding."""
+        spreads = self.spreads()
+        if not spreads:
+            return self.density
+        parts = tuple(part.less_certain(of.coefficients) for part, of in zip(self.density.parts, spreads, strict=True))
+        return replace(self.density, parts=parts, error=max(self.density.error, *(of.relative for of in spreads)))
 
 
 class Terms(NamedTuple):
@@ -217,7 +222,9 @@ class Terms(NamedTuple):
     unsure: float
 
 
-def attempted(problem: Problem, coefficients: list[Array], unknown: Array, terms: list[Terms]) -> Attempt:
+def attempted(
+    problem: Problem, coefficients: list[Array], unknown: Array, terms: list[Terms], spreads: Callable[[], list[Spread]] = list
+) -> Attempt:
     largest = max(float(np.abs(c).max()) for c in coefficients)
     measured = [_measured(problem, i, c, of, largest) for i, (c, of) in enumerate(zip(coefficients, terms, strict=True))]
     parts = tuple(of.part for of in measured)
@@ -227,7 +234,8 @@ def attempted(problem: Problem, coefficients: list[Array], unknown: Array, terms
     density = JacobiDensity(parts, tuple(constants.tolist()), tuple(of.n for of in terms), error, float(residuals.max()))
     g = max(float(np.abs(of.wanted).max()) for of in terms)
     defect = float(np.abs(lacking).max(initial=0.0)) * max(m.stretch for m in measured) / positive(g)
-    return Attempt(density, tails, residuals, np.array([of.rounding for of in measured]), np.array([of.noise for of in measured]), defect)
+    rounding, noise = np.array([of.rounding for of in measured]), np.array([of.noise for of in measured])
+    return Attempt(density, tails, residuals, rounding, noise, defect, spreads)
 
 
 class _Measured(NamedTuple):
@@ -252,9 +260,10 @@ def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> 
     residual = max(float((np.abs(of.left_over) * norm).max() / (term * norm.max())), of.aliased)
     rough = max(ROUNDING * term, of.unsure, SUBNORMAL)
     rounding = rough * abs(inverse.total) ** 0.5 / (abs(constant_of(problem, weight)) * scale)
-    part = Part(interval, weight, c[: chebyshev.chopped_length(c, 0.25 * EPS * scale)])
+    tail, kept = float(np.abs(c[-TAIL:]).max()) / scale, chebyshev.chopped_length(c, 0.25 * EPS * scale)
+    part = Part(interval, weight, c[:kept], np.full(kept, max(tail, residual, 2.0 * EPS) * scale / len(c) ** 0.5))
     middle = interval.distances(np.ones(1), np.ones(1))[2]
-    return _Measured(part, float(np.abs(c[-TAIL:]).max()) / scale, residual, float(rounding), rough / term, float(middle[0]))
+    return _Measured(part, tail, residual, float(rounding), rough / term, float(middle[0]))
 
 
 def positive(*scales: Any) -> float:

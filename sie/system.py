@@ -6,7 +6,7 @@ with n. Several intervals are coupled by their Cauchy kernels, which are smooth 
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from . import jacobi
 from .errors import ContactError
+from .grading import Affine
 from .interval import EPS
 from .kernel import Series
 from .question import (
@@ -35,8 +36,8 @@ from .question import (
     sample,
     sample_kernel,
     solved,
-    unsure,
 )  # fmt: skip
+from .roundoff import Spread, signs, spread, unsure
 
 Array = NDArray[Any]
 
@@ -52,11 +53,11 @@ class _Block(NamedTuple):
     """One interval of a system: where its rows are sampled (its probes last), and where its integrals are."""
 
     x: Array
-    rows: tuple[Array, Array, Array]  # x2 - x, x - x1, dx/ds
+    rows: tuple[Array, Array, Array]  # x2 - x, x - x1, ρ
     right: Array
     left: Array
     t: Array
-    columns: tuple[Array, Array]  # x2 - t, t - x1
+    columns: tuple[Array, Array, Array]  # x2 - t, t - x1, dt/dσ / ρ
     sigma: Array
     analysis: Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
     quadrature: Array  # coefficients c -> weights times values at the columns
@@ -76,16 +77,15 @@ class System:
         self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
         self.regular, self.kernel = self._kernel()
         sampled = [sample(name, f, np.concatenate([b.x for b in self.blocks])) for name, f in problem.functions]
-        stretch = np.concatenate([b.rows[2] for b in self.blocks])
-        self.sampled = np.stack(sampled) * stretch
+        self.sampled = np.stack(sampled) * np.concatenate([b.rows[2] for b in self.blocks])
         of = [functionals(*parts) for parts in zip(problem.maps, problem.weights, sizes, strict=True)]
         self.conditions, self.values = condition_rows(problem, of)
 
     def _kernel(self) -> tuple[Array | None, Array]:
-        """k, and all that is smooth, rows by columns, times dx/ds of the row."""
+        """k, and all that is smooth, rows by columns, times ρ of the row, over ρ of the column."""
         x, t = np.concatenate([b.x for b in self.blocks]), np.concatenate([b.t for b in self.blocks])
-        stretch = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
-        regular = None if self.problem.k is None else self._regular(self.problem.k, x, t) * stretch
+        rho, rest = np.concatenate([b.rows[2] for b in self.blocks])[:, None], np.concatenate([b.columns[2] for b in self.blocks])
+        regular = None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
         blocks = range(len(self.blocks))
         cauchy = np.concatenate([np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks])
         out: Array = (real_if_real(self.problem.b) / np.pi) * cauchy
@@ -107,7 +107,7 @@ class System:
             distance = (maps[j].x1 - maps[i].x2) + rows.rows[0][:, None] + columns.columns[1]
         else:
             distance = -((maps[i].x1 - maps[j].x2) + rows.rows[1][:, None] + columns.columns[0])
-        out: Array = rows.rows[2][:, None] / distance
+        out: Array = rows.rows[2][:, None] * columns.columns[2] / distance
         return out
 
     @cached_property
@@ -155,6 +155,10 @@ class System:
 
     def matrix(self) -> Array:
         """The whole matrix."""
+        return self._matrix
+
+    @cached_property
+    def _matrix(self) -> Array:
         smooth = np.concatenate([self.kernel[:, at] @ b.quadrature for b, at in zip(self.blocks, self._column_slices, strict=True)], axis=1)
         projected = self._projected(smooth)
         start = 0
@@ -213,6 +217,21 @@ class System:
             missed.append(float(np.abs(c[at]).max()) * tail * (decay if weight.is_real else float(decay > NEGLIGIBLE)))
         return missed
 
+    def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
+        """For each interval what rounding does to it, by the sizes of the equation's terms that are rounded at the rows.
+
+        On affine intervals, where the matrix is well conditioned, the residual tells; where GMRES serves, more solutions cost too much.
+        """
+        if all(isinstance(m, Affine) for m in self.problem.maps) or len(self.rhs) > DENSE:
+            return []
+        rounded = signs(len(sizes) + len(self.rhs))
+        at_rows, at_sums = rounded[: len(sizes)], rounded[len(sizes) :]
+        terms = np.concatenate((self.values[:, None] * at_sums[: len(self.values)], self._projected(sizes[:, None] * at_rows)))[self.order]
+        sums = (np.abs(self._matrix[:, : len(c)]) @ np.abs(c))[:, None] * at_sums
+        off = solved(self._matrix, terms + sums)
+        of_interval = zip(self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True)
+        return [spread(m, weight, (block.sigma, block.quadrature), c[at], off[at]) for m, weight, block, at in of_interval]
+
     def attempt(self, unknown: Array) -> Attempt:
         N = sum(self.sizes)
         c, d = unknown[:N], unknown[N:] / self._free_columns[1]
@@ -221,14 +240,15 @@ class System:
         size = [positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max()) for rows in self._row_slices]
         aliased = self._aliased(c, np.repeat(size, [len(b.x) for b in self.blocks]))
         varying = wanted if self.regular is None else wanted - self.regular @ self._weighted(c)
+        off = [unsure(b.x, varying[at] / b.rows[2], b.rows[2]) for b, at in zip(self.blocks, self._row_slices, strict=True)]
+        rounded = np.maximum(np.abs(wanted), np.abs(smooth)) + np.concatenate(off) / EPS
         terms = []
         for i, (block, rows, at) in enumerate(zip(self.blocks, self._row_slices, self._column_slices, strict=True)):
             weight, probes = self.problem.weights[i], slice(rows.stop - len(PROBES), rows.stop)
             second = constant_of(self.problem, weight) * jacobi.evaluate(weight.inverse, moved(c[at], block.kappa), PROBES)
             left_over = second + smooth[probes] - wanted[probes]
-            off = unsure(block.x, varying[rows] / block.rows[2], block.rows[2])
-            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i], off))
-        return attempted(self.problem, [c[at] for at in self._column_slices], d, terms)
+            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i], float(off[i].max())))
+        return attempted(self.problem, [c[at] for at in self._column_slices], d, terms, partial(self._spreads, c, rounded))
 
 
 def _block(problem: Problem, i: int, n: int) -> _Block:
@@ -237,6 +257,8 @@ def _block(problem: Problem, i: int, n: int) -> _Block:
     sigma, quadrature = jacobi.analysis(weight, n)
     at = np.concatenate((s, PROBES))
     x, *rows = positions(interval, 1.0 - at, 1.0 + at)
-    t, to_right, to_left, _ = positions(interval, 1.0 - sigma, 1.0 + sigma)
+    t, to_right, to_left, _, rest = positions(interval, 1.0 - sigma, 1.0 + sigma)
     analysis = analysis / constant_of(problem, weight)
-    return _Block(x, (rows[0], rows[1], rows[2]), 1.0 - at, 1.0 + at, t, (to_right, to_left), sigma, analysis, quadrature, weight.kappa)
+    return _Block(
+        x, (rows[0], rows[1], rows[2]), 1.0 - at, 1.0 + at, t, (to_right, to_left, rest), sigma, analysis, quadrature, weight.kappa
+    )

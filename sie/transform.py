@@ -25,8 +25,8 @@ from .question import (
     positions,
     sample,
     solved,
-    unsure,
 )
+from .roundoff import unsure
 
 Array = NDArray[Any]
 
@@ -36,7 +36,7 @@ def by_transform(problem: Problem, n: int) -> Attempt:
     m, constant, kappa = n - weight.kappa, constant_of(problem, weight), weight.kappa
     s, analysed = _transform(weight.inverse, m)
     at = np.concatenate((s, PROBES))
-    x, _, _, stretch = positions(interval, 1.0 - at, 1.0 + at)
+    x, _, _, stretch, _ = positions(interval, 1.0 - at, 1.0 + at)
     sampled = np.stack([sample(name, f, x) for name, f in problem.functions]) * stretch
     second = analysed(sampled[:, :m]) / constant  # the coefficients of p̃ ...
     c = np.zeros((len(second), n), dtype=second.dtype)
@@ -46,7 +46,8 @@ def by_transform(problem: Problem, n: int) -> Attempt:
     multiples = np.concatenate(([1.0], unknown))
     wanted = multiples @ sampled
     left_over = constant * jacobi.evaluate(weight.inverse, multiples @ second, PROBES) - wanted[m:]
-    return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0, unsure(x, wanted / stretch, stretch))])
+    off = float(unsure(x, wanted / stretch, stretch).max())
+    return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0, off)])
 
 
 def _closed(c: Array, defects: Array, rows: Array, values: Array, kappa: int) -> tuple[Array, Array]:

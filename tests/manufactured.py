@@ -90,6 +90,11 @@ class Manufactured:
         s = (mp.mpf(x) - self.m) / self.r
         return mp.power(1 - s, self.alpha) * mp.power(1 + s, self.beta) * self.f(s)
 
+    def value_at(self, to_right, to_left):
+        """At these distances from the ends."""
+        right, left = mp.mpf(to_right) / self.r, mp.mpf(to_left) / self.r
+        return mp.power(right, self.alpha) * mp.power(left, self.beta) * self.f(left - 1 if left < right else 1 - right)
+
     def cauchy(self, z):
         """1/π ∫ φ/(z - t) dt; on the interval its principal value."""
         s = (mp.mpmathify(z) - self.m) / self.r
