@@ -1,12 +1,15 @@
 """Pieces on which a function is resolved by Chebyshev series: chop where the coefficients decay, split where they do not.
 
 All open intervals are sampled in one call of the function, level by level. Halving towards a point where the function behaves like |x|^s
-grades the pieces geometrically by itself; a jump or a kink that was not declared is closed in to rounding.
+grades the pieces geometrically by itself; a jump or a kink that was not declared is closed in to rounding. At a break that was declared
+H may vanish like |x|^s. What a series misses there is a small jump, and the pressure at the break is off by ln(length/piece) times as
+much: pieces that touch one are resolved further than rounding of H elsewhere would let others be.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +29,24 @@ MISSED = 1e3
 NEIGHBOURS, CLOSE = 12, 1e-6
 NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
+FINER = 1e-3  # of the tolerance: next to a declared break
 MAX_PIECES = 20_000
+
+
+class Tolerance(NamedTuple):
+    """What a series may miss: relative to the largest |value|, and absolute; less next to the inner breaks that were declared."""
+
+    relative: float
+    absolute: float
+    breaks: Array
+
+    def of(self, pieces: Array, values: Array, scale: float) -> Array:
+        """For each piece (K, 2) with these values (K, n), where the largest of all is `scale`."""
+        enough = np.full(len(pieces), max(self.relative * scale, min(self.absolute, ROUGHEST * scale)))
+        touches = np.isin(pieces, self.breaks).any(axis=1)
+        finer = np.maximum(FINER * self.relative * scale, 4.0 * EPS * np.abs(values).max(axis=1))
+        enough[touches] = np.minimum(enough, finer)[touches]
+        return enough
 
 
 def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
@@ -35,12 +55,12 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
     open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
-    noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
+    tolerance = Tolerance(tol, NOISE * rounding_noise(function, breaks[0], breaks[-1]), breaks[1:-1])
     done: list[tuple[float, float, int]] = []
     scale = 0.0
     while len(open_):
         for n in SIZES:
-            degrees, scale = _degrees(function, open_, n, (tol, noise), scale)
+            degrees, scale = _degrees(function, open_, n, tolerance, scale)
             settled = degrees >= 0
             done += zip(open_[settled, 0], open_[settled, 1], degrees[settled], strict=True)
             open_ = open_[~settled]
@@ -59,12 +79,9 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
 
 
 def _degrees(
-    function: Callable[[Array], Array], pieces: Array, n: int, tolerances: tuple[float, float], scale: float
+    function: Callable[[Array], Array], pieces: Array, n: int, tolerance: Tolerance, scale: float
 ) -> tuple[NDArray[np.int64], float]:
-    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far.
-
-    `tolerances`: relative to that value, and absolute.
-    """
+    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far."""
     lo, hi = pieces.T
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
     s = np.concatenate((chebyshev.points(n), PROBES))
@@ -73,13 +90,14 @@ def _degrees(
     _refuse_non_finite(x, values)
     scale = max(scale, float(np.abs(values).max()))
     c = chebyshev.transform(values[:, :n])
-    enough = max(tolerances[0] * scale, min(tolerances[1], ROUGHEST * scale))
+    enough = tolerance.of(pieces, values, scale)
     # a few ulp of x move the value by rounding: no series can do better
     floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half))
     missed = np.abs(c @ chebyshev.polynomials(n, PROBES) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     settled |= 2.0 * half <= 4.0 * np.spacing(np.abs(pieces).max(axis=1))
-    lengths = [chebyshev.chopped_length(row, 0.5 * enough) - 1 if ok else -1 for row, ok in zip(c, settled, strict=True)]
+    chopped = zip(c, 0.5 * enough, settled, strict=True)
+    lengths = [chebyshev.chopped_length(row, by) - 1 if ok else -1 for row, by, ok in chopped]
     return np.array(lengths, dtype=np.int64), scale
 
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from strategies import between, dyadic
 
 import sie
+from analytic import power
 
 INF = float("inf")
 
@@ -251,3 +252,13 @@ def test_a_text_slope_is_the_same_profile_as_the_function_it_says(text):
 def test_a_text_slope_cannot_run_code(text):
     with pytest.raises(ValueError, match="expression"):
         sie.FromFunction(text)
+
+
+@pytest.mark.parametrize("exponent", [1.1, 1.2, 1.5, 1.9, 2.5])
+def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
+    """There h' vanishes like |x|^(m-1), and what its pieces miss next to x = 0 is multiplied by the logarithm of their length."""
+    law = {"exponent": exponent, "coefficient": 1.0}
+    pressure = sie.solve(sie.Scene(profile=sie.Power(**law), modulus=2.0, half_width=1.0)).pressure
+    x = np.array([0.0, 1e-30, 1e-20, 1e-9])
+    expected = power.pressure(x, half_width=1.0, modulus=2.0, **law)
+    assert np.abs(pressure(x) / expected - 1.0).max() <= 1e-13
