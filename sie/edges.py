@@ -251,7 +251,7 @@ class Search:
         contact, _ = contact_at(distance)
         self.evaluations += split.evaluations
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
-        return self._polished(contact, target, left_sharp), left_sharp
+        return self.polished(contact, target, left_sharp), left_sharp
 
     def _left_edge(self, z: tuple[float, float], right: float, guess: float) -> tuple[Interval, Moments, float]:
         """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there (a sharp edge); and z1 - x1."""
@@ -284,7 +284,7 @@ class Search:
         at = left if left in found else next(reversed(found))
         return *found[at], at
 
-    def _polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
+    def polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
         """Newton for both edges at once; the Jacobian is diagonal at the solution."""
         previous, settled = np.inf, False
         for _ in range(MAX_STEPS):

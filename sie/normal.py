@@ -24,6 +24,7 @@ from .panels import CHOP, Panels
 from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
+from .widest import widest_contact
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
@@ -153,7 +154,13 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
                 )
             return search.finished(contact, None, tilt, sharp)
         assert scene.normal_load is not None
-        contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
+        try:
+            contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
+        except LoadError:
+            widest = None if scene.profile.convex else widest_contact(search, scene.normal_load)
+            if widest is None:
+                raise
+            contact, sharp = widest, (False, False)
         return search.finished(contact, scene.normal_load, tilt, sharp)
 
     if scene.moment is not None and scene.normal_load is not None:

@@ -18,7 +18,7 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "potential", "density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "normal", "gap", "composite",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
     "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "scenefile", "compare", "grid", "export", "plot",
     "contours", "__main__",
