@@ -30,7 +30,7 @@ def widest_contact(search: Search, load: float) -> Interval | None:
         return None
     (narrow, less), (wide, more) = bracket
     for _ in range(MAX_STEPS):
-        share = math.log(load / less) / math.log(more / less)  # the load is nearly a power of the half-width
+        share = math.log(load / less) / math.log(more / less) if less > 0.0 else 0.5  # the load is nearly a power of the half-width
         r = narrow * (wide / narrow) ** min(max(share, 0.05), 0.95)
         carried = _carried(search, r)
         if carried is None:
@@ -53,7 +53,7 @@ def _bracket(search: Search, load: float, widest: float) -> tuple[tuple[float, f
     while r > NARROWEST * widest:
         carried = _carried(search, r)
         if carried is not None and carried <= load:
-            return None if wider is None or carried <= 0.0 else ((r, carried), wider)
+            return None if wider is None else ((r, carried), wider)
         wider = None if carried is None else (r, carried)
         r *= NARROWER
     return None

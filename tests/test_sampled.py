@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, make_smoothing_spline
 
@@ -229,6 +229,29 @@ def test_a_rough_trace_is_refused_with_its_intervals_and_the_smoothing_that_help
     with pytest.raises(sie.ContactError, match=r"for x in \[.*\], \[.*smoothing = .* makes it one patch") as refused:
         pressed(sie.Sampled(X, wavy), 0.3).pressure(0.0)
     assert pressed(sie.Sampled(X, wavy, refused.value.reached["smoothing"]), 0.3).check().ok
+
+
+def wavy_pad(height, waves):
+    x = np.linspace(-3.0, 3.0, 601)
+    return sie.Sampled(x, np.maximum(np.abs(x) - 1.0, 0.0) ** 2 / 60.0 + height * np.cos(waves * x + 0.3) + 1e-3 * x)
+
+
+@pytest.mark.parametrize("load", [3e-3, 1e-2])
+def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
+    solution = pressed(wavy_pad(1e-4, 6.0), load)  # contacts that begin at the lowest wave and grow with the load end in it
+    assert solution.check().ok
+    same = sie.solve(sie.Scene(profile=solution.scene.profile, modulus=1.0, half_width=solution.half_width))
+    assert (same.edges, same.normal_load) == (pytest.approx(solution.edges, rel=1e-12), pytest.approx(load, rel=1e-12))
+
+
+@given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
+@settings(max_examples=20)
+def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
+    try:
+        says = "" if pressed(wavy_pad(height, waves), load).check().ok else "not certified"
+    except sie.ContactError as refused:
+        says = str(refused)
+    assert not says or "smooth" in says
 
 
 # -- all that follows from the pressure ------------------------------------------------------------------------------
