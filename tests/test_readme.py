@@ -11,8 +11,8 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
 
 
-def test_the_four_snippets_run_one_after_the_other(capsys):
-    assert len(SNIPPETS) == 4
+def test_the_three_snippets_run_one_after_the_other(capsys):
+    assert len(SNIPPETS) == 3
     names: dict[str, object] = {}
     for snippet in SNIPPETS:
         exec(compile(snippet, "README.md", "exec"), names)
