@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import sie
-from validation import certificate, economy, peers, pressure, readme, stability
+from validation import cases, certificate, economy, peers, pressure, readme, speed, stability
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, labelled
 from validation.problems import kinked, sliding, wavy
@@ -63,7 +63,10 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
 # -- topics ---------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["appendix", "paper", "stress", "slip", "sliding", "sampled", "stability", "certificate", "mutation"])
+UNTIMED = ("appendix", "paper", "pressure", "stress", "slip", "sliding", "sampled", "stability", "certificate", "mutation")
+
+
+@pytest.mark.parametrize("name", UNTIMED)
 def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
     """Topics that do not measure time, or one ratio of it that is far from its bar (stress, slip, sampled)."""
     (section,), _ = run([name], quick=True)
@@ -303,7 +306,7 @@ def test_a_table_that_was_changed_by_hand_is_seen():
 @pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
 def test_what_the_readme_says_is_still_so(kept_row):
     """Errors within a factor of ten, or both below 1e-15; counts exactly; times are the machine's, and are not compared."""
-    case = next(c for c in pressure.chosen(quick=True) if str(c) == kept_row[0])
+    case = next(c for c in cases.chosen(quick=True) if str(c) == kept_row[0])
     now = pressure.row(case)
     for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):
         assert max(then, 1e-15) / 10 <= max(fresh, 1e-15) <= 10 * max(then, 1e-15)
@@ -311,8 +314,8 @@ def test_what_the_readme_says_is_still_so(kept_row):
 
 
 def test_the_table_is_made_of_a_report_that_has_it():
-    row = ["parabola-P=0.3", 1e-16, 0.0, 1e-16, 3, 0.2, 2.0]
-    table = {"kind": "table", "title": pressure.TABLE, "rows": [[name + "-r=1", *row[1:]] for name in readme.SHOWN]}
-    assert len(readme.rows({"topics": {"pressure": [table]}})) == len(readme.SHOWN)
-    with pytest.raises(ValueError, match="no topic"):
-        readme.rows({"topics": {}})
+    errors = {"kind": "table", "title": pressure.TABLE, "rows": [[name + "-r=1", 1e-16, 0.0, 1e-16, 3] for name in readme.SHOWN]}
+    times = {"kind": "table", "title": speed.TABLE, "rows": [[name + "-r=1", 0.2, 2.0] for name in reversed(readme.SHOWN)]}
+    assert readme.rows({"topics": {"pressure": [errors], "speed": [times]}})[0] == ["parabola-r=1", 1e-16, 0.0, 1e-16, 3, 0.2, 2.0]
+    with pytest.raises(ValueError, match="no topic `speed`"):
+        readme.rows({"topics": {"pressure": [errors]}})

@@ -18,8 +18,8 @@ from .running import run
 
 # Modules of this package, in the order of the page.
 TOPICS = (
-    "paper", "appendix", "pressure", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth", "stability",
-    "certificate", "economy", "mutation",
+    "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth",
+    "stability", "certificate", "economy", "mutation",
 )  # fmt: skip
 
 

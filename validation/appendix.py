@@ -314,7 +314,7 @@ def _claims(equation: Equation, least: dict[str, float], printed: float, wrong: 
 
 
 def figures(found: Found) -> Iterator[Figure]:
-    drawing, ax = axes(height=4.6)
+    drawing, ax = axes(height=4.6, foot=1.1)
     curves = found.curves("digits")
     draw(ax, curves)
     names = curves[0].about["names"]

@@ -15,7 +15,9 @@ import numpy as np
 
 from .records import Curve, Map
 
-WIDTH, HEIGHT = 5.0, 3.7  # inches
+WIDTH, HEIGHT = 5.0, 3.7  # inches, as are all that follow
+LETTER, LINE, MARGIN = 0.083, 0.22, 0.15  # of a letter, of a line of them, of what stays free
+HEAD, FOOT = 0.28, 0.5  # of a title, of tick labels and a label
 STYLE = {
     "svg.fonttype": "none",
     "svg.hashsalt": "validation",
@@ -30,7 +32,6 @@ STYLE = {
     "lines.markersize": 4.0,
     "legend.fontsize": 8,
     "legend.frameon": False,
-    "figure.constrained_layout.use": True,
 }
 MARKERS = "osD^vP*X<>hp"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -58,14 +59,27 @@ def drawn(figure: Figure) -> Drawn:
     return Drawn(figure.name, svg(figure), figure.caption)
 
 
-def axes(rows: int = 1, *, height: float = HEIGHT, **options: Any) -> tuple[Any, Any]:
-    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array)."""
+def axes(rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: float = FOOT) -> tuple[Any, Any]:
+    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array); head and foot for each panel."""
     import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
     from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
 
     with matplotlib.rc_context(STYLE):
-        drawing = Drawing(figsize=(WIDTH, height * rows), layout="constrained")
-        return drawing, drawing.subplots(rows, **options)
+        drawing = Drawing(figsize=(WIDTH, height * rows))
+        whole = height * rows
+        drawing.subplots_adjust(top=1 - head / whole, bottom=foot / whole, hspace=(head + foot) / (height - head - foot))
+        return drawing, drawing.subplots(rows)
+
+
+def _margins(drawing: Any) -> None:
+    """Room for the labels on both sides, by counting letters: Matplotlib's own layouts take half the time of a figure to measure them."""
+    room = {"left": MARGIN, "right": MARGIN}
+    for axis in (ax.yaxis for ax in drawing.axes):
+        ticks = axis.get_major_formatter().format_ticks(axis.get_majorticklocs())
+        label = LINE if axis.label.get_text() else 0.0
+        side = axis.get_label_position()
+        room[side] = max(room[side], LETTER * max(map(len, ticks)) + label + MARGIN)
+    drawing.subplots_adjust(left=room["left"] / WIDTH, right=1.0 - room["right"] / WIDTH)
 
 
 def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
@@ -86,7 +100,7 @@ def _decades(ax: Any, name: str, axis: Any) -> None:
 
     (ax.set_xscale if name == "x" else ax.set_yscale)("log")
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,), numticks=9))
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,), numticks=7 if name == "x" else 9))
     axis.set_major_formatter(FuncFormatter(tick))
     axis.set_minor_locator(NullLocator())
 
@@ -118,6 +132,11 @@ def legend(ax: Any, **options: Any) -> None:
     ax.legend(fontsize=8, frameon=False, handlelength=1.6, **options)
 
 
+def legend_above(ax: Any, columns: int) -> None:
+    """Of many curves: outside, where it hides none; as many lines as it has belong to the `head` of the axes."""
+    ax.legend(fontsize=8, frameon=False, handlelength=1.6, ncols=columns, loc="lower center", bbox_to_anchor=(0.4, 1.0))
+
+
 def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) -> None:
     """A map of decimal logarithms."""
     values = np.log10(np.maximum(np.array(found.values, dtype=float), 10.0**low))
@@ -128,12 +147,13 @@ def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) 
 def svg(figure: Figure) -> str:
     """The drawing as an <svg> element whose names no other figure on the page shares."""
     import matplotlib  # noqa: PLC0415
+    from matplotlib.backends.backend_svg import FigureCanvasSVG  # noqa: PLC0415
 
     text = io.StringIO()
     with matplotlib.rc_context(STYLE):
-        figure.drawing.get_layout_engine().execute(figure.drawing)
-        figure.drawing.set_layout_engine("none")  # laid out: else it would be drawn twice
-        figure.drawing.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+        _margins(figure.drawing)
+        canvas = FigureCanvasSVG(figure.drawing)  # `savefig` would draw it twice again
+        canvas.print_svg(text, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     element = text.getvalue()
     element = element[element.index("<svg") :]
     element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)

@@ -14,7 +14,7 @@ import numpy as np
 
 import sie
 
-from .figures import Figure, axes, draw, labelled, legend
+from .figures import HEIGHT, Figure, axes, draw, labelled, legend_above
 from .records import Claim, Curve, Doing, Found, Record
 from .timing import fastest
 
@@ -121,8 +121,8 @@ def compute(quick: bool) -> Iterator[Record]:
 
 def figures(found: Found) -> Iterator[Figure]:
     for name, label in (("time", "time [ms]"), ("memory", "peak of memory taken [MiB]")):
-        drawing, ax = axes()
+        drawing, ax = axes(height=HEIGHT + 0.8, head=1.2)
         draw(ax, found.curves(name))
         labelled(ax, "n", label, log="xy")
-        legend(ax)
+        legend_above(ax, 1)
         yield Figure("growth-" + name, drawing, f"{label.split(' [')[0].capitalize()} against size; a slope of one is linear growth.")

@@ -11,26 +11,32 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from . import pressure
+from . import cases, pressure, speed
 
 ROOT = Path(__file__).parent.parent
 README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"
 BEGIN, END = "<!-- from validation/readme.json by `python -m validation --readme` -->\n", "<!-- end -->\n"
 FORMATS = ("{}", "{:.1e}", "{:.1e}", "{:.1e}", "{}", "{:.2f} ms", "{:.1f}")
-HEADER = (*pressure.HEADER[:5], "solve + 1001 p", "ratio")
-SHOWN = pressure.QUICK
+HEADER = (*pressure.HEADER, "solve + 1001 p", "ratio")
+SHOWN = cases.QUICK
 
 
 def rows(report: Mapping[str, Any]) -> list[list[Any]]:
-    """From the JSON of a report: the cases that the README shows, the first of each kind."""
-    topic = report["topics"].get("pressure")
+    """From the JSON of a report: the cases that the README shows, the first of each kind; errors and counts, then times."""
+    errors, times = first_of_each_kind(report, "pressure", pressure.TABLE), first_of_each_kind(report, "speed", speed.TABLE)
+    return [[*errors[name], *times[name][1:]] for name in SHOWN]
+
+
+def first_of_each_kind(report: Mapping[str, Any], name: str, title: str) -> dict[str, list[Any]]:
+    """Rows of a topic's table, by the kind of case."""
+    topic = report["topics"].get(name)
     if topic is None:
-        raise ValueError("the report has no topic `pressure`, of which the README's table is made: run it without --only, or with it")
-    table = next(r for r in topic if r["kind"] == "table" and r["title"] == pressure.TABLE)
+        raise ValueError(f"the report has no topic `{name}`, of which the README's table is made: run it without --only, or with it")
+    table = next(r for r in topic if r["kind"] == "table" and r["title"] == title)
     first: dict[str, list[Any]] = {}
     for row in table["rows"]:
         first.setdefault(re.split(r"-[Pr]=", row[0])[0], row)
-    return [first[name] for name in SHOWN]
+    return first
 
 
 def markdown(rows: list[list[Any]]) -> str:

@@ -25,10 +25,10 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
     """The sections of the page in the order of the names, and the seconds they took."""
-    topics = {name: _topic(name) for name in names}
-    progress = Progress({name: topic.SECONDS[not quick] for name, topic in topics.items()})
     found: dict[str, tuple[Found, float]] = {}
     with workers(len(names)) as pool:
+        topics = {name: _topic(name) for name in names}
+        progress = Progress({name: topic.SECONDS[not quick] for name, topic in topics.items()})
         longest = sorted((name for name in names if not topics[name].TIMED), key=lambda name: -topics[name].SECONDS[not quick])
         beside = {pool.submit(computed, name, quick): name for name in longest}
         progress.tell(f"{len(beside)} topics beside each other")
@@ -72,6 +72,8 @@ def workers(topics: int) -> Iterator[Executor]:
     os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # only what is started from here on reads them
     try:
         with ProcessPoolExecutor(min(topics, cores), mp_context=multiprocessing.get_context("spawn")) as pool:
+            for _ in range(cores):
+                pool.submit(awake)  # they import while this process does
             yield pool
     finally:
         for name, value in before.items():
@@ -79,6 +81,11 @@ def workers(topics: int) -> Iterator[Executor]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+def awake() -> None:
+    """What most topics import takes a process about a second."""
+    _topic("paper")
 
 
 class Here(Executor):

@@ -18,7 +18,7 @@ import numpy as np
 import sie
 from analytic import cattaneo, cattaneo_rounded, hertz
 
-from .figures import Figure, axes, draw, labelled, legend
+from .figures import HEIGHT, Figure, axes, draw, labelled, legend, legend_above
 from .measures import apart, relative
 from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table, checked
@@ -282,11 +282,11 @@ def cost(steps: int) -> Claim:
 
 
 def figures(found: Found) -> Iterator[Figure]:
-    drawing, ax = axes()
+    drawing, ax = axes(height=HEIGHT + 0.8, head=1.2)
     draw(ax, found.curves("loading"), floor=1e-18)
     ax.axhline(BAR, color="tab:red", linewidth=0.8)
     labelled(ax, "decades of (Q/fP)/(1 - Q/fP)", "error / largest value", log="y")
-    legend(ax)
+    legend_above(ax, 1)
     yield Figure(
         "slip-loading",
         drawing,

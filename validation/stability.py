@@ -17,7 +17,7 @@ import numpy as np
 import sie
 
 from . import sweeps
-from .figures import Figure, axes, draw, heat, labelled, legend
+from .figures import Figure, axes, draw, heat, labelled, legend, legend_above
 from .peers import erdogan_gupta_matrix
 from .records import Claim, Curve, Doing, Found, Map, Record, Table, checked
 from .sweeps import Outcome, Sweep, logit, near_ends
@@ -190,7 +190,7 @@ def figures(found: Found) -> Iterator[Figure]:
 
 def _frontier(found: Found) -> Figure:
     keys = found.keys("sweep: ")
-    drawing, ax = axes(height=0.33 * len(keys) + 1.3)
+    drawing, ax = axes(height=0.33 * len(keys) + 1.3, head=0.4)
     for row, key in enumerate(keys):
         curve = found.curves(key)[0]
         x, states = np.array(curve.x), np.array(curve.about["states"])
@@ -202,7 +202,7 @@ def _frontier(found: Found) -> Figure:
     ticks = np.array([-300, -100, -15, 0, 15, 100, 300])
     ax.set_xticks(_compressed(ticks), [str(t) for t in ticks])
     labelled(ax, "decades, on a compressed axis", "")
-    ax.legend(fontsize=8, frameon=False, ncols=4, loc="lower center", bbox_to_anchor=(0.4, 1.0))
+    legend_above(ax, 4)
     return Figure(
         "frontier", drawing,
         "How far each number can be taken. Green: full accuracy; yellow: refused, or the certificate owns up; red: lost in silence. "
