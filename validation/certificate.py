@@ -79,7 +79,7 @@ def _pressed(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     else:
         m = int(rng.integers(3, 9))
         profile, form = sie.Power(m, R), lambda x: power.pressure(x, exponent=m, coefficient=R, modulus=E, half_width=b, lib=mp)
-    return Contact(kind, sie.Scene(profile=profile, modulus=E, half_width=b), form)
+    return Contact(kind, sie.Scene(profile=profile, modulus=E, half_width=b), form, places=1 if kind == "power" else AT)
 
 
 def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:

@@ -123,6 +123,7 @@ class Sliding:
     def __init__(self, coupling: float, half_flat: float = 0.5, radius: float = 1.0, half_width: float = 1.0) -> None:
         self.epsilon = -mp.atan(mp.mpf(coupling)) / mp.pi
         self.a, self.R, self.r = mp.mpf(half_flat), mp.mpf(radius), mp.mpf(half_width)
+        self._kept: dict[Any, tuple[Any, Any]] = {}
         self.m = mp.findroot(self._condition, (mp.mpf(-0.1) * coupling, mp.mpf(0.1) * coupling), tol=1e-40)
 
     def _pieces(self) -> tuple[Callable[[Any], Any], ...]:
@@ -130,15 +131,22 @@ class Sliding:
 
     def _integral(self, f: Callable[[int, Any], Any], m: Any) -> Any:
         """∫ f(piece, t)/w dt in the variable u, s = tanh u, where the ends are exponentially far; s from the nearer end."""
-        total, e = mp.zero, self.epsilon
+        total = mp.zero
         cuts = [-mp.inf, mp.atanh((-self.a - m) / self.r), mp.atanh((self.a - m) / self.r), mp.inf]
         for k in range(3):
             # dt/w = ds (1+s)^(-1/2-ε) (1-s)^(-1/2+ε) = sech(u) exp(-2εu) du
             lo, hi = (max(c, -REACH) if k == 0 else c for c in (cuts[k], min(cuts[k + 1], REACH)))
             steps = max(int(mp.ceil((hi - lo) / 2)), 2)
             nodes = mp.linspace(lo, hi, min(steps, 40) + 1)
-            total += mp.quad(lambda u, k=k: f(k, m + self.r * mp.tanh(u)) * mp.sech(u) * mp.exp(-2 * e * u), nodes, method="gauss-legendre")
+            total += mp.quad(lambda u, k=k: self._weighted(lambda s: f(k, m + self.r * s), u), nodes, method="gauss-legendre")
         return total
+
+    def _weighted(self, f: Callable[[Any], Any], u: Any) -> Any:
+        """f(tanh u) sech(u) exp(-2εu); every pressure asks for the same u."""
+        if u not in self._kept:
+            self._kept[u] = mp.tanh(u), mp.sech(u) * mp.exp(-2 * self.epsilon * u)
+        s, weight = self._kept[u]
+        return weight * f(s)
 
     def _condition(self, m: Any) -> Any:
         return self._integral(lambda k, t: self._pieces()[k](t), m)

@@ -13,7 +13,7 @@ and p = -Im F(x + i0). The first integrand is entire on the piece e and has a po
 until the pole is half a panel away: 32 nodes then leave 1e-36.  (Muskhelishvili 1953, §§ 107-113; ∫dt/(w(t-z)) = -π/R.)
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -106,17 +106,19 @@ class Contact:
         return mp.asin(s) if mp.im(s) else mp.asin(min(max(s, -mp.one), mp.one))
 
     def integral(self, f: Callable[[Number, Number, Number], Number], pole: Number | None = None, free: int = -1) -> Number:
-        """∫ f(t, w, H(t)) dφ over the contact; panels halved towards `pole`, except on the piece `free`, and towards kinks."""
+        """∫ f(t, w, H(t)) dφ over the contact."""
+        return sum((weight * f(t, w, H) for t, w, H, weight in self.nodes(pole, free)), mp.zero)
+
+    def nodes(self, pole: Number | None = None, free: int = -1) -> Iterator[tuple[Number, ...]]:
+        """(t, w, H(t), weight) in φ across the contact; panels halved towards `pole`, except on the piece `free`, and towards kinks."""
         pole_angle = None if pole is None else mp.asin((pole - self.m) / self.r)
         poles = () if pole is None else (pole_angle, mp.pi - pole_angle)
         kinks = [self.angle(b) for b in self.pieces.kinks if self.x1 < b < self.x2]
-        total = mp.zero
         for k, (start, end) in enumerate(pairwise(self.pieces.breaks)):
             lo, hi = max(start, self.x1), min(end, self.x2)
             if lo < hi:
                 for a, b in _panels(self.angle(lo), self.angle(hi), () if k == free else poles, kinks):
-                    total += sum(weight * f(t, w, H) for t, w, H, weight in self._nodes(k, a, b))
-        return total
+                    yield from self._nodes(k, a, b)
 
     @cached_property
     def _kept(self) -> dict[Any, list[tuple[Number, ...]]]:
