@@ -24,7 +24,8 @@ from dataclasses import replace
 from types import ModuleType
 from typing import Any, NoReturn
 
-from . import __version__, export, scenefile
+from . import __version__, export, files, scenefile
+from .abscissae import POINTS
 from .compare import Comparison, compare, read_mesh
 from .errors import ContactError
 from .grid import SIZE, SUFFIXES, Grid, file_bytes
@@ -33,6 +34,7 @@ from .path import Path
 from .plan import UNASKED, WANTS, plan
 from .scenefile import SceneFile
 from .solution import Solution, solve
+from .summary import summary
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, INTERRUPTED, UNREAD = 0, 1, 2, 130, 141
 COMMANDS = ("solve", "compare", "plan", "example")
@@ -79,7 +81,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
-    export.write_files(contents)
+    files.write_files(contents)
     _print(text)
     if not certified:
         print(f"sie: the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check", file=sys.stderr)
@@ -103,7 +105,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     found = compare(solution, mesh, arguments.tol)
     contents = {path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()}
     shown = contents.pop(pathlib.Path(STANDARD), None)
-    export.write_files(contents)
+    files.write_files(contents)
     _print(shown.decode() if shown is not None else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n")
     return CERTIFIED if found.ok else NOT_CERTIFIED
 
@@ -167,7 +169,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
             raise ValueError(f"--{kind} {path} would overwrite {taken[place]}: give another name")
         taken[place] = f"what --{kind} writes"
         if path != pathlib.Path(STANDARD):
-            export.writable(path)
+            files.writable(path)
     return outputs
 
 
@@ -215,7 +217,7 @@ def _figure(solution: Solution, file: SceneFile) -> Any:
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
-    paragraphs = [export.summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
+    paragraphs = [summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
 
@@ -288,7 +290,7 @@ def _parser() -> argparse.ArgumentParser:
     solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
     solving.add_argument("--field", metavar="FILE", help="write the stress on a grid: .csv, .npz or .vti (ParaView)")
     solving.add_argument("--grid", metavar="NXxNY", type=_grid, help=f"points of that grid ({SIZE[0]}x{SIZE[1]})")
-    solving.add_argument("--points", metavar="N", type=_points, default=export.POINTS, help="points in the contact, about (%(default)s)")
+    solving.add_argument("--points", metavar="N", type=_points, default=POINTS, help="points in the contact, about (%(default)s)")
     solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
     comparing.add_argument(
         "mesh", nargs="?", metavar="fem.csv", help="columns x, depth y, and p, q, sxx, syy, sxy, szz or mises, named in the first line"

@@ -24,8 +24,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .abscissae import REACH, abscissae, ceiling, peak, summits
 from .compare import QUANTITIES, Comparison
-from .export import REACH, abscissae, ceiling, peak, summits
 from .history import Followed, follow
 from .path import Path
 from .scenefile import UNITS, Units

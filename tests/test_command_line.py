@@ -12,7 +12,7 @@ import pytest
 
 import sie
 from sie import __main__ as command
-from sie import export, scenefile
+from sie import abscissae, files, scenefile, summary
 from sie.__main__ import main
 from sie.check import Certificate
 from sie.indenters import profile_kinds
@@ -81,16 +81,16 @@ def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
     solution = sie.solve(scenefile.read(scene).scene)
     assert f"x1 = {solution.edges[0]:.6g} mm, smooth" in out
     assert "normal load     500 N/mm" in out
-    assert f"peak pressure   {export.peak(solution)[0]:.6g} MPa at x = " in out
+    assert f"peak pressure   {abscissae.peak(solution)[0]:.6g} MPa at x = " in out
     assert str(solution.check()) in out
 
 
 def test_the_text_picture_is_the_pressure_column_by_column(scene):
     solution = sie.solve(scenefile.read(scene).scene)
-    rows = [line.split("│")[1] for line in export.text_picture(solution, scenefile.UNITS).splitlines() if "│" in line]
-    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(export.COLUMNS)]) / 8.0 / export.ROWS
-    x = np.linspace(*solution.edges, 2 * export.COLUMNS + 1)[1::2]
-    assert np.abs(heights * export.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
+    rows = [line.split("│")[1] for line in summary.text_picture(solution, scenefile.UNITS).splitlines() if "│" in line]
+    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(summary.COLUMNS)]) / 8.0 / summary.ROWS
+    x = np.linspace(*solution.edges, 2 * summary.COLUMNS + 1)[1::2]
+    assert np.abs(heights * abscissae.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
     assert (heights == heights[::-1]).all()
 
 
@@ -174,7 +174,7 @@ def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv
 
 def test_the_shear_of_bonded_bodies_is_told(tmp_path):
     flat = sie.Scene(profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0, friction=np.inf, tangential_load=3.0)
-    told = export.shear_summary(sie.solve(flat), scenefile.UNITS)
+    told = summary.shear_summary(sie.solve(flat), scenefile.UNITS)
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
@@ -219,7 +219,7 @@ def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
 
 def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0))
-    x = export.inside(solution, 100)
+    x = abscissae.inside(solution, 100)
     assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
     assert len(x) == pytest.approx(100, abs=10)
 
@@ -358,14 +358,14 @@ def test_a_refused_scene_leaves_the_outputs_of_the_last_one_alone(text, scene, t
 
 def test_a_disk_that_fills_up_leaves_every_file_as_it_was(scene, tmp_path, capsys, monkeypatch):
     (tmp_path / "out.csv").write_text("as it was")
-    write = export._write_part
+    write = files._write_part
 
     def full(part, data, like):
         write(part, data[:100], like)
         if like.suffix == ".json":
             raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(export, "_write_part", full)
+    monkeypatch.setattr(files, "_write_part", full)
     assert main(["solve", scene, "--csv", "out.csv", "--json", "out.json"]) == 2
     assert "No space left on device" in sentence(capsys)
     assert (tmp_path / "out.csv").read_text() == "as it was"
