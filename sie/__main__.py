@@ -27,6 +27,7 @@ from typing import Any, NoReturn
 from . import __version__, export, files, scenefile
 from .abscissae import POINTS
 from .compare import Comparison, compare, read_mesh
+from .entries import nearest
 from .errors import ContactError
 from .grid import SIZE, SUFFIXES, Grid, file_bytes
 from .history import follow
@@ -257,12 +258,12 @@ class _Parser(argparse.ArgumentParser):
 
 def _arguments(argv: Sequence[str]) -> argparse.Namespace:
     if argv and not argv[0].startswith("-") and argv[0] not in COMMANDS:
-        near = scenefile.nearest(argv[0], COMMANDS)
+        near = nearest(argv[0], COMMANDS)
         remedy = f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
         raise ValueError(f'there is no command "{argv[0]}": {remedy}')
     found, unknown = _parser().parse_known_args(argv)
     if unknown:
-        near = scenefile.nearest(unknown[0], OPTIONS)
+        near = nearest(unknown[0], OPTIONS)
         remedy = f"did you mean {near}?" if near else f"`sie {found.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
     return found

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .scenefile import nearest
+from .entries import nearest
 from .solution import Solution
 from .traces import header_of, read_columns
 

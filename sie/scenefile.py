@@ -28,14 +28,14 @@ file, the table, the value and the remedy; a name that is not known is answered 
 from __future__ import annotations
 
 import codecs
-import difflib
 import pathlib
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
+from . import entries
 from .indenters import profile_kinds
 from .material import RIGID, Body, Elastic
 from .path import Path
@@ -131,7 +131,7 @@ def example(kind: str) -> str:
     Raises ValueError, with the nearest name, for one that is not known.
     """
     if kind not in _examples():
-        raise ValueError(f'there is no example "{kind}": {_suggestion(kind, _examples())}')
+        raise ValueError(f'there is no example "{kind}": {entries.suggestion(kind, _examples())}')
     return (resources.files(__package__) / "examples" / f"{kind}.toml").read_text(encoding="utf-8")
 
 
@@ -144,115 +144,37 @@ def _examples() -> tuple[str, ...]:
     return (*profile_kinds(), "partial-slip", "fretting-cycle", "sliding")
 
 
-# -- values, each with the sentence that refuses it --------------------------------------------------------------------
-
-Reader = Callable[[str, Any], Any]
-
-
-def _number(where: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"{where} = {_shown(value)} is not a number: write a plain number, without quotes or units")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError(f"{where} = {_shown(value)} is beyond the floating-point range: choose other units") from None
-
-
-def _text(where: str, value: Any) -> str:
-    if not isinstance(value, str):
-        raise ValueError(f'{where} = {_shown(value)} is not text: put it in quotes, "..."')
-    if not value.isprintable():
-        raise ValueError(f"{where} = {_shown(value)} is not one line of plain text: leave out line ends and control characters")
-    return value
-
-
-def _flag(where: str, value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise ValueError(f"{where} = {_shown(value)} is neither true nor false: write one of them, without quotes")
-    return value
-
-
-def _list(where: str, value: Any) -> list[Any]:
-    if not isinstance(value, list):
-        raise ValueError(f"{where} = {_shown(value)} is not a list: put it in square brackets")
-    return value
-
-
-def _numbers(where: str, value: Any) -> tuple[float, ...]:
-    return tuple(_number(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
-
-
-def _rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
-    return tuple(_numbers(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
-
-
-def _texts(where: str, value: Any) -> tuple[str, ...]:
-    return tuple(_text(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
-
-
-def _number_or_text(where: str, value: Any) -> float | str:
-    return value if isinstance(value, str) else _number(where, value)
-
-
-def _number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
-    return _numbers(where, value) if isinstance(value, list) else _number(where, value)
-
-
-def _whole(where: str, value: Any) -> int:
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"{where} = {_shown(value)} is not a whole number: write one, without quotes")
-    return value
-
-
-def _columns(where: str, value: Any) -> tuple[int | str, ...]:
-    return tuple(v if isinstance(v, str) else _whole(f"{where}[{k}]", v) for k, v in enumerate(_list(where, value)))
-
-
-def _table(where: str, value: Any) -> dict[str, Any]:
-    if isinstance(value, dict):
-        return value
-    if isinstance(value, list):
-        raise ValueError(f"[{where}] is a list: write the header [{where}] once, in single brackets")
-    raise ValueError(f"{where} = {_shown(value)} is not a table: write the header [{where}] and its keys below it")
-
-
-def _shown(value: Any) -> str:
-    """A value as TOML writes it, shortened."""
-    text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
-    text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
 # -- what each table may hold ------------------------------------------------------------------------------------------
 
-_BODY: dict[str, Reader] = {"young": _number, "poisson": _number, "plane": _text, "rigid": _flag}
+_BODY: dict[str, entries.Reader] = {"young": entries.number, "poisson": entries.number, "plane": entries.text, "rigid": entries.flag}
 _LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "sliding", "bulk_stress")
 _PATH_REPLACES = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
-_TABLES: dict[str, dict[str, Reader]] = {
-    "units": {"length": _text, "force": _text, "stress": _text},
+_TABLES: dict[str, dict[str, entries.Reader]] = {
+    "units": {"length": entries.text, "force": entries.text, "stress": entries.text},
     "body": _BODY,
     "indenter": _BODY,
-    "pair": {"modulus": _number, "dundurs": _number, "poisson": _number},
-    "load": dict.fromkeys(_LOAD_KEYS, _number) | {"path": _rows},
+    "pair": {"modulus": entries.number, "dundurs": entries.number, "poisson": entries.number},
+    "load": dict.fromkeys(_LOAD_KEYS, entries.number) | {"path": entries.rows},
 }
 _TOP: tuple[str, ...] = ("title", "want", "profile", *_TABLES)
-_MODIFIERS: dict[str, Reader] = {"mirrored": _flag, "tilted": _number, "shifted": _number}
+_MODIFIERS: dict[str, entries.Reader] = {"mirrored": entries.flag, "tilted": entries.number, "shifted": entries.number}
 # Parameters of each profile kind; the optional ones are those of "function" but for its slope.
-_PARAMETERS: dict[str, dict[str, Reader]] = {
-    "parabola": {"radius": _number},
-    "rounded-flat": {"half_flat": _number, "radius": _number},
-    "flat": {"half_width": _number},
-    "wedge": {"slope": _number},
-    "power": {"exponent": _number, "coefficient": _number},
-    "polynomial": {"coefficients": _numbers},
-    "piecewise": {"breaks": _numbers, "pieces": _rows},
-    "function": {"slope": _text, "breaks": _numbers, "domain": _numbers, "parity": _text},
-    "sampled": {"x": _numbers, "h": _numbers, "smoothing": _number_or_text, "mend": _flag},
+_PARAMETERS: dict[str, dict[str, entries.Reader]] = {
+    "parabola": {"radius": entries.number},
+    "rounded-flat": {"half_flat": entries.number, "radius": entries.number},
+    "flat": {"half_width": entries.number},
+    "wedge": {"slope": entries.number},
+    "power": {"exponent": entries.number, "coefficient": entries.number},
+    "polynomial": {"coefficients": entries.numbers},
+    "piecewise": {"breaks": entries.numbers, "pieces": entries.rows},
+    "function": {"slope": entries.text, "breaks": entries.numbers, "domain": entries.numbers, "parity": entries.text},
+    "sampled": {"x": entries.numbers, "h": entries.numbers, "smoothing": entries.number_or_text, "mend": entries.flag},
 }
 _OPTIONAL = {"function": {"breaks", "domain", "parity"}, "sampled": {"smoothing", "mend"}}
 # Of kind "sampled" in place of x and h.
-_FILE: dict[str, Reader] = {
-    "path": _text, "columns": _columns, "scale": _number_or_pair, "skip": _whole, "smoothing": _number_or_text, "mend": _flag,
+_FILE: dict[str, entries.Reader] = {
+    "path": entries.text, "columns": entries.columns, "scale": entries.number_or_pair, "skip": entries.whole,
+    "smoothing": entries.number_or_text, "mend": entries.flag,
 }  # fmt: skip
 
 
@@ -270,9 +192,9 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     path = _path(loads)
     return SceneFile(
         scene=Scene(profile=_profile(top["profile"], folder), **_bodies(top), **loads),
-        title=_text("title", top.get("title", "")),
+        title=entries.text("title", top.get("title", "")),
         units=Units(**_taken("units", top.get("units", {}))),
-        want=wants("want", _texts("want", top.get("want", []))),
+        want=wants("want", entries.texts("want", top.get("want", []))),
         path=path,
     )
 
@@ -292,10 +214,10 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
 
 def _taken(name: str, value: Any) -> dict[str, Any]:
     """The values of the table [name], none unknown, each of its type."""
-    return _values(f"[{name}]", _table(name, value), _TABLES[name])
+    return _values(f"[{name}]", entries.table(name, value), _TABLES[name])
 
 
-def _values(where: str, table: Mapping[str, Any], readers: Mapping[str, Reader], kind: str = "") -> dict[str, Any]:
+def _values(where: str, table: Mapping[str, Any], readers: Mapping[str, entries.Reader], kind: str = "") -> dict[str, Any]:
     for key in table:
         if key not in readers:
             raise ValueError(f'{where}{kind} has no key "{key}": {_remedy(key, readers, where)}')
@@ -309,7 +231,7 @@ def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> No
 
 
 def _profile(value: Any, folder: pathlib.Path) -> Profile:
-    first = dict(_table("profile", value))
+    first = dict(entries.table("profile", value))
     plus = first.pop("plus", [])
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError("profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term")
@@ -323,16 +245,16 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted."""
     kinds = profile_kinds()
     if "kind" not in table:
-        meant = next((key for key in table if nearest(key, ["kind"])), "")
+        meant = next((key for key in table if entries.nearest(key, ["kind"])), "")
         raise ValueError(
-            f'{where} has no key "{meant}": did you mean "kind"?' if meant else f"{where} lacks kind: give kind = {_choices(kinds)}"
+            f'{where} has no key "{meant}": did you mean "kind"?' if meant else f"{where} lacks kind: give kind = {entries.choices(kinds)}"
         )
-    kind = _text(f"{where} kind", table["kind"])
+    kind = entries.text(f"{where} kind", table["kind"])
     if kind not in kinds:
-        raise ValueError(f'{where} kind = "{kind}" is not known: {_suggestion(kind, kinds)}')
+        raise ValueError(f'{where} kind = "{kind}" is not known: {entries.suggestion(kind, kinds)}')
     measured = kind == "sampled" and not table.keys().isdisjoint(_FILE.keys() - _PARAMETERS[kind].keys())
     readers = _FILE if measured else _PARAMETERS[kind]
-    values = _values(where, table, {"kind": _text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"')
+    values = _values(where, table, {"kind": entries.text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"')
     _required(
         f'{where} of kind "{kind}"', values, ["path"] if measured else (name for name in readers if name not in _OPTIONAL.get(kind, ()))
     )
@@ -400,34 +322,18 @@ class _Naming:
 # -- names that are not known ------------------------------------------------------------------------------------------
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that `name` was most likely meant to be, "" if none is near.
-
-    >>> nearest("normal_laod", ["normal_load", "tangential_load"])
-    'normal_load'
-    """
-    by_letters = {k.lower().replace("_", "-"): k for k in known}
-    found = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
-    return by_letters[found[0]] if found else ""
-
-
 def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
     """The names, if all of them can be asked for; ValueError, with the nearest that can, if not."""
     for name in names:
         if name not in WANTS:
-            raise ValueError(f'{where} "{name}" is not known: {_suggestion(name, WANTS)}')
+            raise ValueError(f'{where} "{name}" is not known: {entries.suggestion(name, WANTS)}')
     return tuple(names)
-
-
-def _suggestion(name: str, known: Iterable[str]) -> str:
-    near = nearest(name, known)
-    return f'did you mean "{near}"?' if near else f"choose {_choices(known)}"
 
 
 def _remedy(key: str, known: Iterable[str], here: str) -> str:
     """Where a stray key belongs: near a known one, or in another table, which is what happens when a header is forgotten."""
     known = tuple(known)
-    if not nearest(key, known):
+    if not entries.nearest(key, known):
         if here and key in ("title", "want", *_TABLES):
             return "it stands at the top of the file, before the first [table]"
         if here and key == "plus":
@@ -436,9 +342,4 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
         homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _FILE, _MODIFIERS)) else []
         if homes:
             return f"it belongs in {' or '.join(homes)}"
-    return _suggestion(key, known)
-
-
-def _choices(names: Iterable[str]) -> str:
-    quoted = [f'"{name}"' for name in names]
-    return f"{', '.join(quoted[:-1])} or {quoted[-1]}" if len(quoted) > 1 else quoted[0]
+    return entries.suggestion(key, known)
