@@ -17,6 +17,7 @@ spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. C
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -30,7 +31,9 @@ from .system import System
 from .transform import by_transform
 
 ENLARGED = 1.45  # from one attempt to the next: what is spent is not twice what is needed
-LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a transform, gives up
+LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a DCT, gives up; ...
+LARGEST_RULE, LARGEST_COMPLEX_RULE = 4000, 1500  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
+NEAR_MINUS_ONE = 1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
 LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
 IDLE, SETTLED = 3, 1e-6  # after so many enlargements without progress an error below this is noise of g or k
 # A right-hand side that misses its consistency by more than this fraction is refused.
@@ -51,13 +54,34 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
         else:
             idle += 1
         sizes = _enlarged(sizes, more)
-        if sum(sizes) > (LARGEST_TRANSFORM if problem.is_transform else LARGEST) or (idle >= IDLE and best.progress < SETTLED):
+        if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED):
             reached = best.answer()
             raise ContactError(
                 f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its estimated error is {reached.error:.1e}; "
-                "g or k is noisy or not smooth: raise tol, or end the intervals where it is not smooth",
+                + _reason(problem),
                 density=reached,
             )
+
+
+def _largest(problem: Problem) -> int:
+    if not problem.is_transform:
+        return LARGEST
+    (weight,) = problem.weights
+    if weight.is_chebyshev:
+        return LARGEST_TRANSFORM
+    return LARGEST_RULE if weight.is_real else LARGEST_COMPLEX_RULE
+
+
+def _reason(problem: Problem) -> str:
+    """Why a density may not settle, and what to do."""
+    for weight in problem.weights:
+        left = abs((abs(weight.alpha.real) - 1.0) + math.copysign(1.0, weight.alpha.real) * weight.tail.real)
+        if weight.kappa == 0 and left < NEAR_MINUS_ONE:
+            return (
+                f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of φ stands at that end: "
+                "raise tol, or make that end bounded and the other singular"
+            )
+    return "g or k is noisy or not smooth: raise tol, or end the intervals where it is not smooth"
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:

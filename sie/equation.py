@@ -69,7 +69,7 @@ class CauchyEquation:
     def __post_init__(self) -> None:
         for name, value in (("interval", self._intervals()), ("a", _constant("a", self.a)), ("b", _constant("b", self.b))):
             object.__setattr__(self, name, value)
-        if not isinstance(self.free, Sequence):
+        if not isinstance(self.free, (Sequence, np.ndarray)) or isinstance(self.free, str):
             raise ValueError(f"free = {self.free!r}: give a sequence of functions or numbers, such as (1.0,)")
         object.__setattr__(self, "free", tuple(self.free))
         for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
@@ -88,7 +88,7 @@ class CauchyEquation:
     def _intervals(self) -> tuple[Interval, ...]:
         try:
             ends = np.array(self.interval, dtype=float)
-            ends = ends.reshape(-1, 2) if ends.ndim in (1, 2) and ends.shape[-1] == 2 else ends[:0]
+            ends = ends.reshape(-1, 2) if ends.ndim in (1, 2) and ends.shape[-1] == 2 else np.zeros((0, 2))
         except (TypeError, ValueError):
             ends = np.zeros((0, 2))
         if not len(ends):
@@ -97,6 +97,8 @@ class CauchyEquation:
         for x1, x2 in out:
             if not (np.isfinite(x1) and np.isfinite(x2) and x1 < x2):
                 raise ValueError(f"interval ({x1:g}, {x2:g}): give finite ends with x1 < x2")
+            if not np.isfinite(x2 - x1):
+                raise ValueError(f"interval ({x1:g}, {x2:g}): its length is more than the largest double; measure x in larger units")
         for before, after in pairwise(out):
             if not before[1] < after[0]:
                 raise ValueError(f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right")
@@ -105,19 +107,22 @@ class CauchyEquation:
     def _refuse_degenerate(self) -> None:
         if self.b == 0.0:
             raise ValueError("b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do")
-        if abs(self.a * self.a + self.b * self.b) <= 4.0 * EPS * abs(self.b) ** 2:
+        ratio = self.a / self.b  # a² or b² may be more, or less, than the largest double
+        if not np.isfinite(ratio):
+            raise ValueError(f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm equation; give a larger b")
+        if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
             raise ValueError(f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type")
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
-        ends, n = self.ends, len(self.interval)
-        if isinstance(ends, str) or (np.shape(ends) == (2,) and all(isinstance(e, str) for e in ends)):
+        ends, n = self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends, len(self.interval)
+        if isinstance(ends, str) or (isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)):
             ends = (ends,) * n
         if not isinstance(ends, Sequence) or len(ends) != n:
             given = f"given for {len(ends)} intervals, but there are {n}" if isinstance(ends, Sequence) else f"{ends!r}"
             raise ValueError(f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval")
         pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
         for pair in pairs:
-            if not isinstance(pair, Sequence) or len(pair) != 2 or not set(pair) <= {"singular", "bounded"}:
+            if not isinstance(pair, Sequence) or len(pair) != 2 or any(end not in ("singular", "bounded") for end in pair):
                 raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
         return tuple((left, right) for left, right in pairs)
 

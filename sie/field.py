@@ -231,8 +231,10 @@ class Stress:
 
     def _s_of(self, x: Array, y: Array, surface: bool) -> tuple[Array]:
         t = self.tractions
-        s = -t.pressure(x) - t.shear.hilbert(x) if surface else self._Phi(x + 1j * y).imag
-        return (s + 0.5 * t.bulk_stress,)
+        if not surface:
+            return (self._Phi(x + 1j * y).imag + 0.5 * t.bulk_stress,)
+        p = t.pressure(x)
+        return (-p - hilbert_of_shear(t, x, p) + 0.5 * t.bulk_stress,)
 
     def _real_of(self, x: Array, y: Array, surface: bool) -> tuple[Array]:
         t = self.tractions
@@ -241,10 +243,11 @@ class Stress:
     def _s_and_D_of(self, x: Array, y: Array, surface: bool) -> tuple[Array, Complex]:
         t = self.tractions
         if surface:
-            hilbert = t.shear.hilbert(x)
+            p = t.pressure(x)
+            hilbert = hilbert_of_shear(t, x, p)
             D = np.empty(x.shape, dtype=complex)
             D.real, D.imag = hilbert - 0.5 * t.bulk_stress, 0.0 - t.shear(x)  # no -0 where there is no shear
-            return -t.pressure(x) - hilbert + 0.5 * t.bulk_stress, D
+            return -p - hilbert + 0.5 * t.bulk_stress, D
         Phi, dPhi, Fq = potentials(t, x + 1j * y)
         return Phi.imag + 0.5 * t.bulk_stress, Fq - y * dPhi - 0.5 * t.bulk_stress
 
@@ -253,6 +256,12 @@ class Stress:
         for density, p, q in self.tractions.combined:
             total += _complex(p, q) * density.cauchy(z)
         return total
+
+
+def hilbert_of_shear(tractions: Tractions, x: Array, p: Array) -> Array:
+    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is infinite too and outweighs it."""
+    values = tractions.shear.hilbert(x)
+    return np.where(np.isinf(p) & np.isinf(values), 0.0, values)
 
 
 def potentials(tractions: Tractions, z: Complex) -> tuple[Complex, Complex, Complex]:

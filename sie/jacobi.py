@@ -32,6 +32,8 @@ Exponent = float | complex
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
+FAINT = 0.25
+PHASE = 4.0 * EPS
 MOST_STEPS = 20_000  # of the continued fraction: it is asked only where a series of that many terms would grow
 
 
@@ -41,14 +43,20 @@ class Weight(NamedTuple):
     alpha: Exponent
     beta: Exponent
     kappa: int  # the index
+    tail: Exponent = 0.0  # for κ = 0: what rounding left of α, less of β; next to ±1 it is all that tells how far
 
     @property
     def inverse(self) -> Weight:
-        return Weight(-self.alpha, -self.beta, -self.kappa)
+        return Weight(-self.alpha, -self.beta, -self.kappa, -self.tail)
 
     @property
     def is_real(self) -> bool:
         return not isinstance(self.alpha, complex)
+
+    @property
+    def is_chebyshev(self) -> bool:
+        """One of the four, of sines and cosines."""
+        return {self.alpha, self.beta} <= {-0.5, 0.5}
 
     @property
     def kind(self) -> Any:
@@ -58,14 +66,19 @@ class Weight(NamedTuple):
     @property
     def real(self) -> Weight:
         """Its modulus on the real axis."""
-        return Weight(float(self.alpha.real), float(self.beta.real), self.kappa)
+        return Weight(float(self.alpha.real), float(self.beta.real), self.kappa, float(self.tail.real))
+
+    @property
+    def is_faint(self) -> bool:
+        """Close to 1, as |a| >> |b| makes it: cosec(πα) is then so large that the terms it multiplies cancel."""
+        return self.kappa == 0 and abs(self.alpha) < FAINT
 
     @property
     def sine(self) -> Exponent:
         """sin πα, from the smaller exponent: next to ±1 the other has lost its digits."""
         if abs(self.beta) < abs(self.alpha):
-            return _sin_pi(self.beta)  # κ = 0 has |α| = |β|
-        return _sin_pi(self.alpha)
+            return _sin_pi(self.beta)
+        return _sin_pi(self.alpha, self.tail)
 
     @property
     def cotangent(self) -> Exponent:
@@ -90,27 +103,31 @@ class Weight(NamedTuple):
         return values
 
 
-def _sin_pi(a: Exponent) -> Exponent:
-    if isinstance(a, complex):
-        return cmath.sin(math.pi * a)
-    nearest = round(a)
-    return math.sin(math.pi * (a - nearest)) * (1.0 if nearest % 2 == 0 else -1.0)
+def _sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
+    nearest = round(a.real)
+    near, sign = (a - nearest) + tail, 1.0 if nearest % 2 == 0 else -1.0
+    return sign * (cmath.sin(math.pi * near) if isinstance(near, complex) else math.sin(math.pi * near))
 
 
 def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | None:
     """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval, bounded or singular at (left, right); None if there is none.
 
-    α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi and integers N, M that make Re α, Re β positive (bounded) or negative.
+    α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi = -atan(b/a)/π and integers N, M that make Re α, Re β positive (bounded)
+    or negative. Of a and b only the ratio counts.
     """
-    if a.imag == 0.0 == b.imag:
-        theta: Exponent = -math.atan2(b.real, a.real) / math.pi
-    else:
-        theta = cmath.log((a - 1j * b) / (a + 1j * b)) / (2j * math.pi)
-        theta = theta if theta.imag else theta.real  # a and b of one phase; equal weights must be of equal type, as keys of caches
+    ratio: Exponent = a / b
+    if abs(ratio.imag) <= PHASE * abs(ratio):
+        ratio = ratio.real  # a and b of one phase; equal weights must be of equal type, as keys of caches
+    theta = -_arctangent(1.0 / ratio) / math.pi if abs(ratio) > 1.0 else _arctangent(ratio) / math.pi - 0.5
     alpha, beta = _end(theta, bounded[1]), _end(-theta, bounded[0])
     if alpha is None or beta is None:
         return None
-    return Weight(alpha, beta, -round((alpha + beta).real))
+    kappa = -round((alpha + beta).real)
+    return Weight(alpha, beta, kappa, 0.0 if kappa else theta - (alpha - round((alpha - theta).real)))
+
+
+def _arctangent(ratio: Exponent) -> Exponent:
+    return cmath.atan(ratio) if isinstance(ratio, complex) else math.atan(ratio)
 
 
 def _end(theta: Exponent, bounded: bool) -> Exponent | None:
@@ -144,10 +161,11 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
     else:
         alpha = total - beta
     a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
-    a[0] = (beta - alpha) / (total + 2)
+    tail = kind(weight.tail)
+    a[0] = (beta - alpha) / (total + 2) - tail
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        ends = alpha * beta if weight.kappa == 1 else (1 + alpha) * (1 + beta)  # the same, but that 1 + β cancels next to -1
+        ends = alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)  # the same, but that 1 + β cancels next to -1
         square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
         square[2:] = 4 * k * (k + alpha) * (k + beta) * (k + total) / ((2 * k + total) ** 2 * (2 * k + total + 1) * (2 * k + total - 1))
@@ -238,7 +256,7 @@ def _extended_gauss(weight: Weight, n: int) -> tuple[Array, Array]:
     Asymptotic guesses; Ehrlich-Aberth sweeps, in which no two can fall on the same root; a last Newton step and Christoffel's weights
     1 / Σ p_k² in extended precision.
     """
-    if {weight.alpha, weight.beta} <= {-0.5, 0.5}:
+    if weight.is_chebyshev:
         return _chebyshev(weight, n)
     k = np.arange(n, 0, -1)
     s = np.cos((k - 0.25 + 0.5 * weight.alpha) * np.pi / (n + 0.5 * (1.0 - weight.kappa)))
@@ -310,6 +328,27 @@ def second(weight: Weight, c: Array, s: Array) -> Array:
     return out
 
 
+def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Array:
+    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends, at distances from them, for a weight that is close to 1."""
+    power, half = weight.alpha * np.log(right / left), _sin_pi(0.5 * weight.alpha)
+    return _faint(weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power))
+
+
+def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
+    """Σ c_n (p̃_n + excess p_n) / sin πα, 1 + excess the factor of p_n in the module's docstring with its sign turned.
+
+    For κ = 0 the two families differ in a_0 = -α alone, so that p̃_n - p_n = -2α p_0 v_n with v_n of their recurrence, v_0 = 0, v_1 = 1/b_1.
+    """
+    n = len(c)
+    r = recurrence(weight, n)
+    high, higher = 0.0 * z, 0.0 * z
+    for k in range(n - 1, 0, -1):
+        high, higher = c[k] + z / r.b[k + 1] * high - (r.b[k + 1] / r.b[k + 2] * higher if k + 2 <= n else 0.0), high
+    difference = -2.0 * weight.alpha * r.first / r.b[1] * high
+    out: Array = (difference + excess * evaluate(weight, c, z)) / weight.sine
+    return out
+
+
 def cut(weight: Weight, value: Array, side: int) -> Array:
     """cot(πα) φ + i side φ: what is subtracted from it on the interval, from y > 0 (side 1), y < 0 (-1), or for the principal value (0)."""
     factor = weight.cotangent + 1j * side if side else weight.cotangent
@@ -344,8 +383,12 @@ def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Arr
     near = np.log(rho) <= math.log(GROWTH) / (len(c) + 1)
     if near.any():
         z_near, left_near = z[near], left[near]
-        root = (right[near] / left_near) ** weight.alpha * left_near**-weight.kappa
-        out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
+        ratio = right[near] / left_near
+        if weight.is_faint:
+            out[near] = _faint(weight, c, z_near, -np.expm1(weight.alpha * np.log(ratio)))
+        else:
+            root = ratio**weight.alpha * left_near**-weight.kappa
+            out[near] = second(weight, c, z_near) - root * evaluate(weight, c, z_near) / weight.sine
     if not near.all():
         out[~near] = _continued_fraction(weight, c, z[~near], float(rho[~near].min())) / np.pi
     return out

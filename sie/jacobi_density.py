@@ -118,12 +118,32 @@ class Part:
     def cauchy_inside(self, to_right: Array, to_left: Array, side: int) -> Array:
         """1/π PV∫ φ/(x - t) dt inside (side 0), or the limit from one side."""
         right, left, rho = self.map.inverse(to_right, to_left)
-        regular = jacobi.second(self.weight, self.coefficients, 0.5 * (left - right)) - self._smooth(right, left)
-        out: Array = regular / rho - jacobi.cut(self.weight, self.value(to_right, to_left), side)
+        value, smooth = self.value(to_right, to_left), self._smooth(right, left)
+        regular = jacobi.second(self.weight, self.coefficients, 0.5 * (left - right)) - smooth
+        out: Array = regular / rho - jacobi.cut(self.weight, value, side)
+        faint = self._reduced
+        if faint.weight.is_faint:
+            at = (right > 0.0) & (left > 0.0)
+            principal = jacobi.faint_principal(faint.weight, faint.coefficients, right[at], left[at]) - smooth[at]
+            out[at] = principal / rho[at] - 1j * side * value[at] if side else principal / rho[at]
         return out
+
+    @cached_property
+    def _reduced(self) -> Part:
+        """The same density by a weight close to 1, if w is one times 1 + s or 1 - s: its Cauchy integrals then keep their digits."""
+        w, n = self.weight, len(self.coefficients)
+        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= jacobi.FAINT:
+            return self
+        rises = abs(w.alpha) < abs(w.beta)
+        faint = Weight(w.alpha, -w.alpha, 0) if rises else Weight(-w.beta, w.beta, 0)
+        s, A = jacobi.analysis(faint, n + 1)
+        values = (1.0 + s if rises else 1.0 - s) * jacobi.evaluate(w, self.coefficients, s)
+        return replace(self, weight=faint, coefficients=values @ A, errors=0.0)
 
     def cauchy_outside(self, z: Array) -> Array:
         """1/π ∫ φ/(z - t) dt off the interval."""
+        if self._reduced is not self:
+            return self._reduced.cauchy_outside(z)
         to_left, to_right = z - self.map.x1, self.map.x2 - z
         if isinstance(self.map, Affine):
             right, left = -to_right / self.map.r, to_left / self.map.r
@@ -254,12 +274,12 @@ class JacobiDensity(Density):
     def _summed(self, of_part: Callable[[Part, Array, int], Array], z: ArrayLike, side: int) -> Array:
         refuse_side(side)
         z = np.asarray(z, dtype=complex)
-        flat = z.ravel()
-        out = np.zeros(flat.shape, dtype=complex)
-        for part in self.parts:
-            for start in range(0, len(flat), CHUNK):
-                at = slice(start, start + CHUNK)
-                out[at] += of_part(part, flat[at], side)
+        out = np.where(np.isnan(z), complex(math.nan, math.nan), 0j).ravel()  # 0 at infinity
+        here = np.flatnonzero(np.isfinite(z.ravel()))
+        for start in range(0, len(here), CHUNK):
+            at = here[start : start + CHUNK]
+            for part in self.parts:
+                out[at] += of_part(part, z.ravel()[at], side)
         return out.reshape(z.shape)
 
 

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .field import SHALLOW, Tractions, potentials
+from .field import SHALLOW, Tractions, hilbert_of_shear, potentials
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -233,7 +233,8 @@ def on_surface(tractions: Tractions, measure: Measure) -> list[Maximum]:
 
 def surface_values(tractions: Tractions, x: Array) -> Array:
     """(s, D_r, D_i) on the surface, (3, n); at the edges of the contact their limits from inside."""
-    p, q, hilbert = tractions.pressure(x), tractions.shear(x), tractions.shear.hilbert(x)
+    p, q = tractions.pressure(x), tractions.shear(x)
+    hilbert = hilbert_of_shear(tractions, x, p)
     if tractions.shear.interval == tractions.pressure.interval:
         for x_edge, limit in zip(tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True):
             edge = (x == x_edge) & np.isfinite(p)

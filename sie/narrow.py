@@ -28,18 +28,17 @@ MAX_STEPS = 30
 
 def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zones | None:
     """The zones of slip in both directions if the stick zone between them is narrow, otherwise None."""
-    strain, load = abs(drive.strain), abs(drive.load)
-    near = 0 if drive.left * drive.load < 0.0 else 1  # less force slips on the side that slips against Q
+    strain, width = abs(drive.strain), 2.0 * contact.r
+    near, depth = _balanced(rims, contact, drive)
+    load = (drive.left, drive.right)[1 - near] * drive.load  # what the far side carries more than the near one
 
     def cut(rho: float, depth: float) -> tuple[Zone, Zone]:
-        return zone(rims[near], depth - rho), zone(rims[1 - near], 2.0 * contact.r - depth - rho)
+        return zone(rims[near], depth - rho), zone(rims[1 - near], width - depth - rho)
 
     def excess(rho: float, depth: float) -> tuple[float, float]:
         (pull, turn), (far_pull, far_turn) = (_pull_and_turn(z, rho) for z in cut(rho, depth))
         return pull + far_pull - strain, far_turn - turn - load
 
-    against = 0.5 * (rims[near].density.resultant - load)
-    depth = root(lambda d: float(zone(rims[near], d).force.sum()) - against, contact.r, 2.0 * contact.r) if against > 0.0 else 0.0
     if depth == 0.0 or excess(NARROW * depth, depth)[0] >= 0.0:
         return None
     least = PINCHED * depth
@@ -49,9 +48,27 @@ def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zone
     else:
         rho = _narrowed(lambda rho: excess(rho, depth)[0], least, NARROW * depth)
         rho, depth = _settled(excess, rho, depth)
+        if not rho < min(depth, width - depth):
+            return None  # Newton's method left the contact: the stick zone is not narrow
     zones = cut(rho, depth)
     left, right = zones[near], zones[1 - near]
     return Zones(_about(contact, rho, depth, near), left, right, drive, max(short, 0.0))
+
+
+def _balanced(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> tuple[int, float]:
+    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and how far from it."""
+    near, depth = 0, 0.0
+    for near, sign in ((0, drive.left), (1, drive.right)):
+        force = 0.5 * (rims[near].density.resultant + sign * drive.load)
+        depth = _depth(rims[near], force) if force > 0.0 else 0.0
+        if depth <= contact.r:
+            break
+    return near, depth
+
+
+def _depth(rim: Rim, force: float) -> float:
+    """How far from an edge the pressure has this resultant."""
+    return root(lambda d: float(zone(rim, d).force.sum()) - force, 0.5 * rim.width, rim.width)
 
 
 def _pull_and_turn(z: Zone, rho: float) -> tuple[float, float]:

@@ -32,6 +32,9 @@ BONDED: dict[str, tuple[str, ...]] = {
     "yield": ("normal", "pressure", "tractions"),
     "tension": ("normal", "pressure", "tractions"),
 }
+# What a solution is asked for by other names.
+ALSO = {"half_width": "edges", "centre": "edges", "elastic_limit": "yield", "peak_tension": "tension"}
+ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
 # What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
 
@@ -61,7 +64,10 @@ class Plan:
 
 
 def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
-    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ...), as a printable Plan. Computes nothing."""
+    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ..., or the solution's own, "stick", "slip" ...).
+
+    A printable Plan. Computes nothing.
+    """
     names = wanted(want)
     needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
     stages = {stage for w in names for stage in needed[w]}
@@ -117,9 +123,12 @@ def _certificate(stages: set[str]) -> Step:
 
 
 def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
-    names = (want,) if isinstance(want, str) else tuple(want)
-    for name in names:
-        if name not in WANTS:
+    if not isinstance(want, Iterable):
+        raise ValueError(f"want = {want!r} is not a name: ask for {', '.join(WANTS)}")
+    asked = (want,) if isinstance(want, str) else tuple(want)
+    names = tuple(ALSO.get(name, name) for name in asked)
+    for name, own in zip(asked, names, strict=True):
+        if own not in WANTS:
             raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")

@@ -83,7 +83,10 @@ def _opposing(state: Slip, x: Array) -> float:
 
 
 def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array) -> tuple[float, float]:
-    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx, and to q where the equation is measured."""
+    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx and to the equation where that is measured.
+
+    In a narrow stick zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    """
     ulp = float(np.spacing(contact.r + abs(contact.m)))
 
     def inwards(x: Array) -> Array:
@@ -92,7 +95,8 @@ def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array)
     at = _points(state, x)
     moved = np.abs(_finite(state.shear(inwards(x))) - q)
     here = np.abs(_finite(state.shear(inwards(at))) - state.shear(at))
-    return float(weight @ moved), float(here.max(initial=0.0))
+    felt = (1.0 / np.abs(at[:, None] - x)) @ (weight * moved) / np.pi
+    return float(weight @ moved), float((here + felt).max(initial=0.0))
 
 
 def _points(state: Slip, nodes: Array) -> Array:

@@ -236,6 +236,13 @@ class Slope:
             degrees=self.degrees[twice],
         )
 
+    def within(self, lo: float, hi: float) -> Slope:
+        """The same slope on [lo, hi] alone, with walls there."""
+        split = self.split_at(lo).split_at(hi)
+        kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
+        ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
+        return Slope(ends, split.origins[kept], split.coefficients[kept], split.degrees[kept], split.functions)
+
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         breaks, origins = self.breaks + dx, self.origins + dx

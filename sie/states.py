@@ -189,7 +189,8 @@ class _Slipping(Slip):
             if z.length > 0.0:
                 opening = self._opening(z.outwards, r)
                 energy += f * f * float(z.force @ opening)
-                shift += sign * f / math.pi * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * (width - z.outwards))))
+                from_other_edge = (width - z.length) + z.inwards
+                shift += sign * f / math.pi * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
         return energy, shift
 
     @property
@@ -237,12 +238,14 @@ class Sliding(_Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        return refined(self.unloaded, self.contact.x1, self.contact.x2, EPS)
+        """On the contact alone: a strain may pull the lowest point of the whole profile out of it, and the last to let go is an edge."""
+        x1, x2 = self.contact.x1, self.contact.x2
+        return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
 
     @property
     def lengths(self) -> tuple[float, float]:
-        z1, z2 = self._touch
-        return max(self.contact.from_left(z1), 0.0), max(self.contact.from_right(z2), 0.0)
+        (z1, z2), width = self._touch, 2.0 * self.contact.r
+        return min(max(self.contact.from_left(z1), 0.0), width), min(max(self.contact.from_right(z2), 0.0), width)
 
     def _opening(self, distance: Array, rim: Rim) -> Array:
         edge, tail = (self.contact.x2, self.contact.tail2) if rim.side > 0.0 else (self.contact.x1, self.contact.tail1)

@@ -66,7 +66,7 @@ def _closed(c: Array, defects: Array, rows: Array, values: Array, kappa: int) ->
 
 def _transform(weight: Weight, n: int) -> tuple[Array, Callable[[Array], Array]]:
     """Nodes, and the map from values there to the coefficients of p_0 ... p_{n-1}: a DCT for the Chebyshev weights."""
-    if not {weight.alpha, weight.beta} <= {-0.5, 0.5}:
+    if not weight.is_chebyshev:
         s, A = jacobi.analysis(weight, n)
         return s, lambda values: values @ A
     kind = _KINDS[float(weight.alpha.real), float(weight.beta.real)]

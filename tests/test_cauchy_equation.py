@@ -75,6 +75,24 @@ def test_all_conditions_are_met(k):
     assert len(density.constants) == 1
 
 
+def test_only_the_ratio_of_the_constants_counts():
+    """Neither a² nor b² is a double."""
+    for size in (1e200, 1e-200, 1e-306):
+        equation = sie.CauchyEquation((0.0, 1.0), lambda x, size=size: size * np.exp(x), a=0.3 * size, b=size, total=0.0)
+        plain = sie.CauchyEquation((0.0, 1.0), np.exp, a=0.3, total=0.0)
+        assert equation.solve()(0.3) == pytest.approx(plain.solve()(0.3), rel=1e-13)
+
+
+@pytest.mark.parametrize("ends", [np.array([["bounded"] * 2] * 2), ["bounded", ("bounded", "bounded")], [["bounded", "bounded"]] * 2])
+def test_ends_may_be_words_pairs_or_arrays(ends):
+    plain = sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends="bounded", free=(1.0, lambda x: x))
+    assert sie.CauchyEquation([(-1, 1), (2, 3)], 1.0, ends=ends, free=plain.free).ends == plain.ends
+
+
+def test_free_numbers_may_be_an_array():
+    assert sie.CauchyEquation((-1, 1), 1.0, ends="bounded", free=np.ones(1)).solve().constants == pytest.approx((-1.0,))
+
+
 # -- nodes and weights ------------------------------------------------------------------------------------------------
 
 
@@ -300,6 +318,9 @@ ILL_POSED = [
     ({"interval": (1, 2, 3)}, "give a pair"),
     ({"interval": ()}, "give a pair"),
     ({"interval": "ab"}, "give a pair"),
+    ({"interval": None}, "give a pair"),
+    ({"interval": (-1e308, 1e308)}, "more than the largest double"),
+    ({"a": 1.0, "b": 1e-310}, "b is nothing next to a"),
     ({"b": 0.0}, "b = 0.*Fredholm"),
     ({"a": 1j}, r"a² \+ b² = 0"),
     ({"a": np.nan}, "a is nan"),
@@ -399,6 +420,22 @@ def test_what_does_not_settle_is_refused_with_the_best_density(g, error, k, monk
     assert equation.solve(tol=10.0 * best.error).error <= 10.0 * best.error
 
 
+def test_the_potential_vanishes_at_infinity():
+    crack = sie.CauchyEquation(((-1.0, 0.0), (0.1, 1.0)), 1.0, total=(0.0, 0.0)).solve()
+    for z in (np.inf, -np.inf, complex(0.0, np.inf)):
+        assert crack.cauchy(z) == 0.0
+    assert np.isnan(crack.cauchy(np.nan))
+
+
+def test_a_step_is_given_up_before_a_gauss_jacobi_rule_fills_the_memory(monkeypatch):
+    sizes, attempt = [], collocation.attempt
+    monkeypatch.setattr(collocation, "attempt", lambda problem, n, *more: sizes.append(n) or attempt(problem, n, *more))
+    monkeypatch.setattr(collocation, "LARGEST_RULE", 300)
+    with pytest.raises(sie.ContactError, match="not smooth"):
+        sie.CauchyEquation((-1.0, 1.0), lambda x: np.sign(x - 0.1), a=0.3, total=0.0).solve()
+    assert max(sizes) <= (300,)
+
+
 def test_infinite_and_vanishing_ends_are_told_apart():
     """φ = 1 / (π sqrt(1 - x²)) is infinite at its ends, 0 is 0, sqrt(1 - x²) is 0; and none of it is nan."""
     x = np.array([-1.0, 1.0])
@@ -409,5 +446,7 @@ def test_infinite_and_vanishing_ends_are_told_apart():
     assert (sie.CauchyEquation((-1.0, 1.0), lambda x: x, ends="bounded").solve()(x) == 0.0).all()
     shear = sie.CauchyEquation((-1.0, 1.0), 0.0, a=0.3j, total=1j).solve()
     assert np.isinf(shear(x)).all()
+    almost = sie.CauchyEquation((-1.0, 1.0), 1.0, a=1e4, ends="bounded", free=(lambda x: x,)).solve()
+    assert (almost(x) == 0.0).all() and np.isfinite(almost.cauchy(x)).all()
     for side in (-1, 0, 1):
         assert not np.isnan(shear.cauchy(x, side=side)).any()

@@ -287,6 +287,27 @@ def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
         assert abs(found - expected) <= PROMISE * abs(expected), where
 
 
+@pytest.mark.parametrize("a", [30.0, 1e3, -2e4, 2e3 - 1e3j])
+@pytest.mark.parametrize("ends", KINDS)
+def test_next_to_a_large_constant_density_and_potential_keep_their_digits(a, ends):
+    """|a| >> |b| makes exponents of nearly 0 and ±1, and cosec πα so large that the terms of the potential cancel."""
+    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25, 0.1), ((1.5, 0.3), (-0.2 + 0.8j, 0.1)))
+    density, x, z = equation_of([d], a, 1.0, [ends]).solve(), inside(d), [1.1 + 0.3j, 2.9 - 1e-5j, 0.2 + 1e-9j, 5.0]
+    agrees(density(x), exact(d.value, x), PROMISE, "value")
+    agrees(density.cauchy(x, side=0), exact(d.cauchy, x), PROMISE, "principal value")
+    assert density.cauchy(z) == pytest.approx(exact(d.cauchy, z), rel=PROMISE)
+
+
+def test_next_to_an_exponent_of_minus_one_a_density_is_as_good_as_it_says():
+    """There all of φ stands at one end, and the exponent's distance from -1 has few digits."""
+    for a in (1e6, 1e9, 1e12):
+        d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, (False, True)), (1.0, -0.5, 0.25, 0.1))
+        equation, x = equation_of([d], a, 1.0, [KINDS[2]]), inside(d)
+        with pytest.raises(sie.ContactError, match=r"exponent at a singular end is -1 but for .*make that end bounded") as caught:
+            equation.solve(tol=1e-15)
+        agrees(caught.value.reached["density"](x), exact(d.value, x), caught.value.reached["density"].error, "value")
+
+
 @pytest.mark.parametrize("gap", [0.4, 1e-3, 1e-6])
 def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
     """On graded intervals: in the gap, above it, at its rim, and far away."""

@@ -156,6 +156,18 @@ def test_slip_at_incipient_sliding_is_f_times_the_height_of_the_profile():
     assert solution.slip(x) == pytest.approx(F * 0.5 * np.maximum(np.abs(x) - 0.7, 0.0) ** 2, rel=1e-12, abs=0.0)
 
 
+@pytest.mark.parametrize("profile", [sie.Parabola(1.0), sie.RoundedFlat(0.4, 1.0).tilted(0.02), sie.Wedge(0.3)], ids=repr)
+@pytest.mark.parametrize("strain", [-1e3, -4.0, 0.1, 7.0])
+def test_full_sliding_under_any_bulk_stress_is_the_limit_of_what_slipped_before(profile, strain):
+    """Where the strain pulls the lowest point out of the contact, or there is none, the last point to let go is an edge."""
+    whole, almost = (sheared(profile, fraction, bulk_stress=strain * P) for fraction in (1.0, 1.0 - 1e-12))
+    x = np.linspace(*whole.edges, 7)
+    assert whole.slip(x) == pytest.approx(almost.slip(x), rel=1e-5, abs=1e-5 * np.abs(whole.slip(x)).max())
+    assert whole.energy_lost == pytest.approx(almost.energy_lost, rel=1e-5)
+    assert whole.shift == pytest.approx(almost.shift, rel=1e-5)
+    assert whole.check().ok
+
+
 def test_a_sharp_flat_punch_sticks_as_a_whole_until_it_slides():
     """q = Q/(fP) f p: Bryant & Keer; no slip, nothing lost."""
     solution = sheared(sie.Flat(1.0), 0.75)
@@ -326,6 +338,18 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
     assert solution.check().ok
 
 
+@pytest.mark.parametrize("tilt", [0.15, 0.3])
+@pytest.mark.parametrize("strain", [0.3, 0.6, 2.0])
+def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirrored_zone(tilt, strain):
+    """With Q = 0 no side is told apart by its load, and pressure that leans to one side tells them apart."""
+    here, there = (sheared(sie.RoundedFlat(1.0, 1.0 / 6.0), 0.0, tilt=sign * tilt, bulk_stress=strain * P) for sign in (1.0, -1.0))
+    ((lo, hi),) = here.stick
+    ((low, high),) = there.stick
+    assert here.edges[0] <= lo < hi <= here.edges[1]
+    assert (-high, -low) == pytest.approx((lo, hi), rel=1e-12)
+    assert here.check().ok
+
+
 @pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
 def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
     """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c - t)| dt - τ (x - c)/G, G = E*/2."""
@@ -375,6 +399,14 @@ def test_the_certificate_of_thin_zones_raises_no_false_alarm(fraction, tilt):
     """The end of a zone is known to some ulps; within these q is off f p by the root of them."""
     for profile in (sie.Parabola(1.0) + sie.Wedge(0.07).shifted(0.15), sie.RoundedFlat(0.3, 2.0), sie.Power(3.0, 0.5)):
         assert sheared(profile, fraction, tilt=tilt).check().ok
+
+
+@pytest.mark.parametrize("left", [1e-9, 1e-3])
+@pytest.mark.parametrize("tilt", [0.02, -0.05])
+def test_the_certificate_of_a_stick_zone_at_a_sharp_edge_raises_no_false_alarm(left, tilt):
+    """q is infinite at an edge of the stick zone, which the abscissae there do not resolve."""
+    for profile in (sie.Flat(1.0), sie.Flat(1.0) + sie.Parabola(8.0)):
+        assert sheared(profile, 1.0 - left, tilt=tilt).check().ok
 
 
 PAIRS = st.tuples(st.integers(-90, 90), st.integers(-100, 100)).map(lambda pair: (pair[0] / 100, pair[1] / 100))

@@ -66,6 +66,22 @@ def test_the_footprint_is_the_plan(name, want, economy):
     assert footprint(solution) == sie.plan(SCENES[name], want=want, economy=economy).stages
 
 
+@pytest.mark.parametrize("want", ["half_width", "centre", "stick", "slip", "shift", "energy_lost", "elastic_limit", "peak_tension"])
+def test_what_a_solution_is_asked_for_may_be_wanted_by_the_same_name(want):
+    scene = sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5, tangential_load=0.3)
+    solution = sie.solve(scene)
+    answer = getattr(solution, want)
+    if callable(answer):
+        answer(0.1) if want == "slip" else answer()
+    assert footprint(solution) == sie.plan(scene, want=want).stages
+
+
+@pytest.mark.parametrize("want", [None, 3, "everything", ["edges", "slipping"], []])
+def test_a_want_that_is_no_name_is_refused(want):
+    with pytest.raises(ValueError, match="ask for edges, pressure"):
+        sie.plan(SCENES["flat"], want=want)
+
+
 @given(strategies.scenes())
 def test_the_footprint_is_the_plan_for_random_scenes(scene):
     for want, ask in ASK.items():

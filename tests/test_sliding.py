@@ -135,6 +135,16 @@ def bonded(beta, P=5.0, Q=2.0, b=2.0, **given):
     return sie.Scene(profile=sie.Flat(b), modulus=3.0, dundurs=beta, friction=math.inf, normal_load=P, tangential_load=Q, **given)
 
 
+@pytest.mark.parametrize("beta", [0.4, -0.4])
+@pytest.mark.parametrize("given", [{"tangential_load": 0.1, "friction": math.inf}, {"sliding": 1, "friction": 0.7}], ids=str)
+def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load_to_yield_vanishes(beta, given):
+    """Pressure and the shear's Hilbert transform are both infinite there: their difference is no nan."""
+    solution = sie.solve(sie.Scene(profile=sie.Flat(2.0), modulus=3.0, dundurs=beta, poisson=0.3, normal_load=0.2, **given))
+    stress = solution.stress([-2.0, 2.0], 0.0)
+    assert (np.abs([stress.xx, stress.yy, stress.xy, stress.mises, stress.in_plane_sum]) == np.inf).all()
+    assert solution.elastic_limit().load == 0.0
+
+
 # -- laws -----------------------------------------------------------------------------------------------------------------
 
 GIVEN = ({"normal_load": 0.1}, {"half_width": 1.3}, {"normal_load": 0.1, "tilt": 0.002}, {"normal_load": 0.1, "moment": 0.004})
