@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 
@@ -38,3 +39,13 @@ def not_negative(name: str, value: Any) -> float:
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
     return number
+
+
+def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
+    """What a user's function returns; ValueError, with the remedy, if it fails as functions of single numbers do."""
+    try:
+        return function(*arrays)
+    except (TypeError, ValueError) as problem:
+        count = "an array" if len(arrays) == 1 else f"{len(arrays)} arrays"
+        remedy = f"make it a function of {count} by NumPy's functions, or by np.vectorize"
+        raise ValueError(f"{name} fails when called with {count} ({problem}): {remedy}") from problem

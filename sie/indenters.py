@@ -334,7 +334,7 @@ class FromFunction(Profile):
             lo, hi = (lo, lo + 1.0) if np.isfinite(lo) else (hi - 1.0, hi) if np.isfinite(hi) else (-1.0, 1.0)
         x = lo + (hi - lo) * np.array([0.13, 0.29, 0.5, 0.61, 0.83])
         with np.errstate(all="ignore"):
-            values = np.asarray(self.function(x))
+            values = np.asarray(checks.of_arrays("slope", self.function, x))
         if values.shape not in (x.shape, ()) or values.dtype.kind not in "fiu":
             raise ValueError(
                 f"slope returned shape {values.shape}, type {values.dtype} for floats of shape {x.shape}: it must be vectorised"

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import chebyshev, jacobi
+from . import chebyshev, checks, jacobi
 from .errors import ContactError
 from .grading import Affine, Map
 from .interval import EPS
@@ -132,7 +132,7 @@ def moved(c: Array, index: int) -> Array:
 def sample(name: str, function: Function, x: Array) -> Array:
     """function(x), refused unless it is finite and of x's shape (or one number)."""
     with np.errstate(all="ignore"):
-        values = np.asarray(function(x) if callable(function) else function)
+        values = np.asarray(checks.of_arrays(name, function, x) if callable(function) else function)
     if values.shape not in ((), x.shape):
         raise ValueError(f"{name} returned shape {values.shape} for x of shape {x.shape}: return one value for each x")
     values = np.broadcast_to(_numeric(name, values), x.shape)
@@ -146,7 +146,7 @@ def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
     """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape (or one number)."""
     shape = (len(x), len(t))
     with np.errstate(all="ignore"):
-        values = np.asarray(k(np.broadcast_to(x[:, None], shape), np.broadcast_to(t, shape)))
+        values = np.asarray(checks.of_arrays("k", k, np.broadcast_to(x[:, None], shape), np.broadcast_to(t, shape)))
     if values.shape not in ((), shape):
         raise ValueError(f"k returned shape {values.shape} for x and t of shape {shape}: return one value for each pair")
     values = np.broadcast_to(_numeric("k", values), shape)

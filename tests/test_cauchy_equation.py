@@ -1,5 +1,7 @@
 """The question and how it is solved: index and side conditions, nodes, sizes, conditioning, refusals."""
 
+import math
+
 import mpmath
 import numpy as np
 import pytest
@@ -356,6 +358,9 @@ WRONG_FUNCTIONS = [
     ({"g": lambda x: np.where(x > 0, np.nan, x)}, "g returned nan at x = .*finite inside the intervals"),
     ({"g": lambda x: np.log(-x)}, "g returned"),
     ({"g": lambda x: "a"}, "g returned values of type"),
+    ({"g": math.cos}, "g fails when called with an array .*NumPy's functions"),
+    ({"k": lambda x: x}, "k fails when called with 2 arrays .*: make it a function of 2 arrays"),
+    ({"k": lambda x, t: t if x > t else x}, "k fails when called with 2 arrays .*truth value"),
     ({"k": lambda x, t: np.ones(3)}, r"k returned shape \(3,\) for x and t of shape"),
     ({"k": lambda x, t: np.sqrt(x - t)}, "k returned nan at x = .*, t = .*: a regular kernel is finite"),
     ({"free": (lambda x: x[:2],), "moment": 1.0}, r"free\[0\] returned shape \(2,\)"),

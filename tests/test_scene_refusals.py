@@ -1,5 +1,6 @@
 """A bad question is refused when it is built, with the value; a good one without an answer when it is asked, with what was reached."""
 
+import math
 import pickle
 
 import numpy as np
@@ -144,6 +145,8 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
         (lambda: sie.Piecewise((-INF, INF, INF), ((0.0, 1.0), (0.0, 2.0))), "inf"),
         (lambda: sie.Piecewise((-INF, 0.0, 1.0, INF, INF), ((0.0, 1.0),) * 4), "inf"),
         (lambda: sie.FromFunction(3.0), r"3\.0"),
+        (lambda: sie.FromFunction(math.sinh), "slope fails when called with an array .*NumPy's functions"),
+        (lambda: sie.FromFunction(lambda x: x if x > 0.0 else 0.0), "slope fails when called with an array .*truth value"),
         (lambda: sie.FromFunction("x", domain=(1.0, -1.0)), "1.*-1"),
         (lambda: sie.FromFunction("x", domain=(NAN, 1.0)), "nan"),
         (lambda: sie.FromFunction("x", domain=(1.0, 2.0, 3.0)), r"3\.0"),
