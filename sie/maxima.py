@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .field import SHALLOW, Tractions, potentials
+from .field import Tractions, potentials
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -243,18 +243,19 @@ def surface_values(tractions: Tractions, x: Array) -> Array:
 
 
 def _slope(tractions: Tractions, measure: Measure, x: Array) -> Array:
-    """d/dx of the measure along the surface, off edges and breaks: the limit of the potentials, with y Φ' = 0."""
+    """d/dx of the measure along the surface in units of the half-width, off edges and breaks: the potentials' limit, y Φ' = 0."""
     x1, x2 = tractions.pressure.interval
     Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
     for density, p, q in tractions.combined:
-        F, dF = density.potentials(x + 1j * (SHALLOW * 0.5 * (x2 - x1)))
+        F, dF = density.potentials(x + 1j * tractions.depth_of_surface)
         Phi += (p - 1j * q) * F
         dPhi += (p - 1j * q) * dF
         Fq += q * F
         dFq += q * dF
     half = 0.5 * tractions.bulk_stress
     value: Array = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
-    return (measure.gradient(value) * np.stack((dPhi.imag, dFq.real, dFq.imag))).sum(axis=0)
+    derivative = 0.5 * (x2 - x1) * np.stack((dPhi.imag, dFq.real, dFq.imag))
+    return (measure.gradient(value) * derivative).sum(axis=0)
 
 
 def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:

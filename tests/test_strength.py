@@ -163,3 +163,19 @@ def test_a_sharp_edge_tears_and_yields_at_once():
 def test_an_unknown_criterion_is_refused():
     with pytest.raises(ValueError, match=r'"rankine".*"mises" or "tresca"'):
         punch(0.3).elastic_limit("rankine")
+
+
+@pytest.mark.parametrize("length", [1e-100, 1e-40, 1e100])
+@pytest.mark.parametrize("modulus", [1e-100, 1e100])
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
+    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface, however small the contact."""
+
+    def limit(length, modulus):
+        P = 0.01 * modulus * length
+        profile = sie.RoundedFlat(length, 50.0 * length)
+        scene = sie.Scene(profile=profile, modulus=modulus, poisson=NU, normal_load=P, friction=0.3, tangential_load=0.2 * P)
+        return sie.solve(scene).elastic_limit(criterion)
+
+    here, there = limit(1.0, 1.0), limit(length, modulus)
+    assert there.ratio == pytest.approx(here.ratio, rel=1e-13) and there.x / length == pytest.approx(here.x, rel=1e-8)
