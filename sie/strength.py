@@ -76,7 +76,7 @@ def elastic_limit(tractions: Tractions, normal_load: float, criterion: Criterion
     stress, maxima = max(found, key=lambda f: f[0])
     x1, x2 = tractions.pressure.interval
     x, y = maxima[0].x, maxima[0].y
-    j2 = stress * stress if criterion == "mises" else float(Stress(tractions, x, y).j2)
+    j2 = stress * stress if criterion == "mises" or not kappa else float(Stress(tractions, x, y).j2)
     places = tuple((m.x, m.y) for m in maxima)
     return YieldPoint(normal_load / stress, x, y, j2, stress, 0.5 * (x2 - x1), places, criterion)
 
