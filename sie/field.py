@@ -147,6 +147,11 @@ class Stress:
         return _times(0.0 if t.plane == "stress" else 2.0 * t.known_poisson, self._s)
 
     @property
+    def knows_zz(self) -> bool:
+        """Whether σ_zz can be told: in plane stress, or with Poisson's ratio."""
+        return self.tractions.plane == "stress" or self.tractions.poisson is not None
+
+    @property
     def in_plane_sum(self) -> Array:
         return 2.0 * self._s
 
