@@ -242,6 +242,8 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
     """
     x = _marks(tractions)
     x = x[np.isinf(tractions.pressure(x))]
+    if not x.size:
+        return []
     on = surface_values(tractions, x)
     unseen = np.isfinite(measure.value(on))
     if not unseen.any():
