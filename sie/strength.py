@@ -82,7 +82,10 @@ def elastic_limit(tractions: Tractions, normal_load: float, criterion: Criterion
 
 
 def peak_tension(tractions: Tractions) -> Peak:
-    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it."""
+    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it.
+
+    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
+    """
     for edge, x, outward in zip(tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True):
         q = float(tractions.shear(np.array([edge]))[0])
         if q * outward == np.inf:
@@ -92,7 +95,7 @@ def peak_tension(tractions: Tractions) -> Peak:
     middle = 0.5 * sum(tractions.pressure.interval)
     # Where nothing pulls, the whole free surface is tied
     x = min((m.x for m in found if m.value == best), key=lambda x: abs(x - middle))
-    return Peak(best + 0.0, x)
+    return Peak(max(best, tractions.bulk_stress) + 0.0, x)
 
 
 # -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------

@@ -266,5 +266,5 @@ def test_nothing_is_computed_before_it_is_asked_for():
 def test_a_corner_that_points_into_the_indenter_is_refused_as_lifting_off(load):
     """p is -inf there: an end of that interval cannot be read off between two values."""
     concave = sie.Piecewise((-0.3, 0.0, 0.3), ((0.0, 1.0), (0.1, 1.0), (-0.1, 1.0), (0.0, 1.0)))
-    with pytest.raises(sie.ContactError, match="tension at x = 0 .p = -inf.* lifts off"):
+    with pytest.raises(sie.ContactError, match=r"tension at x = 0 .p = -inf.* lifts off"):
         _ = sie.solve(sie.Scene(profile=concave, modulus=1.0, **load)).edges

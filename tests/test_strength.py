@@ -215,3 +215,10 @@ def test_a_break_next_to_the_weakest_point_is_not_tied_with_it():
     solution = sie.solve(sie.Scene(profile=parabola, modulus=1.0, poisson=NU, half_width=b))
     found = solution.with_(friction=f, tangential_load=f * solution.normal_load).elastic_limit()
     assert len(found.places) == 1 and found.x == pytest.approx(weakest, abs=1e-8)
+
+
+def test_a_compression_that_nothing_relieves_is_the_largest_tension():
+    """With Q = 0 slip only adds to it on both sides; it is approached far away."""
+    scene = sie.Scene(profile=sie.RoundedFlat(0.6, 5.0), modulus=1.0, normal_load=5e-3, friction=0.3, bulk_stress=-1e-4)
+    value, x = sie.solve(scene).peak_tension()
+    assert value == -1e-4 and abs(x) > 100.0
