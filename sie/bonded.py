@@ -79,7 +79,9 @@ class Component(Density):
         return np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
 
     def hilbert(self, x: ArrayLike) -> Array:
-        return self._part(self.whole.hilbert(x))
+        """0 at the edges, as for other sharp ones: it oscillates there without limit."""
+        x = np.asarray(x, dtype=float)
+        return np.where((x == self.interval[0]) | (x == self.interval[1]), 0.0, self._part(self.whole.hilbert(x)))[()]
 
 
 def bonded_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:

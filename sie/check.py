@@ -219,7 +219,7 @@ def _below(x: Array, values: Array) -> Intervals:
     starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
 
     def crossing(inner: int, outer: int) -> float:
-        if not 0 <= outer < len(x) or not np.isfinite(values[outer]) or values[outer] <= 0.0:
+        if not 0 <= outer < len(x) or not np.isfinite(values[[inner, outer]]).all() or values[outer] <= 0.0:
             return float(x[inner])
         return float(x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer]))
 

@@ -47,6 +47,8 @@ QUANTITIES = TRACTIONS | STRESSES
 RESULTANTS: dict[str, Callable[[Solution], float]] = {"p": lambda s: s.normal_load, "q": lambda s: s.tangential_load}
 # What mesh codes and their users call them, in lower case.
 NAMES = {
+    **{name.format(axis): axis for axis in "xy" for name in ("{}-coordinate", "{}_coordinate", "{}-coord", "{}_coord", "coord_{}")},
+    **dict(zip(("coor1", "coord1", "coor2", "coord2", "depth"), "xxyyy", strict=True)),
     **dict.fromkeys(("pressure", "cpress", "contact pressure", "contact_pressure"), "p"),
     **dict.fromkeys(("shear", "cshear1", "traction"), "q"),
     **{
@@ -80,7 +82,7 @@ class Mesh:
     def scattered(self, quantity: str) -> bool:
         """Whether these points are not on a line at one depth."""
         x, y, _ = self.points(quantity)
-        return bool(np.ptp(y) > 0.0 or (np.diff(x) == 0.0).any())
+        return bool(np.ptp(y) > 0.0 or np.ptp(x) == 0.0)
 
 
 @dataclass(frozen=True)

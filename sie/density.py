@@ -35,7 +35,13 @@ Complex = NDArray[np.complex128]
 # A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
 CONTINUATION = 4.0
 # The derivative on the surface is its value at this depth, in half-widths: closed forms keep all digits there, and 1/depth is finite.
-SHALLOW = 1e-290
+# However small the contact, that depth is no underflow: at a depth of 0 the side of the surface would be lost.
+SHALLOW, SHALLOWEST = 1e-290, 1e-300
+
+
+def shallow(half_width: float) -> float:
+    """A depth that no value but 1/depth can tell from the surface."""
+    return max(SHALLOW * half_width, SHALLOWEST)
 
 
 def _points(z: ArrayLike, side: int) -> tuple[Complex, NDArray[np.bool_]]:
@@ -286,7 +292,7 @@ class SlopeDensity(Density):
                 out[side] = self.half_modulus * (continued - G)
         if self.k1 or self.k2:
             far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
-            out[far] = self._far_in_upper(flat[far] + 1j * (SHALLOW * self.contact.r))[0].real
+            out[far] = self._far_in_upper(flat[far] + 1j * shallow(self.contact.r))[0].real
         return out.reshape(x.shape)
 
     def _hilbert_inside(self, x: Array) -> Array:
@@ -364,7 +370,7 @@ class SlopeDensity(Density):
         c = self.contact
         at_edge = ((x == c.x1) | (x == c.x2)) & (np.minimum(abs(c.from_left(x)), abs(c.from_right(x))) == 0.0)
         inside = np.where(at_edge, np.nextafter(x, c.m), x)
-        dF = self._both_in_upper(inside + 1j * (SHALLOW * c.r))[1]
+        dF = self._both_in_upper(inside + 1j * shallow(c.r))[1]
         left_edge, right_edge = at_edge & (x == c.x1), at_edge & (x == c.x2)
         dF.imag[left_edge] = np.inf if self.k1 else -np.inf
         dF.imag[right_edge] = -np.inf if self.k2 else np.inf

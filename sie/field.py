@@ -14,6 +14,7 @@ components none is lost in another, and invariants follow without differences.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -21,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .density import Density
+from .density import Density, shallow
 from .material import Elastic, Plane
 
 Array = NDArray[np.float64]
@@ -29,8 +30,6 @@ Complex = NDArray[np.complex128]
 
 # Points are taken in parts of this size: temporaries stay in the processor's cache, and few are ever as large as the whole.
 PART = 4096
-# What is less deep than this, in half-widths, is the surface: 1/y would overflow.
-SHALLOW = 1e-290
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,8 +74,9 @@ class Tractions:
 
     @cached_property
     def depth_of_surface(self) -> float:
+        """What is less deep is the surface: 1/y would overflow."""
         x1, x2 = self.pressure.interval
-        return SHALLOW * 0.5 * (x2 - x1)
+        return shallow(0.5 * (x2 - x1))
 
 
 class Tensor(NamedTuple):
@@ -105,6 +105,7 @@ class Stress:
     in_plane_shear            the largest shear stress in the plane
     j2, mises, max_shear      second invariant of the deviator; sqrt(3 J2); half the largest difference of principal stresses (Tresca)
     principal                 (σ1, σ2, σ3), σ1 >= σ2 >= σ3, among them σ_zz
+    xx, yy, xy, zz = stress   all components at once
     strain, gradients         Tensor and Gradients of the displacement, without the rigid rotation (at infinity it is 0)
 
     Where p is infinite (a sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both given as -inf.
@@ -120,6 +121,9 @@ class Stress:
 
     def __repr__(self) -> str:
         return f"Stress(at points of shape {self.x.shape})"
+
+    def __iter__(self) -> Iterator[Array]:
+        return iter((self.xx, self.yy, self.xy, self.zz))
 
     # -- components ----------------------------------------------------------------------------------------------------
 
@@ -141,6 +145,11 @@ class Stress:
     def zz(self) -> Array:
         t = self.tractions
         return _times(0.0 if t.plane == "stress" else 2.0 * t.known_poisson, self._s)
+
+    @property
+    def knows_zz(self) -> bool:
+        """Whether σ_zz can be told: in plane stress, or with Poisson's ratio."""
+        return self.tractions.plane == "stress" or self.tractions.poisson is not None
 
     @property
     def in_plane_sum(self) -> Array:
@@ -183,7 +192,7 @@ class Stress:
         body = self.tractions.known_body
         two_mu = 2.0 * body.shear_modulus
         s, D = self._both
-        volume = 0.5 * (body.kolosov - 1.0) * s  # s - (3 - κ)/4 2s
+        volume = _times(0.5 * (body.kolosov - 1.0), s)  # s - (3 - κ)/4 2s
         zz = np.zeros_like(s) if body.plane == "strain" else -2.0 * body.poisson / body.young * s
         return Tensor((volume - D.real) / two_mu, (volume + D.real) / two_mu, D.imag / two_mu, zz)
 
@@ -191,7 +200,13 @@ class Stress:
     def gradients(self) -> Gradients:
         e, body = self.strain, self.tractions.known_body
         rotation = -(body.kolosov + 1.0) / (4.0 * body.shear_modulus) * self._real_potential
-        return Gradients(e.xx, e.xy - rotation, e.xy + rotation, e.yy)
+        infinite = np.isinf(rotation) & (e.xy == -rotation)
+        if not infinite.any():
+            return Gradients(e.xx, e.xy - rotation, e.xy + rotation, e.yy)
+        # q outweighs the rest of Re Φ = hilbert_p - q there: 4μ u_x,y ~ -(κ + 3) q, 4μ u_y,x ~ (κ - 1) q
+        finite = np.where(infinite, 0.0, rotation)
+        xy, yx = e.xy - finite, np.where(infinite, _times(1.0 - body.kolosov, e.xy), e.xy + finite)
+        return Gradients(e.xx, xy, yx[()], e.yy)
 
     # -- the potentials, part by part ----------------------------------------------------------------------------------
 

@@ -84,10 +84,11 @@ class Cycle:
         return out
 
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
-        """Lowest and highest value of xx, yy, xy, zz at points over the cycle."""
-        tensors = self.history(x, y)
-        entries = {"xx": (0, 0), "yy": (1, 1), "xy": (0, 1), "zz": (2, 2)}
-        return {name: Range(tensors[..., i, j].min(axis=0), tensors[..., i, j].max(axis=0)) for name, (i, j) in entries.items()}
+        """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where Poisson's ratio is known."""
+        stresses = [state.stress(x, y) for state in self.states]
+        names = ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
+        values = ((name, np.stack([getattr(s, name) for s in stresses])) for name in names)
+        return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
 
     def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
         """(largest range of shear stress over all planes through the z axis, angle of that plane's normal from x), at points.
@@ -95,8 +96,8 @@ class Cycle:
         On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges
         over the width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
         """
-        tensors = self.history(x, y)
-        D = 0.5 * (tensors[..., 1, 1] - tensors[..., 0, 0]) + 1j * tensors[..., 0, 1]
+        stresses = [state.stress(x, y) for state in self.states]
+        D = np.stack([0.5 * (s.yy - s.xx) + 1j * s.xy for s in stresses])
         difference = D[:, None] - D[None, :]
         flat = difference.reshape(self.size**2, *D.shape[1:])
         k = np.abs(flat).argmax(axis=0)

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .field import SHALLOW, Tractions, hilbert_of_shear, potentials
+from .field import Tractions, hilbert_of_shear, potentials
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -43,6 +43,7 @@ SAME_VALUE, STUCK = 4e-15, 1e-9  # rounding of a value; a trust region, as a fra
 TOGETHER = 1e-3  # of the depth
 LEFT = 0.5  # of the shallowest depth: what climbs beyond belongs to the surface
 ROOT_STEPS, BISECT_AFTER = 80, 12
+BENEATH = 1e-100  # half-widths: so near to where p is infinite that nothing else is left
 ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
 # Maxima this close in value are tied, this close in place (of the half-width) the same.
 TIED, SAME_PLACE = 1e-10, 1e-7
@@ -75,7 +76,7 @@ class Maximum(NamedTuple):
 
 def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     """The largest value in the body, with every place where it is taken (ties within TIED), those on the left first."""
-    surface = on_surface(tractions, measure)
+    surface = [*on_surface(tractions, measure), *beneath_infinite_pressure(tractions, measure)]
     found = [*surface, *inside(tractions, measure, max(m.value for m in surface))]
     best = max(m.value for m in found)
     r = 0.5 * float(np.diff(tractions.pressure.interval)[0])
@@ -218,17 +219,43 @@ def on_surface(tractions: Tractions, measure: Measure) -> list[Maximum]:
         return [Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)]
     floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
-    found = [Maximum(float(value[k]), float(x[k]), 0.0) for k in top]
+    columns = top
     # Between columns a concave top rises above the middle one by no more than that falls to a neighbour
     fall = value[top] - np.minimum(padded[top], padded[top + 2])
     top = top[value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best]
     left = np.unique(np.concatenate((top - 1, top)))
     left = left[(left >= 0) & (left < len(x) - 1)]
     roots = _roots(lambda t: _slope(tractions, measure, t), x[left], x[left + 1])
-    if roots.size:
-        at_root = measure.value(surface_values(tractions, roots))
-        found += [Maximum(float(v), float(t), 0.0) for v, t in zip(at_root, roots, strict=True)]
-    return found
+    at_root = measure.value(surface_values(tractions, roots))
+    highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
+    np.maximum.at(highest, np.searchsorted(x, roots), at_root)
+    tops = columns[value[columns] >= np.maximum(highest[columns], highest[columns + 1])]
+    places = ((value[tops], x[tops]), (at_root, roots))
+    return [Maximum(float(v), float(t), 0.0) for values, at in places for v, t in zip(values, at, strict=True)]
+
+
+def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
+    """What a measure of D alone (an incompressible body) tends to where p is infinite: on the surface itself D knows nothing of it.
+
+    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C sin θ e^(-iθ) in the direction θ, on a
+    circle of diameter |C| through Fq: the largest |D| is |Fq + iC/2| + |C|/2.
+    """
+    x = _marks(tractions)
+    x = x[np.isinf(tractions.pressure(x))]
+    if not x.size:
+        return []
+    on = surface_values(tractions, x)
+    unseen = np.isfinite(measure.value(on))
+    if not unseen.any():
+        return []
+    x, on = x[unseen], on[:, unseen]
+    Fq = on[1] + 1j * on[2]
+    x1, x2 = tractions.pressure.interval
+    beneath = _values(tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128))
+    C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
+    largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
+    value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
+    return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]
 
 
 def surface_values(tractions: Tractions, x: Array) -> Array:
@@ -244,18 +271,19 @@ def surface_values(tractions: Tractions, x: Array) -> Array:
 
 
 def _slope(tractions: Tractions, measure: Measure, x: Array) -> Array:
-    """d/dx of the measure along the surface, off edges and breaks: the limit of the potentials, with y Φ' = 0."""
+    """d/dx of the measure along the surface in units of the half-width, off edges and breaks: the potentials' limit, y Φ' = 0."""
     x1, x2 = tractions.pressure.interval
     Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
     for density, p, q in tractions.combined:
-        F, dF = density.potentials(x + 1j * (SHALLOW * 0.5 * (x2 - x1)))
+        F, dF = density.potentials(x + 1j * tractions.depth_of_surface)
         Phi += (p - 1j * q) * F
         dPhi += (p - 1j * q) * dF
         Fq += q * F
         dFq += q * dF
     half = 0.5 * tractions.bulk_stress
     value: Array = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
-    return (measure.gradient(value) * np.stack((dPhi.imag, dFq.real, dFq.imag))).sum(axis=0)
+    derivative = 0.5 * (x2 - x1) * np.stack((dPhi.imag, dFq.real, dFq.imag))
+    return (measure.gradient(value) * derivative).sum(axis=0)
 
 
 def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:

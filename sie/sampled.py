@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral
 from pathlib import Path
 from typing import Any, Literal
 
@@ -84,9 +85,9 @@ class Sampled(Profile):
         if is_text(path):
             if len(tuple(columns)) != 2:
                 raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
-            if isinstance(skip, bool) or not isinstance(skip, int) or skip < 0:
+            if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
                 raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
-            x, h = read_columns(path, tuple(columns), skip, drop_missing=mend)
+            x, h = read_columns(path, tuple(columns), int(skip), drop_missing=mend)
         else:
             x, h = read_topography(path)
         made = cls(factors[0] * x, factors[1] * h, smoothing, mend)

@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .density import SHALLOW, Complex, Density, SlopeDensity, refuse_side
+from .density import Complex, Density, SlopeDensity, refuse_side, shallow
 from .superposition import Combination
 from .zones import Zone, Zones
 
@@ -160,7 +160,7 @@ class TwoSigns(Density):
         flat, contact = z.ravel(), self.pressure.contact
         real, lower = flat.imag == 0.0, flat.imag < 0.0
         upper = np.where(lower, flat.conj(), flat)
-        upper[real] += 1j * (SHALLOW * contact.r)
+        upper[real] += 1j * shallow(contact.r)
         dF = np.empty(flat.shape, dtype=complex)
         for at, right in ((flat.real <= self.zones.stick.m, False), (flat.real > self.zones.stick.m, True)):
             if at.any():

@@ -9,6 +9,11 @@ thousands of points within that length a knot at every point costs digits (the e
 buys nothing: then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's
 `smooth.spline`).
 
+With few points in that length (few enough for a knot at each) the second derivatives γ at the points are solved for, and f follows
+(Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines would lose f between the points as λ → 0.
+
+    (R + λ Q'Q) γ = Q'h,       f = h - λ Q γ,       Q'h second differences, R their mass matrix
+
 λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
 f(x).
 Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
@@ -28,6 +33,7 @@ Array = NDArray[np.float64]
 ALL_KNOTS = 1000  # up to so many points each is a knot
 FEWEST_KNOTS = 250
 KNOTS_IN_LENGTH = 10.0  # a spline on these differs from that on all points by 1e-5 of what smoothing changes
+SHORT = KNOTS_IN_LENGTH**4  # λ over the cube of the mean spacing: up to so many points are averaged
 EXACT_TRACE = 400
 PROBES = 16
 STEPS = 25  # of the first look at the score, from a third of the spacing to the length of the trace
@@ -96,10 +102,37 @@ class _Problem:
     def spline(self, lam: float) -> tuple[Array, Array]:
         from scipy.interpolate import BSpline, PPoly  # noqa: PLC0415
 
+        if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
+            return self.x, _reinsch(self.at, self.h, lam) / self.length ** np.arange(4.0)
         basis = self.basis(lam)
         pieces = PPoly.from_spline(BSpline(basis.knots, basis.coefficients(lam), 3)).c[:, 3:-3]
         c: Array = pieces.T[:, ::-1] / self.length ** np.arange(4.0)
         return self.x[basis.chosen], c
+
+
+def _reinsch(x: Array, h: Array, lam: float) -> Array:
+    """Coefficients of the smoothing spline about the left end of each piece, from its second derivatives."""
+    from scipy.linalg import solveh_banded  # noqa: PLC0415
+
+    step = np.diff(x)
+    right_side = np.diff(np.diff(h) / step)
+    # Columns of Q have the entries a, b, c at three neighbouring points
+    a, c = 1.0 / step[:-1], 1.0 / step[1:]
+    b = -a - c
+    system = np.zeros((3, len(right_side)))
+    system[2] = (step[:-1] + step[1:]) / 3.0 + lam * (a * a + b * b + c * c)
+    system[1, 1:] = step[1:-1] / 6.0 + lam * (b[:-1] * a[1:] + c[:-1] * b[1:])
+    system[0, 2:] = lam * c[:-2] * a[2:]
+    gamma = solveh_banded(system, right_side, check_finite=False)
+    f = h.copy()
+    for entries, at in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
+        f[at] -= lam * entries * gamma
+    # Both pieces at a point take the same slope there, to the last digit: a jump of h' would be a corner of the indenter
+    second = np.concatenate(([0.0], gamma, [0.0]))
+    chord = np.diff(f) / step
+    slope = np.append(chord - step * (2.0 * second[:-1] + second[1:]) / 6.0, chord[-1] + step[-1] * second[-2] / 6.0)
+    excess = slope[:-1] + slope[1:] - 2.0 * chord
+    return np.stack((f[:-1], slope[:-1], (chord - slope[:-1] - excess) / step, excess / (step * step)), axis=1)
 
 
 @dataclass

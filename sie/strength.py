@@ -76,13 +76,16 @@ def elastic_limit(tractions: Tractions, normal_load: float, criterion: Criterion
     stress, maxima = max(found, key=lambda f: f[0])
     x1, x2 = tractions.pressure.interval
     x, y = maxima[0].x, maxima[0].y
-    j2 = stress * stress if criterion == "mises" else float(Stress(tractions, x, y).j2)
+    j2 = stress * stress if criterion == "mises" or not kappa else float(Stress(tractions, x, y).j2)
     places = tuple((m.x, m.y) for m in maxima)
     return YieldPoint(normal_load / stress, x, y, j2, stress, 0.5 * (x2 - x1), places, criterion)
 
 
 def peak_tension(tractions: Tractions) -> Peak:
-    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it."""
+    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it.
+
+    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
+    """
     for edge, x, outward in zip(tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True):
         q = float(tractions.shear(np.array([edge]))[0])
         if q * outward == np.inf:
@@ -92,7 +95,7 @@ def peak_tension(tractions: Tractions) -> Peak:
     middle = 0.5 * sum(tractions.pressure.interval)
     # Where nothing pulls, the whole free surface is tied
     x = min((m.x for m in found if m.value == best), key=lambda x: abs(x - middle))
-    return Peak(best + 0.0, x)
+    return Peak(max(best, tractions.bulk_stress) + 0.0, x)
 
 
 # -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------

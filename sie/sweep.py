@@ -13,11 +13,12 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import closing
 from dataclasses import fields, replace
 from operator import attrgetter
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -57,6 +58,14 @@ QUANTITIES: dict[str, Wanted] = {
     "elastic_limit": _elastic_limit,
     "peak_tension": _peak_tension,
     "error": lambda s: s.check().error,
+}
+
+
+# What of these is called otherwise in a result: nan where no point has an answer.
+PARTS = {
+    "edges": ("x1", "x2"),
+    "elastic_limit": ("elastic_limit", "elastic_limit_load", "elastic_limit_x", "elastic_limit_y"),
+    "peak_tension": ("peak_tension", "peak_tension_x"),
 }
 
 
@@ -102,14 +111,15 @@ def sweep(
     found: dict[int, list[Answer]] = {}
     bar = _Progress(len(points), progress)
     try:
-        for k, answers in _answered(scene, chunks, wanted, tol, executor):
-            found[k] = answers
-            bar.show(sum(map(len, found.values())))
+        with closing(_answered(Work(scene, wanted, tol), chunks, executor, found)) as answered:
+            for k, answers in answered:
+                found[k] = answers
+                bar.show(sum(map(len, found.values())))
     except KeyboardInterrupt:
-        raise Interrupted(_labelled(axes, chunks, found)) from None
+        raise Interrupted(_labelled(axes, wanted, chunks, found)) from None
     finally:
         bar.clear()
-    return _labelled(axes, chunks, found)
+    return _labelled(axes, wanted, chunks, found)
 
 
 # -- the grid ----------------------------------------------------------------------------------------------------------
@@ -166,42 +176,66 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
 # -- the work ----------------------------------------------------------------------------------------------------------
 
 
+class Work(NamedTuple):
+    """What is asked at every point."""
+
+    scene: Scene | Callable[..., Scene]
+    wanted: dict[str, str | Wanted]
+    tol: float
+
+
 def _answered(
-    scene: Scene | Callable[..., Scene], chunks: list[list[Point]], wanted: dict[str, Any], tol: float, executor: Executor | None
-) -> Iterator[tuple[int, list[Answer]]]:
-    """(number of a chunk, its answers), in the order in which they are ready."""
+    work: Work, chunks: list[list[Point]], executor: Executor | None, found: dict[int, list[Answer]]
+) -> Generator[tuple[int, list[Answer]]]:
+    """(number of a chunk, its answers), in the order in which they are ready; what an interruption leaves goes to `found`."""
     if executor is None:
         last: Solution | None = None
         for k, chunk in enumerate(chunks):
-            answers, last = _chunk_answers(scene, chunk, wanted, tol, last)
-            yield k, answers
+            found[k] = []
+            last = _answer_into(found[k], work, chunk, last)
+            yield k, found[k]
         return
-    pending: dict[Future[list[Answer]], int] = {executor.submit(answers_of, scene, chunk, wanted, tol): k for k, chunk in enumerate(chunks)}
+    pending: dict[Future[list[Answer]], int] = {executor.submit(answers_of, work, chunk): k for k, chunk in enumerate(chunks)}
     try:
         while pending:
             for future in wait(pending, return_when=FIRST_COMPLETED)[0]:
-                yield pending.pop(future), future.result()
+                k = pending.pop(future)
+                yield k, _chunk_result(future, len(chunks[k]))
     finally:
-        for future in pending:
-            future.cancel()
+        for future, k in pending.items():
+            if not future.cancel() and future.done():
+                found[k] = _chunk_result(future, len(chunks[k]))
 
 
-def answers_of(scene: Scene | Callable[..., Scene], chunk: list[Point], wanted: dict[str, Any], tol: float) -> list[Answer]:
+def _chunk_result(future: Future[list[Answer]], points: int) -> list[Answer]:
+    """The answers of a chunk, or why there are none: a worker that died, or functions that cannot be sent to another process."""
+    try:
+        return future.result()
+    except Exception as problem:  # whatever an executor raises
+        return [({}, _reason(problem))] * points
+
+
+def answers_of(work: Work, chunk: list[Point]) -> list[Answer]:
     """The answers of one chunk: what a worker runs."""
-    return _chunk_answers(scene, chunk, wanted, tol, None)[0]
-
-
-def _chunk_answers(
-    scene: Any, chunk: list[Point], wanted: dict[str, Any], tol: float, last: Solution | None
-) -> tuple[list[Answer], Solution | None]:
     answers: list[Answer] = []
+    _answer_into(answers, work, chunk, None)
+    return answers
+
+
+def _answer_into(answers: list[Answer], work: Work, chunk: list[Point], last: Solution | None) -> Solution | None:
+    """Appends the answer of each point; returns the last solution."""
     for point in chunk:
         try:
-            last = _solution(scene, point, tol, last)
-            answers.append((_values(last, wanted), ""))
-        except (ContactError, ValueError) as problem:
-            answers.append(({}, str(problem)))
-    return answers, last
+            last = _solution(work.scene, point, work.tol, last)
+            answers.append((_values(last, work.wanted), ""))
+        except Exception as problem:  # functions of a user raise what they like: one point must not cost the others
+            answers.append(({}, _reason(problem)))
+    return last
+
+
+def _reason(problem: Exception) -> str:
+    """The sentence that says why; of what is not ours, its kind too."""
+    return str(problem) if isinstance(problem, (ContactError, ValueError)) else f"{type(problem).__name__}: {problem}"
 
 
 def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> Solution:
@@ -227,13 +261,18 @@ def _values(solution: Solution, wanted: dict[str, Any]) -> dict[str, Any]:
 # -- the result --------------------------------------------------------------------------------------------------------
 
 
-def _labelled(axes: dict[str, list[Any]], chunks: list[list[Point]], found: dict[int, list[Answer]]) -> Any:
-    answers = [a for k, chunk in enumerate(chunks) for a in found.get(k, [({}, "interrupted")] * len(chunk))]
+def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], chunks: list[list[Point]], found: dict[int, list[Answer]]) -> Any:
+    answers: list[Answer] = []
+    for k, chunk in enumerate(chunks):
+        have = found.get(k, [])
+        answers += [*have, *[({}, "interrupted")] * (len(chunk) - len(have))]
     shape = tuple(map(len, axes.values()))
     shapes: dict[str, tuple[int, ...]] = {}
     for values, _ in answers:
         for name, value in values.items():
             shapes[name] = tuple(map(max, zip(shapes[name], value.shape, strict=True))) if name in shapes else value.shape
+    if not shapes:
+        shapes = {part: () for name, of in wanted.items() for part in (PARTS.get(name, (name,)) if of == name else (name,))}
     data: dict[str, Any] = {}
     for name, inner in shapes.items():
         if name in axes:

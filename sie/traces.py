@@ -1,13 +1,15 @@
 """Traces in files: columns of numbers as text, or what a profilometer writes, read by SurfaceTopography (the extra `traces`).
 
-Text is taken as it comes: comma, semicolon, tab or blanks between the columns, a decimal comma where the semicolon or tab leaves it free,
-comments after # or %, header lines before the first number. What is not a number after that is missing, and reported by its line.
+Text is taken as it comes: comma, semicolon, tab or blanks between the columns, a decimal comma where these leave it free, comments after #
+or %, header lines before the first number. What is not a number after that is missing, and reported by its line.
 """
 
 from __future__ import annotations
 
 import math
 import re
+from collections import Counter
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,8 @@ Column = int | str
 FORMATS = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")  # read as text; all others are SurfaceTopography's
 NAMED = 5  # lines that a message names
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "inf", "-inf", "+inf", "bad", "*****"}
+
+DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"
 
 
 def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, drop_missing: bool = False) -> tuple[Array, ...]:
@@ -83,7 +87,7 @@ def _table(path: Path, skip: int) -> tuple[list[list[str]], int, list[str], str]
     lines = _text(path).splitlines()[skip:]
     separator = _separator(lines)
     split = [_cells(line, separator) for line in lines]
-    start = next((k for k, cells in enumerate(split) if sum(_finite(c, separator) for c in cells) >= 2), None)
+    start = _first_row(split, separator)
     if start is None:
         raise ValueError(f"{path.name} has no line with two numbers: give a text file with columns, or skip fewer lines")
     header: list[str] = []
@@ -93,6 +97,13 @@ def _table(path: Path, skip: int) -> tuple[list[list[str]], int, list[str], str]
             header = [re.sub(r"[\[(].*", "", name).strip().lower() for name in names]
             break
     return split, start, header, separator
+
+
+def _first_row(split: list[list[str]], separator: str) -> int | None:
+    """The first line with two numbers: a sentence that has two is none, if it has words and another number of cells than most lines."""
+    rows = [k for k, cells in enumerate(split) if sum(_finite(c, separator) for c in cells) >= 2]
+    usual = Counter(len(split[k]) for k in rows).most_common(1)
+    return next((k for k in rows if len(split[k]) == usual[0][0] or all(_value(c, separator) is not None for c in split[k])), None)
 
 
 def _text(path: Path) -> str:
@@ -112,8 +123,14 @@ def _separator(lines: list[str]) -> str:
     body = [_bare(line) for line in lines if re.search(r"\d", _bare(line))]
     for candidate in (";", "\t", ","):
         if sum(candidate in line for line in body) > len(body) // 2:
-            return candidate
+            return "" if candidate == "," and _decimal_commas(body) else candidate
     return ""
+
+
+def _decimal_commas(body: list[str]) -> bool:
+    """Whether blanks stand between numbers in whose midst a comma stands: "0,5  1,25", but not "0, 5" or "0.5,1.25"."""
+    columns = re.compile(rf"{DECIMAL_COMMA}(\s+{DECIMAL_COMMA})+")
+    return sum(columns.fullmatch(line) is not None for line in body) > len(body) // 2
 
 
 def _bare(line: str) -> str:
@@ -148,11 +165,11 @@ def _index(path: Path, column: Column, header: list[str], width: int) -> int:
             known = f"its header names {', '.join(header)}" if header else "it has no header"
             raise ValueError(f"{path.name} has no column {column!r}, {known}: give a name, or a number from 0 to {width - 1}")
         return header.index(column.strip().lower())
-    if isinstance(column, bool) or not isinstance(column, int) or not 0 <= column < width:
+    if isinstance(column, bool) or not isinstance(column, Integral) or not 0 <= column < width:
         raise ValueError(
             f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header"
         )
-    return column
+    return int(column)
 
 
 def _named(lines: list[int]) -> str:

@@ -73,3 +73,12 @@ def test_ruizs_parameters_are_products_of_amplitude_traction_and_tension(cycle):
 def test_one_state_is_no_cycle():
     with pytest.raises(ValueError, match="1 states make no cycle"):
         sie.Cycle([sie.solve(SCENE)])
+
+
+def test_in_plane_ranges_need_no_poisson_ratio():
+    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.3, friction=0.4)
+    states = [sie.solve(scene).with_(tangential_load=q) for q in (0.12, -0.12)]
+    cycle = sie.Cycle(states)
+    assert cycle.range(X, Y).keys() == {"xx", "yy", "xy"}
+    assert (cycle.range(X, Y)["xx"].highest == np.maximum(*(s.stress(X, Y).xx for s in states))).all()
+    assert cycle.shear_range(X, Y)[0].shape == (3, 7)

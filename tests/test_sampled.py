@@ -50,6 +50,17 @@ def test_the_smoothing_spline_is_that_of_scipy(lam):
     assert profile.lam == lam
 
 
+@pytest.mark.parametrize("lam", [1e-300, 1e-60, 1e-30, 1e-24])
+@pytest.mark.parametrize("n", [9, 300, 3000])
+def test_a_smoothing_spline_tends_to_the_natural_one_through_the_points(n, lam):
+    """Between the points too, where a spline of nearly no smoothing could be anything."""
+    x = np.sort(np.random.default_rng(n).uniform(-1.0, 1.0, n))
+    h = x**2 + 0.01 * np.sin(50.0 * x)
+    between = 0.5 * (x[1:] + x[:-1])
+    natural = CubicSpline(x, h, bc_type="natural")
+    assert sie.Sampled(x, h, smoothing=lam).height(between) == pytest.approx(natural(between), abs=1e-12)
+
+
 def test_cross_validation_finds_the_smallest_score():
     """Against the definition, with the matrix from h to f(x) column by column from SciPy's spline."""
     x, rng = np.linspace(0.0, 1.0, 60), np.random.default_rng(5)
@@ -134,8 +145,10 @@ TABLE = [(x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.
         "\n".join(f"{x}\t{h}\t17" for x, h in TABLE) + "\n\n",
         "% 3 lines\nfrom\nhere on\n" + "\n".join(f'"{x}","{h:e}"' for x, h in TABLE),
         "\n".join(f"{x} {h}" for x, h in TABLE).replace("\n", "\r\n"),
+        "x h\n" + "\n".join(f"{x}  {h}".replace(".", ",") for x, h in TABLE),
+        "a trace of 5 points in 2 columns\n" + "\n".join(f"{x}\t{h}".replace("\t", "  ") for x, h in TABLE),
     ],
-    ids=["comma", "blanks", "semicolon", "tab", "quoted", "windows"],
+    ids=["comma", "blanks", "semicolon", "tab", "quoted", "windows", "decimal commas between blanks", "numbers in a sentence"],
 )
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
 def test_text_is_read_as_it_comes(text, encoding, tmp_path):
@@ -151,6 +164,12 @@ def test_columns_scale_and_skip(tmp_path):
     assert found.points == pytest.approx([x for x, _ in TABLE])
     assert found.heights == pytest.approx([h for _, h in TABLE])
     assert sie.Sampled.read(file, columns=(2, 1), scale=(1e-3, -1e-3), skip=1) == found
+
+
+def test_numbers_of_columns_and_lines_may_be_numpy_s(tmp_path):
+    file = tmp_path / "trace.txt"
+    file.write_text("7 7\n" + "\n".join(f"{h} {x}" for x, h in TABLE))
+    assert sie.Sampled.read(file, columns=tuple(np.array([1, 0])), skip=np.int64(1)) == sie.Sampled(*zip(*TABLE, strict=True))
 
 
 def test_what_a_file_lacks_is_named_by_its_lines(tmp_path):
@@ -313,6 +332,20 @@ def test_a_mesh_result_passes_or_fails_by_its_l2_error(mesh):
     assert code == 1
     assert "EXCEEDS" in printed
     assert "l2     2.000e-02" in printed
+
+
+def test_nodes_that_two_elements_share_leave_the_load_as_it_is(mesh):
+    solution, run = mesh
+    x = np.repeat(np.linspace(*solution.edges, 201), 2)
+    found = json.loads(run({"x": x, "p": solution.pressure(x)}, "--json")[1])["differences"]["p"]
+    assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
+
+
+def test_a_column_called_depth_is_one(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 21)
+    code, _, _ = run({"X-coordinate": x, "depth": np.full(21, 0.4), "S11": solution.stress(x, 0.4).xx})
+    assert code == 0
 
 
 def test_the_shift_of_a_mesh_is_found(mesh):

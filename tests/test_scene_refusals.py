@@ -263,3 +263,11 @@ def test_nothing_is_computed_before_it_is_asked_for():
     """A question without an answer fails when asked, not when put."""
     solution = sie.solve(scene(profile=sie.Flat(1.0), moment=2.0))
     assert "normal" not in vars(solution)
+
+
+@pytest.mark.parametrize("load", [{"normal_load": 0.1}, {"half_width": 0.5}], ids=["load", "width"])
+def test_a_corner_that_points_into_the_indenter_is_refused_as_lifting_off(load):
+    """p is -inf there: an end of that interval cannot be read off between two values."""
+    concave = sie.Piecewise((-0.3, 0.0, 0.3), ((0.0, 1.0), (0.1, 1.0), (-0.1, 1.0), (0.0, 1.0)))
+    with pytest.raises(sie.ContactError, match=r"tension at x = 0 .p = -inf.* lifts off"):
+        _ = sie.solve(sie.Scene(profile=concave, modulus=1.0, **load)).edges

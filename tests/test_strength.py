@@ -163,3 +163,62 @@ def test_a_sharp_edge_tears_and_yields_at_once():
 def test_an_unknown_criterion_is_refused():
     with pytest.raises(ValueError, match=r'"rankine".*"mises" or "tresca"'):
         punch(0.3).elastic_limit("rankine")
+
+
+@pytest.mark.parametrize("length", [1e-100, 1e-40, 1e100])
+@pytest.mark.parametrize("modulus", [1e-100, 1e100])
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
+    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface, however small the contact."""
+
+    def limit(length, modulus):
+        P = 0.01 * modulus * length
+        profile = sie.RoundedFlat(length, 50.0 * length)
+        scene = sie.Scene(profile=profile, modulus=modulus, poisson=NU, normal_load=P, friction=0.3, tangential_load=0.2 * P)
+        return sie.solve(scene).elastic_limit(criterion)
+
+    here, there = limit(1.0, 1.0), limit(length, modulus)
+    assert there.ratio == pytest.approx(here.ratio, rel=1e-13) and there.x / length == pytest.approx(here.x, rel=1e-8)
+
+
+RUBBER = sie.Elastic(young=3.0, poisson=0.5)
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_an_incompressible_body_yields_at_once_under_a_sharp_edge(criterion):
+    scene = sie.Scene(profile=sie.Flat(0.8), body=RUBBER, indenter=sie.RIGID, normal_load=2.0)
+    found = sie.solve(scene).elastic_limit(criterion)
+    assert found.load == 0.0 and found.places == ((-0.8, 0.0), (0.8, 0.0))
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion):
+    """Straight below the apex the shear stress tends to E*A/π (Johnson 1985, § 5.2), the largest there is: P/k = P π/(E*A)."""
+    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2)
+    found = sie.solve(scene).elastic_limit(criterion)
+    assert found.load == pytest.approx(0.2 * np.pi / (0.1 * scene.Estar), rel=1e-13)
+    assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
+
+
+def test_an_incompressible_body_in_partial_slip_yields_beside_the_apex_of_a_wedge_in_some_direction():
+    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2, friction=0.5, tangential_load=0.04)
+    solution = sie.solve(scene)
+    angle = np.linspace(1e-3, np.pi - 1e-3, 20001)
+    beside = np.sqrt(solution.stress(1e-13 * np.cos(angle), 1e-13 * np.sin(angle)).j2)
+    assert beside.max() == pytest.approx(solution.elastic_limit().stress, rel=1e-6)
+
+
+def test_a_break_next_to_the_weakest_point_is_not_tied_with_it():
+    f, b = 0.4, 1.0
+    weakest = b * f / np.sqrt(1.0 + f * f)  # of the sliding line contact, on the surface
+    parabola = sie.Piecewise((weakest + 2e-6 * b,), ((0.0, 1.0), (0.0, 1.0)))
+    solution = sie.solve(sie.Scene(profile=parabola, modulus=1.0, poisson=NU, half_width=b))
+    found = solution.with_(friction=f, tangential_load=f * solution.normal_load).elastic_limit()
+    assert len(found.places) == 1 and found.x == pytest.approx(weakest, abs=1e-8)
+
+
+def test_a_compression_that_nothing_relieves_is_the_largest_tension():
+    """With Q = 0 slip only adds to it on both sides; it is approached far away."""
+    scene = sie.Scene(profile=sie.RoundedFlat(0.6, 5.0), modulus=1.0, normal_load=5e-3, friction=0.3, bulk_stress=-1e-4)
+    value, x = sie.solve(scene).peak_tension()
+    assert value == -1e-4 and abs(x) > 100.0

@@ -231,6 +231,12 @@ def test_stresses_scale_with_the_units():
         assert there.xx / stress == pytest.approx(here.xx, rel=1e-13)
 
 
+def test_a_stress_unpacks_into_its_components():
+    s = sliding(PUNCH).stress([0.1, 0.5], 0.2)
+    xx, yy, xy, zz = s
+    assert (xx == s.xx).all() and (yy == s.yy).all() and (xy == s.xy).all() and (zz == s.zz).all()
+
+
 def test_bulk_stress_is_added_along_the_surface_only():
     solution = sliding(PUNCH)
     x, y = np.array([0.1, 0.5, 7.0]), np.array([0.2, 0.0, 30.0])
@@ -265,6 +271,30 @@ def test_where_the_pressure_is_infinite_nothing_is_nan():
             s = solution.surface_stress(np.array([*solution.edges, 0.0]))
             for values in (s.xx, s.yy, s.xy, s.zz, s.j2, s.mises, s.max_shear, *s.principal):
                 assert not np.isnan(values).any()
+
+
+@pytest.mark.parametrize("body", [STEEL, sie.Elastic(210e3, 0.5)], ids=["steel", "incompressible"])
+def test_where_the_shear_is_infinite_no_displacement_gradient_is_nan(body):
+    for profile in (sie.Wedge(0.2), sie.Flat(1.0)):
+        solution = sliding(sie.Scene(profile=profile, body=body, normal_load=9.0))
+        s = solution.surface_stress(np.array([*solution.edges, 0.0]))
+        for values in (*s.strain, *s.gradients):
+            assert not np.isnan(values).any()
+
+
+def test_displacement_gradients_next_to_an_infinite_shear_have_the_signs_of_those_there():
+    solution = sliding(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0))
+    at, beside = solution.stress(0.0, 0.0).gradients, solution.stress(0.0, 1e-200).gradients
+    assert (at.xy, at.yx) == (-np.inf, np.inf) and beside.xy < 0.0 < beside.yx
+
+
+def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
+    body, indenter = sie.Elastic(3.0, 0.2), sie.Elastic(40.0, 0.3)
+    solution = sie.solve(sie.Scene(profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf))
+    s = solution.surface_stress(solution.edges)
+    for values in (*s, s.mises, *s.principal, *s.strain, *s.gradients):
+        assert not np.isnan(values).any()
+    assert solution.elastic_limit().load == 0.0 and solution.peak_tension().value == np.inf
 
 
 # -- only what is asked for --------------------------------------------------------------------------------------------

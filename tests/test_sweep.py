@@ -121,6 +121,64 @@ def test_an_interrupt_loses_nothing(monkeypatch):
     assert all(f.done() or f.cancelled() for f in pool.futures)
 
 
+def test_an_interrupt_within_a_chunk_keeps_its_first_points():
+    asked = []
+
+    def impatient(solution):
+        asked.append(solution)
+        if len(asked) == 3:
+            raise KeyboardInterrupt
+        return solution.half_width
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want={"b": impatient}, chunk=4)
+    assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
+
+
+def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
+    def wait(futures, **kwargs):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(module, "wait", wait)
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Interrupting(), chunk=1)
+    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
+
+
+def one_in_three(solution):
+    return 1.0 / (solution.normal_load - 0.2)
+
+
+def test_a_function_that_raises_costs_its_own_point_only(executor):
+    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want={"f": one_in_three}, executor=executor))
+    assert np.isnan(found["f"]).tolist() == [False, True, False]
+    assert found["reason"][1].startswith("ZeroDivisionError")
+
+
+class Broken(Interrupting):
+    """Its third worker dies."""
+
+    def submit(self, function, /, *args, **kwargs):
+        future = super().submit(function, *args, **kwargs)
+        if not future.done():
+            future.set_exception(RuntimeError("a worker died"))
+        return future
+
+
+def test_a_worker_that_dies_costs_its_own_chunk_only():
+    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Broken(), chunk=1))
+    assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
+    assert found["reason"][2] == "RuntimeError: a worker died"
+
+
+@pytest.mark.parametrize("want", list(sie.QUANTITIES))
+def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
+    sliding = sie.solve(SCENE).with_(friction=0.3).scene
+    answered, failed = (plain(sie.sweep(sliding, over={"tangential_load": [Q]}, want=want)) for Q in (0.01, 9.0))
+    assert failed.keys() == answered.keys()
+    assert all(np.isnan(failed[name]).all() for name in failed.keys() - {"tangential_load", "reason"})
+
+
 def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
