@@ -102,6 +102,8 @@ class Contact:
         return self.m * self.P - self.G * self.integral(lambda t, w, H: H * w * w)
 
     def angle(self, x: Number) -> Number:
+        if x in (self.x1, self.x2):  # the rounding of s would take the root of 1e-40 from the angle
+            return -mp.pi / 2 if x == self.x1 else mp.pi / 2
         s = (x - self.m) / self.r
         return mp.asin(s) if mp.im(s) else mp.asin(min(max(s, -mp.one), mp.one))
 
