@@ -73,6 +73,11 @@ class Tractions:
         return self.body
 
     @cached_property
+    def marks(self) -> Array:
+        """Edges and breaks of both tractions, ascending."""
+        return np.unique(np.concatenate((self.pressure.breaks, self.shear.breaks)))
+
+    @cached_property
     def depth_of_surface(self) -> float:
         """What is less deep is the surface: 1/y would overflow."""
         x1, x2 = self.pressure.interval

@@ -38,7 +38,7 @@ WORTH = 0.85  # of the largest value known: maxima of the scan below it, which i
 MOST_STARTS = 48
 CIRCLE = 32
 STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
-SETTLED = 1e-9  # of the depth: the step after it is below rounding
+SETTLED = 1e-7  # of the depth: after it the step to come, its square, is below rounding
 SAME_VALUE, STUCK = 4e-15, 1e-9  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
 TOGETHER = 1e-3  # of the depth
 LEFT = 0.5  # of the shallowest depth: what climbs beyond belongs to the surface
@@ -95,18 +95,19 @@ def inside(tractions: Tractions, measure: Measure, known: float) -> list[Maximum
     """Local maxima below the surface that may be larger than a known value."""
     if np.isinf(known):
         return []
-    starts = _starts(tractions, measure, known)
+    depths = _depths(tractions.marks)
+    starts = _starts(tractions, measure, known, depths)
     if not starts.size:
         return []
     # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest value is not taken anywhere
-    z = np.concatenate((starts[:1], _climbed(tractions, measure, starts)))
+    z = np.concatenate((starts[:1], _climbed(tractions, measure, starts, LEFT * float(depths[0]))))
     values = measure.value(_values(tractions, z))
     return [Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)]
 
 
-def _starts(tractions: Tractions, measure: Measure, known: float) -> Complex:
+def _starts(tractions: Tractions, measure: Measure, known: float, depths: Array) -> Complex:
     """The local maxima of the scan and their neighbours left and right."""
-    columns, depths = _columns(tractions, COLUMNS), _depths(tractions)
+    columns = _columns(tractions.marks, COLUMNS)
     levels = [_thinned(columns, SPACING * y) for y in depths]
     z = np.concatenate([x + 1j * y for x, y in zip(levels, depths, strict=True)])
     ends = np.cumsum([0, *map(len, levels)])
@@ -115,6 +116,8 @@ def _starts(tractions: Tractions, measure: Measure, known: float) -> Complex:
     starts: list[NDArray[np.intp]] = []
     floor = WORTH * max(value.max(), known)
     for k, row in enumerate(rows):
+        if row.max() < floor:
+            continue
         padded = np.concatenate(([-np.inf], row, [-np.inf]))
         top = np.flatnonzero((row >= padded[:-2]) & (row >= padded[2:]) & (row >= floor))
         for other in (k - 1, k + 1):
@@ -126,9 +129,8 @@ def _starts(tractions: Tractions, measure: Measure, known: float) -> Complex:
     return z[found[np.argsort(-value[found])][:MOST_STARTS]]
 
 
-def _climbed(tractions: Tractions, measure: Measure, z: Complex) -> Complex:
+def _climbed(tractions: Tractions, measure: Measure, z: Complex, shallow: float) -> Complex:
     """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that leave through the surface are dropped."""
-    shallow = LEFT * float(_depths(tractions)[0])
     rest: list[Complex] = []
     before, value, trust = z, np.full(z.shape, -np.inf), np.full(z.shape, LONGEST)
     for _ in range(STEPS):
@@ -166,10 +168,8 @@ def _newton(measure: Measure, at: Local) -> Complex:
     """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as negative: from anywhere it leads uphill."""
     g, G = measure.gradient(at.value), measure.hessian(at.value)
     gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
-    hxx, hxy, hyy = (
-        (g * second).sum(axis=0) + np.einsum("i...,ij...,j...->...", u, G, v)
-        for u, v, second in ((at.x, at.x, at.xx), (at.x, at.y, at.xy), (at.y, at.y, at.yy))
-    )
+    Gx, Gy = (G * at.x).sum(axis=1), (G * at.y).sum(axis=1)
+    hxx, hxy, hyy = ((g * second + u * Gv).sum(axis=0) for second, u, Gv in ((at.xx, at.x, Gx), (at.xy, at.x, Gy), (at.yy, at.y, Gy)))
     mean, half = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
     angle = 0.5 * np.arctan2(2.0 * hxy, hxx - hyy)
     cos, sin = np.cos(angle), np.sin(angle)
@@ -201,8 +201,11 @@ def _local(tractions: Tractions, z: Complex) -> Local:
     s = (P0.imag, P1.imag, P1.real, P2.imag, P2.real, -P2.imag)
     D = (Q0 - D1, Q1 - D2, -D1 - 1j * (D2 - Q1), Q2 - D3, -D2 - 1j * (D3 - Q2), -2j * D2 + D3 - Q2)
     half = 0.5 * tractions.bulk_stress
-    rows = [np.stack((a, b.real, b.imag)) for a, b in zip(s, D, strict=True)]
-    rows[0] += np.array([half, -half, 0.0])[:, None]
+    rows = np.empty((len(s), 3, len(z)))
+    for row, a, b in zip(rows, s, D, strict=True):
+        row[0], row[1], row[2] = a, b.real, b.imag
+    rows[0, 0] += half
+    rows[0, 1] -= half
     return Local(*rows)
 
 
@@ -211,7 +214,7 @@ def _local(tractions: Tractions, z: Complex) -> Local:
 
 def on_surface(tractions: Tractions, measure: Measure) -> list[Maximum]:
     """Local maxima along the surface that may be the largest; edges and breaks are taken as they are."""
-    x = _surface_columns(tractions)
+    x = _surface_columns(tractions.marks)
     value = measure.value(surface_values(tractions, x))
     padded = np.concatenate(([-np.inf], value, [-np.inf]))
     best = value.max()
@@ -240,7 +243,7 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
     At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C sin θ e^(-iθ) in the direction θ, on a
     circle of diameter |C| through Fq: the largest |D| is |Fq + iC/2| + |C|/2.
     """
-    x = _marks(tractions)
+    x = tractions.marks
     x = x[np.isinf(tractions.pressure(x))]
     if not x.size:
         return []
@@ -290,7 +293,7 @@ def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
     """Where the slope falls through 0 between lo and hi, of those pairs where it does (Illinois' method with bisection)."""
     nudge = 1e-9 * (hi - lo)  # off edges and breaks, where it may be infinite
     a, b = lo + nudge, hi - nudge
-    fa, fb = slope(a), slope(b)
+    fa, fb = slope(np.stack((a, b)).ravel()).reshape(2, -1)
     falls = (fa > 0.0) & (fb < 0.0)
     a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
     x, enough, last = 0.5 * (a + b), ROOT_SETTLED * (b - a), np.zeros(a.shape)
@@ -311,14 +314,8 @@ def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
 # -- where the scan looks ----------------------------------------------------------------------------------------------
 
 
-def _marks(tractions: Tractions) -> Array:
-    """Edges and breaks of both tractions, ascending."""
-    return np.unique(np.concatenate((tractions.pressure.breaks, tractions.shear.breaks)))
-
-
-def _columns(tractions: Tractions, n: int) -> Array:
+def _columns(marks: Array, n: int) -> Array:
     """Ascending abscissae, gathered at edges and breaks, none of them on one, nor midway between two."""
-    marks = _marks(tractions)
     n = max(min(n, MOST_COLUMNS // (len(marks) - 1)), FEWEST)
     t = np.sin(0.5 * np.pi * (np.arange(n) + 0.47) / n) ** 2
     r = 0.5 * (marks[-1] - marks[0])
@@ -327,15 +324,13 @@ def _columns(tractions: Tractions, n: int) -> Array:
     return np.unique(np.concatenate((marks[0] - beside, parts, marks[-1] + beside)))
 
 
-def _surface_columns(tractions: Tractions) -> Array:
-    marks = _marks(tractions)
+def _surface_columns(marks: Array) -> Array:
     r = 0.5 * (marks[-1] - marks[0])
     far = r * np.geomspace(OUTSIDE[-1], FAR, 12)
-    return np.unique(np.concatenate((marks[0] - far, _columns(tractions, SURFACE_COLUMNS), marks, marks[-1] + far)))
+    return np.unique(np.concatenate((marks[0] - far, _columns(marks, SURFACE_COLUMNS), marks, marks[-1] + far)))
 
 
-def _depths(tractions: Tractions) -> Array:
-    marks = _marks(tractions)
+def _depths(marks: Array) -> Array:
     first, last = SHALLOWEST * float(np.diff(marks).min()), DEEPEST * 0.5 * float(marks[-1] - marks[0])
     return np.geomspace(first, last, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
 
