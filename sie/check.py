@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from .adaptive import refined
 from .composite import Rule, angles, composite_rule, inner_breaks, position
-from .density import SlopeDensity
 from .errors import InequalityError
 from .gap import gap
 from .interval import EPS, Interval
 from .slope import Slope
+from .slope_density import SlopeDensity
 
 Array = NDArray[np.float64]
 Intervals = tuple[tuple[float, float], ...]

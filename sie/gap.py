@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import refined
-from .density import SlopeDensity
 from .interval import EPS, Interval
 from .slope import Slope
+from .slope_density import SlopeDensity
 
 Array = NDArray[np.float64]
 More = Callable[[Array, float], Array] | None

@@ -27,13 +27,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .density import ZERO, Density, SlopeDensity
+from .density import ZERO, Density
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval
 from .normal import ECONOMY, Normal, normal_contact
 from .path import Path, State, direction, states
 from .scene import Scene
 from .slip import slip
+from .slope_density import SlopeDensity
 from .solution import Solution, solve
 from .states import OneWay, Slip, Step, rims
 from .superposition import Combination

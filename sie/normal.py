@@ -15,7 +15,6 @@ import numpy as np
 
 from . import chebyshev
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
-from .density import PanelDensity, SlopeDensity, TransformDensity
 from .edges import Edges, Search
 from .errors import ContactError, LoadError
 from .geometry import Geometry
@@ -24,6 +23,7 @@ from .panels import CHOP, Panels
 from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
+from .slope_density import PanelDensity, SlopeDensity, TransformDensity
 from .widest import widest_contact
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.

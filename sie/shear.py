@@ -16,7 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .density import Complex, Density, SlopeDensity, refuse_side, shallow
+from .density import Complex, Density, refuse_side, shallow
+from .slope_density import SlopeDensity
 from .superposition import Combination
 from .zones import Zone, Zones
 

@@ -25,13 +25,13 @@ from numpy.typing import NDArray
 
 from . import chebyshev, lerch
 from .batched_plane import Points
-from .density import PanelDensity
 from .geometry import Geometry, quadrature_order
 from .interval import EPS, Interval
 from .moments import Moments, rises
 from .panels import Panels
 from .potential import Plane
 from .slope import Slope
+from .slope_density import PanelDensity
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

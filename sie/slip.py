@@ -28,7 +28,6 @@ from collections.abc import Collection
 import numpy as np
 
 from .adaptive import refined
-from .density import PanelDensity
 from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, two_product
@@ -37,6 +36,7 @@ from .narrow import narrow_zones
 from .normal import contact_under
 from .panels import Panels
 from .scene import Scene
+from .slope_density import PanelDensity
 from .states import OneWay, Sliding, Slip, Step, Stuck, TwoWays, rims
 from .zones import Drive, zones
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from .check import ShearCertificate
 from .composite import Rule, composite_rule
-from .density import SlopeDensity
 from .interval import EPS, Interval
 from .slope import Slope
+from .slope_density import SlopeDensity
 from .states import Slip
 
 Array = NDArray[np.float64]

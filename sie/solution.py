@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .bonded import Component, bonded_certificate, bonded_contact
 from .check import Certificate, certificate, verify_inequalities
-from .density import ZERO, Density, SlopeDensity
+from .density import ZERO, Density
 from .edges import Edges
 from .errors import ContactError, LoadError
 from .field import Stress, Tractions
@@ -27,6 +27,7 @@ from .scene import Scene
 from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
 from .slope import Slope
+from .slope_density import SlopeDensity
 from .states import Slip, Step
 from .strength import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
 from .superposition import scaled

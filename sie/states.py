@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .adaptive import refined
 from .check import verify_inequalities
-from .density import ZERO, Density, SlopeDensity
+from .density import ZERO, Density
 from .gap import gap
 from .interval import EPS, Interval, two_sum
 from .moments import moments
@@ -21,6 +21,7 @@ from .normal import Normal, pressure
 from .scene import Scene
 from .shear import OneSign, TwoSigns
 from .slope import Slope
+from .slope_density import SlopeDensity
 from .superposition import Combination
 from .touch import lowest_points, raised
 from .zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones

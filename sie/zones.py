@@ -32,12 +32,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import chebyshev
-from .density import PanelDensity, SlopeDensity
 from .errors import ContactError
 from .geometry import Geometry
 from .interval import EPS, Interval
 from .panels import Panels
 from .slope import Slope
+from .slope_density import PanelDensity, SlopeDensity
 
 Array = NDArray[np.float64]
 

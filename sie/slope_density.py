@@ -1,0 +1,362 @@
+"""The pressure whose slope is H: p solves 1/π PV∫ p/(x - t) dt = E*/2 H in the contact.
+
+Two forms know this in closed form, `TransformDensity` by a Chebyshev series (smooth H) and `PanelDensity` by exact panels (H with breaks).
+Both carry the square-root singular ends of a sharp-edged punch apart, as k1/2 sqrt((1-s)/(1+s)) + k2/2 sqrt((1+s)/(1-s)), so that a
+smooth edge stays smooth.
+
+Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell & Sackfield, Mechanics of Elastic Contacts (1993), ch. 2.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import chebyshev
+from .density import Density, in_order, on_axis, reflected, shallow
+from .interval import Interval
+from .panels import FAR_FIELD, Panels
+from .potential import Plane, outer_series
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
+CONTINUATION = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class SlopeDensity(Density):
+    """The density that answers the slope H on `contact`; `half_modulus` = E*/2; k1, k2 its singular ends (0: smooth), as stresses."""
+
+    contact: Interval
+    half_modulus: float
+    k1: float
+    k2: float
+    resultant: float
+    moment: float
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return self.contact.x1, self.contact.x2
+
+    @property
+    def epsilon(self) -> float:
+        """The edges' exponents are 1/2 ± epsilon."""
+        return 0.0
+
+    @property
+    @abstractmethod
+    def slope_scale(self) -> float:
+        """The largest |H| in the contact, about."""
+
+    def strength(self, x: float) -> float:
+        """k1, k2 at a sharp edge; ±1 under a corner of the profile, whose strength no load changes."""
+        for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
+            if x == edge and k:
+                return k
+        return self._corner(x)
+
+    def _corner(self, x: float) -> float:
+        return 0.0
+
+    # What a form must know, on 1-d arrays, in units of E*/2 and without the singular ends.
+    @abstractmethod
+    def _regular(self, x: Array) -> Array:
+        """p inside the contact, x ascending."""
+
+    @abstractmethod
+    def _beside(self, x: Array) -> tuple[Array, Array]:
+        """(G, continued): 1/π∫p/(x-t) = continued - G for x beside the contact, all on one side.
+
+        `continued` is H of the edge continued as a polynomial, or 0 where that is not safe; G vanishes at a smooth edge.
+        """
+
+    @abstractmethod
+    def _off_axis(self, z: Complex) -> Complex:
+        """1/π∫p/(z-t) for Im z > 0."""
+
+    @abstractmethod
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        """1/π∫p/(z-t) and its derivative for Im z > 0."""
+
+    @abstractmethod
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        """The same far from the contact, without the constant that the first tends to where an edge is singular."""
+
+    @abstractmethod
+    def _slope(self, x: Array) -> Array:
+        """H inside the contact."""
+
+    @property
+    @abstractmethod
+    def _slope_at_edges(self) -> tuple[float, float]:
+        """H at both edges, which may lie between two doubles."""
+
+    @property
+    def _kinks(self) -> tuple[tuple[float, float], ...]:
+        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is infinite."""
+        return ()
+
+    def __call__(self, x: ArrayLike) -> Array:
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        left, right = self.contact.from_left(flat), self.contact.from_right(flat)
+        inside = np.minimum(left, right) >= 0.0
+        if inside.all():
+            return self._inside(flat, left, right).reshape(x.shape)
+        p = np.zeros(flat.shape)
+        p[inside] = self._inside(flat[inside], left[inside], right[inside])
+        return p.reshape(x.shape)
+
+    def _inside(self, x: Array, left: Array, right: Array) -> Array:
+        p = self.half_modulus * in_order(self._regular, x)
+        if self.k1 or self.k2:
+            for k, near, far in ((self.k1, left, right), (self.k2, right, left)):
+                edge = near == 0.0
+                ratio = far / np.where(edge, 1.0, near)
+                p += np.where(edge, np.inf if k else 0.0, 0.5 * k * self._edge(ratio, on_left=near is left))
+        return p
+
+    def _edge(self, ratio: Array, on_left: bool) -> Array:
+        """How a singular end goes with the ratio of the distances from the other end and from it."""
+        return np.sqrt(ratio)
+
+    def _singular_outside(self, left: Any, right: Any) -> Any:
+        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0; real: beside the contact)."""
+        root = np.sqrt(left) / np.sqrt(right) if np.iscomplexobj(left) else np.sqrt(np.abs(left / right))
+        return 0.5 * (self.k2 * root - self.k1 / root)
+
+    def gap_excess(self, x: Array) -> tuple[Array, Array]:
+        """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one side of the contact."""
+        G, continued = in_order(self._beside, x)
+        if self.k1 or self.k2:
+            G = G - self._singular_outside(self.contact.from_left(x), -self.contact.from_right(x)) / self.half_modulus
+        return G, continued
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        out = np.empty(flat.shape)
+        left, right = self.contact.from_left(flat), self.contact.from_right(flat)
+        inside = (left >= 0.0) & (right >= 0.0)
+        out[inside] = self._hilbert_inside(flat[inside])
+        for side in (left < 0.0, right < 0.0):
+            if side.any():
+                G, continued = self.gap_excess(flat[side])
+                out[side] = self.half_modulus * (continued - G)
+        if self.k1 or self.k2:
+            far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
+            out[far] = self._far_in_upper(flat[far] + 1j * shallow(self.contact.r))[0].real
+        return out.reshape(x.shape)
+
+    def _hilbert_inside(self, x: Array) -> Array:
+        return self.half_modulus * self._slope(x)
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        z, real = on_axis(z, side)
+        flat = z.ravel()
+        F = np.empty(flat.shape, dtype=complex)
+        if real.any():
+            x = flat.real[real]
+            F[real] = self.hilbert(x) - 1j * side * self(x) if side else self.hilbert(x)
+        off = ~real
+        if off.any():
+            F[off] = reflected(self._in_upper, flat[off])
+        return F.reshape(z.shape)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        z, real = on_axis(z, side)
+        flat = z.ravel()
+        dF = np.empty(flat.shape, dtype=complex)
+        if real.any():
+            dF[real] = self._on_surface(flat.real[real], side)
+        off = ~real
+        if off.any():
+            dF[off] = reflected(lambda upper: self._both_in_upper(upper)[1], flat[off])
+        return dF.reshape(z.shape)
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        points, real = on_axis(z, side)
+        if real.any() or (points.imag < 0.0).any():
+            return self.cauchy(points, side), self.cauchy_derivative(points, side)
+        F, dF = self._both_in_upper(points.ravel())
+        return F.reshape(points.shape), dF.reshape(points.shape)
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        left, right = self._slope_at_edges
+        return self.half_modulus * left, self.half_modulus * right
+
+    def _in_upper(self, z: Complex) -> Complex:
+        if self.k1 or self.k2:
+            return self._both_in_upper(z)[0]
+        return self.half_modulus * self._off_axis(z)
+
+    def _both_in_upper(self, z: Complex) -> tuple[Complex, Complex]:
+        """(F, F') for Im z > 0 (1-d). Far from singular ends F and what these add tend to constants that cancel: both are left out."""
+        if not (self.k1 or self.k2):
+            F, dF = self._pair(z)
+            return self.half_modulus * F, self.half_modulus * dF
+        far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
+        out = np.empty((2, *z.shape), dtype=complex)
+        out[:, far] = self._far_in_upper(z[far])
+        out[:, ~far] = self.half_modulus * np.array(self._pair(z[~far])) + self._singular_pair(z[~far], far=False)
+        return out[0], out[1]
+
+    def _far_in_upper(self, z: Complex) -> Complex:
+        return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
+
+    def _singular_pair(self, z: Complex, far: bool) -> Complex:
+        """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of the first."""
+        left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
+        root1, root2 = np.sqrt(left), np.sqrt(right)
+        root, inverse = root1 / root2, root2 / root1
+        sum_of_roots = root1 + root2
+        ends = (
+            (self.k2 / root2 + self.k1 / root1) * (r / sum_of_roots)  # root - 1 = 2r / (root2 (root1 + root2))
+            if far
+            else 0.5 * (self.k2 * root - self.k1 * inverse)
+        )
+        return np.array([ends, -0.5 * (r / left) * ((self.k2 * root + self.k1 * inverse) / right)])
+
+    def _on_surface(self, x: Array, side: int) -> Complex:
+        """F' at real x: from the body's side, just below the surface; infinite where p' is."""
+        c = self.contact
+        at_edge = ((x == c.x1) | (x == c.x2)) & (np.minimum(abs(c.from_left(x)), abs(c.from_right(x))) == 0.0)
+        inside = np.where(at_edge, np.nextafter(x, c.m), x)
+        dF = self._both_in_upper(inside + 1j * shallow(c.r))[1]
+        left_edge, right_edge = at_edge & (x == c.x1), at_edge & (x == c.x2)
+        dF.imag[left_edge] = np.inf if self.k1 else -np.inf
+        dF.imag[right_edge] = -np.inf if self.k2 else np.inf
+        for e, steep in self._kinks:
+            dF.imag[x == e] = -steep
+        outside = (c.from_left(x) < 0.0) | (c.from_right(x) < 0.0)
+        dF.imag[outside] = 0.0
+        dF.imag = side * dF.imag if side else 0.0
+        return dF
+
+
+@dataclass(frozen=True, eq=False)
+class TransformDensity(SlopeDensity):
+    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s). One DCT gave g; nothing was solved."""
+
+    series: Array
+
+    @property
+    def slope_scale(self) -> float:
+        return float(np.abs(self.series).max())
+
+    def _regular(self, x: Array) -> Array:
+        left, right = self.contact.from_left(x), self.contact.from_right(x)
+        root = np.sqrt(left) * np.sqrt(right) / self.contact.r
+        if len(self.series) == 2:
+            return root * self.series[1]
+        r = 2.0 * self.contact.r
+        p: Array = root * chebyshev.evaluate_second_kind(self.series[1:], (left - right) / r)
+        return p
+
+    def _slope(self, x: Array) -> Array:
+        H: Array = chebyshev.evaluate(self.series, self.contact.s(x))
+        return H
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        return float(self.series @ (-1.0) ** np.arange(len(self.series))), float(self.series.sum())
+
+    def _beside(self, x: Array) -> tuple[Array, Array]:
+        left, right = self.contact.from_left(x), self.contact.from_right(x)
+        s = (left - right) / (2.0 * self.contact.r)
+        root = np.sqrt(np.abs(left)) * np.sqrt(np.abs(right)) / self.contact.r
+        rho = np.sign(s) / (np.abs(s) + root)
+        near = np.abs(rho) * self._reach >= 1.0
+        # T_n(s) - ρ^n = ± sqrt(s²-1) U_{n-1}(s)
+        G = np.where(near, root * np.sign(s), 0.0)
+        G[near] *= chebyshev.evaluate_second_kind(self.series[1:], s[near])
+        continued = np.zeros_like(s)
+        continued[near] = chebyshev.evaluate(self.series, s[near])
+        G[~near] = -self._powers(rho[~near]).real
+        return G, continued
+
+    @cached_property
+    def _reach(self) -> float:
+        return float(chebyshev.reach(self.series[None, :], CONTINUATION)[0])
+
+    def _off_axis(self, z: Complex) -> Complex:
+        left, right = self.contact.from_left(z), -self.contact.from_right(z)
+        # ρ = 1/(s + sqrt(s-1) sqrt(s+1)): the other form, s - sqrt(...), cancels
+        return self._powers(2.0 * self.contact.r / (left + right + 2.0 * np.sqrt(left) * np.sqrt(right)))
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        F, dF = self._far_pair(z)
+        return F + self.series[0], dF
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        return outer_series(self.series, self.contact, z)
+
+    def _powers(self, rho: Any) -> Any:
+        """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to -g_0 far away."""
+        total = np.zeros_like(rho)
+        for g in self.series[:0:-1]:
+            total = (total + g) * rho
+        return total + self.series[0]
+
+
+@dataclass(frozen=True, eq=False)
+class PanelDensity(SlopeDensity):
+    """H piece by piece: p = E*/(2π) V on the contact, F = -E*/(2π) V elsewhere (`panels`)."""
+
+    panels: Panels
+
+    @property
+    def slope_scale(self) -> float:
+        return self.panels.scale
+
+    def _regular(self, x: Array) -> Array:
+        return self.panels.on_contact(x) / np.pi
+
+    def _slope(self, x: Array) -> Array:
+        return self.panels.geometry.slope(x)
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        p, g = self.panels, self.panels.geometry
+        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0  # a flat piece there was left out
+        return left, float(p.series[-1].sum()) if g.cut_right else 0.0
+
+    def _beside(self, x: Array) -> tuple[Array, Array]:
+        V, continued = self.panels.beside(x)
+        return V / np.pi, continued
+
+    def _off_axis(self, z: Complex) -> Complex:
+        return self.panels.off_axis(z) / -np.pi
+
+    def _corner(self, x: float) -> float:
+        return next((math.copysign(1.0, infinite) for e, infinite in self.panels.jumps if e == x), 0.0)
+
+    @cached_property
+    def _plane(self) -> Plane:
+        return Plane(self.panels)
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane(z)
+        return V / -np.pi, dV / -np.pi
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = self._plane.far(z, constant=False)
+        return V / -np.pi, dV / -np.pi
+
+    @property
+    def _kinks(self) -> tuple[tuple[float, float], ...]:
+        return self._plane.kinks
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        inner = {e for e in self.panels.geometry.ends.ravel().tolist() if self.contact.x1 < e < self.contact.x2}
+        return (self.contact.x1, *sorted(inner), self.contact.x2)
