@@ -47,7 +47,7 @@ def compute(quick: bool) -> Iterator[Record]:
     yield Doing("spline in 40 digits")
     yield from spline(SAMPLES[not quick])
     yield Doing("growth")
-    yield from growth(SIZES[not quick])
+    yield from growth(SIZES[not quick], patience=0.25 if quick else 0.5)
     yield Doing("noise")
     yield from noise(NOISY[not quick])
 
@@ -120,8 +120,8 @@ def dense(n: int) -> Callable[[], Any]:
     return lambda: np.log(np.abs(x[:, None] - e[None, :] + 1e-9)).sum(axis=1)
 
 
-def growth(sizes: Sequence[int]) -> Iterator[Record]:
-    times = fastest([program(n) for n in sizes], patience=0.5)
+def growth(sizes: Sequence[int], patience: float) -> Iterator[Record]:
+    times = fastest([program(n) for n in sizes], patience)
     few, many = fastest([dense(sizes[0]), dense(DENSE)], patience=0.2)
     yield Curve("growth", "this package", sizes, [1e3 * t for t in times], "both", {"colour": "black", "strong": True})
     yield Curve("growth", "a logarithm for each piece and point", (sizes[0], DENSE), [1e3 * few, 1e3 * many], "both")
