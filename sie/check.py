@@ -36,6 +36,7 @@ FAR = 1e3  # half-widths, how far out the gap is looked at
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 NAMED = 3  # intervals that a message names
+ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 
 
@@ -181,6 +182,17 @@ def _finite(p: Array) -> Array:
     return np.where(np.isfinite(p), p, 0.0)
 
 
+def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
+    """Whether h' rises wherever `verify_inequalities` would look, and no edge pulls: then p > 0 and gap > 0 follow."""
+    contact = density.contact
+    even = np.pi * (np.arange(SCANNED) + 0.5) / SCANNED
+    inside = position(contact, even) if slope.functions else _scan(contact, slope)
+    x = np.sort(np.concatenate((inside, inner_breaks(contact, slope), _beside(contact, slope))))
+    H = slope(x)
+    rounding = ROUNDING * density.slope_scale
+    return bool((H[1:] >= H[:-1] - rounding).all()) and min(density.k1, density.k2) >= 0.0 < density.resultant
+
+
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
     x = np.concatenate((_scan(density.contact, slope), inner_breaks(density.contact, slope)))
@@ -291,15 +303,19 @@ def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tupl
     return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(slope(step) - slope(at))).max())
 
 
-def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
-    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
-    contact = density.contact
+def _beside(contact: Interval, slope: Slope) -> Array:
+    """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks among them."""
     lo, hi = slope.domain
-    r = contact.r
-    distance = r * np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
+    distance = contact.r * np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
     outer = slope.breaks[np.isfinite(slope.breaks)]
     x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
-    x = x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
+    return x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
+
+
+def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
+    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
+    contact, r = density.contact, density.contact.r
+    x = _beside(contact, slope)
     # A function may overflow out there; from where it opens that steeply on, the gap is not looked at
     outward = np.sign(x - contact.m)
     opens = ~(outward * slope(x) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))

@@ -259,12 +259,16 @@ def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
 
 
 def _first_window(scene: Scene) -> tuple[float, float]:
-    """The domain where it is finite; otherwise some way around the break nearest to x = 0, as far as the load or half-width asks for.
+    """A little more than the contact where symmetry tells it; otherwise the domain where it is finite, or some way around the break
+    nearest to x = 0, as far as the load or half-width asks for.
 
     A contact of half-width w under slopes of the size H(w) carries about G w H(w).
     """
     profile = scene.profile
     lo, hi = profile.domain
+    if scene.half_width is not None and profile.axis is not None and scene.tilt == scene.epsilon == 0.0:
+        reach = FITTED * scene.half_width
+        return max(lo, profile.axis - reach), min(hi, profile.axis + reach)
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
     centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)

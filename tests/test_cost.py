@@ -45,6 +45,24 @@ def test_given_the_half_width_nothing_is_searched():
     assert sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations == 1
 
 
+def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
+    convex, wavy = sie.FromFunction(np.sinh, domain=(-3.0, 3.0)), sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0))
+    with counted(solution, "verify_inequalities") as scans:
+        assert sie.solve(scene(convex)).half_width > 0.0
+        assert not scans
+        assert sie.solve(scene(wavy, normal_load=2.0)).half_width > 0.0
+        assert len(scans) == 1
+
+
+def test_where_symmetry_tells_the_contact_a_function_is_resolved_once():
+    with counted(normal, "refined") as resolutions:
+        assert (
+            sie.solve(scene(sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"), normal_load=None, half_width=1.5)).normal_load
+            > 0.0
+        )
+    assert len(resolutions) == 1
+
+
 def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():
     with counted(solution, "normal_contact") as solves:
         base = sie.solve(scene(PUNCH, friction=0.5))
