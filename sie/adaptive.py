@@ -31,6 +31,7 @@ NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of 
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 FINER = 1e-3  # of the tolerance: next to a declared break
 MAX_PIECES = 20_000
+PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
 
 
 class Tolerance(NamedTuple):
@@ -57,7 +58,7 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
     open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
     tolerance = Tolerance(tol, NOISE * rounding_noise(function, breaks[0], breaks[-1]), breaks[1:-1])
     done: list[tuple[float, float, int]] = []
-    scale = 0.0
+    scale, level = 0.0, 0
     while len(open_):
         for n in SIZES:
             degrees, scale = _degrees(function, open_, n, tolerance, scale)
@@ -66,16 +67,32 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
             open_ = open_[~settled]
             if not len(open_):
                 break
-        middle = 0.5 * open_.sum(axis=1)
-        open_ = np.concatenate((np.stack((open_[:, 0], middle), axis=1), np.stack((middle, open_[:, 1]), axis=1)))
-        if len(done) + len(open_) > MAX_PIECES:
+        if len(done) + 2 * len(open_) > MAX_PIECES:
+            middle = float(0.5 * open_[0].sum())
             raise ResolutionError(
-                f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {middle[0]:.6g} it still changes; "
+                f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
                 "declare its breaks, narrow the domain, or smooth the noise",
-                x=float(middle[0]),
+                x=middle,
             )
+        level += 1
+        open_ = _split(open_, tolerance.breaks if level > PATIENCE else breaks[:0])
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array([p[2] for p in done], dtype=np.int64)
+
+
+def _split(pieces: Array, graded_towards: Array) -> Array:
+    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once."""
+    touches = np.isin(pieces, graded_towards)
+    alone = ~touches.any(axis=1)
+    lo, hi = pieces[alone].T
+    middle = 0.5 * (lo + hi)
+    parts = [np.stack((lo, middle), axis=1), np.stack((middle, hi), axis=1)]
+    for end in (0, 1):
+        at, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
+        away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
+        x = at[:, None] + away
+        parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
+    return np.concatenate(parts)
 
 
 def _degrees(

@@ -124,6 +124,8 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     at_a, at_b = H(a), H(b)
     if at_a >= 0.0 or at_b <= 0.0:
         return lo if at_a >= 0.0 else hi
+    if a < 0.0 < b and H(0.0) == 0.0:  # else the bracket would shrink to the smallest doubles
+        return float(origin[0])
     widths = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         widths.append(b - a)
