@@ -9,6 +9,7 @@ much: pieces that touch one are resolved further than rounding of H elsewhere wo
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -110,12 +111,17 @@ def _degrees(
     enough = tolerance.of(pieces, values, scale)
     # a few ulp of x move the value by rounding: no series can do better
     floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half))
-    missed = np.abs(c @ chebyshev.polynomials(n, PROBES) - values[:, n:]).max(axis=1)
+    missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     settled |= 2.0 * half <= 4.0 * np.spacing(np.abs(pieces).max(axis=1))
     chopped = zip(c, 0.5 * enough, settled, strict=True)
     lengths = [chebyshev.chopped_length(row, by) - 1 if ok else -1 for row, by, ok in chopped]
     return np.array(lengths, dtype=np.int64), scale
+
+
+@lru_cache(maxsize=len(SIZES))
+def _at_probes(n: int) -> Array:
+    return chebyshev.polynomials(n, PROBES)
 
 
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
