@@ -55,9 +55,10 @@ class Range:
 
 @dataclass(frozen=True, eq=False)
 class Cycle:
-    """The states of a cycle of loading, in order; the last one closes it.
+    """The states of a cycle of loading, in order; the last one closes it: `Cycle(follow(scene, path))`, or a part of that.
 
-    ValueError for fewer than two states.
+    What happens between two states is not looked at. Inside the body and in slip zones a stress may be largest there: follow
+    `path.subdivided(8)`. ValueError for fewer than two states.
     """
 
     states: Sequence[State]

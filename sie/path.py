@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from numbers import Integral
 from typing import Any
 
 from . import checks
@@ -47,6 +48,22 @@ class Path:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def subdivided(self, parts: int) -> Path:
+        """The same path with every step in so many equal parts, but for that to its first point: shows what happens between two of them.
+
+        >>> Path([(10.0, 0.0), (10.0, 2.0)]).subdivided(2)
+        Path([(10.0, 0.0, 0.0), (10.0, 1.0, 0.0), (10.0, 2.0, 0.0)])
+        """
+        if isinstance(parts, bool) or not isinstance(parts, Integral) or parts < 1:
+            raise ValueError(f"parts = {parts!r} is not a whole number of at least 1: give how many parts a step gets")
+        shares = [k / int(parts) for k in range(1, int(parts))]
+        points = [self.points[0]]
+        for end in self.points[1:]:
+            start = points[-1]
+            points += [tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)) for share in shares]
+            points.append(end)
+        return Path(points)
 
     def __repr__(self) -> str:
         return f"Path({list(self.points)!r})"
