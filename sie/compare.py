@@ -67,12 +67,16 @@ REFINED = 1e-9  # half-widths
 
 @dataclass(frozen=True)
 class Mesh:
-    """The columns of a file: x, depth y (0 on the surface), and the quantities that were found in it, by ascending x."""
+    """The columns of a file: x, depth y (0 on the surface), and the quantities that were found in it, by ascending x.
+
+    `others` are the columns that were passed over, by name, or by number where there is no header.
+    """
 
     name: str
     x: Array
     y: Array
     values: dict[str, Array]
+    others: tuple[str, ...] = ()
 
     def points(self, quantity: str) -> tuple[Array, Array, Array]:
         """(x, y, values) where the quantity is compared: all points, or those on the surface."""
@@ -115,7 +119,7 @@ class Comparison:
 
     def as_dict(self) -> dict[str, Any]:
         found = {name: asdict(d) for name, d in self.differences.items()}
-        return {"file": self.mesh.name, "tol": self.tol, "ok": self.ok, "differences": found}
+        return {"file": self.mesh.name, "tol": self.tol, "ok": self.ok, "differences": found, "not_compared": list(self.mesh.others)}
 
     def __str__(self) -> str:
         lines = []
@@ -129,6 +133,8 @@ class Comparison:
                 *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
                 f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
             ]
+        if self.mesh.others:
+            lines.append(f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}")
         verdict = f"l2 {'is within' if self.ok else 'EXCEEDS'} {self.tol:g}"
         return "\n".join([*lines, verdict])
 
@@ -149,7 +155,9 @@ def read_mesh(path: str | Path) -> Mesh:
     columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known)), strict=True))
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
-    mesh = Mesh(path.name, columns["x"][order], y[order], {name: columns[name][order] for name in found})
+    passed = names[:width] if header else [*names, *map(str, range(len(names), width))]
+    others = tuple(name for name in passed if name and name not in columns)
+    mesh = Mesh(path.name, columns["x"][order], y[order], {name: columns[name][order] for name in found}, others)
     for name in found:
         x, _, _ = mesh.points(name)
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):

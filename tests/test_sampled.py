@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline, make_smoothing_spline
 import sie
 from sie import scenefile
 from sie.__main__ import main
+from sie.compare import read_mesh
 
 X = np.linspace(-2.0, 2.2, 211)
 H = 0.5 * X**2 + 0.03 * X**3 + 0.01 * X**4
@@ -384,3 +385,16 @@ def test_a_file_that_cannot_be_compared_says_why(columns, says, mesh):
     code, _, error = mesh[1](columns)
     assert code == 2
     assert says in error
+
+
+def test_columns_that_are_not_compared_are_named(mesh, tmp_path):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 21)
+    columns = {"x": x, "p": solution.pressure(x), "tangential": solution.shear(x)}
+    _, printed, _ = run(columns)
+    assert "not compared: the columns tangential of" in printed
+    assert json.loads(run(columns, "--json")[1])["not_compared"] == ["tangential"]
+    assert "not compared" not in run({"x": x, "p": solution.pressure(x)})[1]
+    bare = tmp_path / "bare.csv"
+    np.savetxt(bare, np.column_stack(list(columns.values())), delimiter=",")
+    assert read_mesh(bare).others == ("2",)
