@@ -6,6 +6,7 @@ sums with equal weights)
     l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
     resultant = ∫f_mesh over that of f on the whole contact, less 1
     shift     the d for which f(x - d) is nearest to f_mesh in l2: a mesh whose origin is elsewhere, or a contact that creeps
+    factor    the c for which c f is nearest to f_mesh in l2: told where it is no matter of accuracy, but of units or of signs
 
 A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges, corners) are left out and counted.
 
@@ -63,6 +64,7 @@ NAMES = {
 FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
+FACTORS = 0.5, 2.0  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
 
 
 @dataclass(frozen=True)
@@ -103,6 +105,15 @@ class Difference:
     resultant: float | None
     shift: float
     l2_shifted: float
+    factor: float
+    l2_scaled: float
+
+    @property
+    def suspicion(self) -> str:
+        """What a factor far from 1 asks for, if it explains more than half of what the mesh holds."""
+        if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
+            return ""
+        return "are the signs the same?" if -FACTORS[1] <= self.factor <= -FACTORS[0] else "are the units of load and length the same?"
 
 
 @dataclass(frozen=True)
@@ -132,6 +143,7 @@ class Comparison:
                 f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}" + (f", y = {d.depth:.6g}" if d.depth else ""),
                 *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
                 f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
+                *([f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: {d.suspicion}"] if d.suspicion else []),
             ]
         if self.mesh.others:
             lines.append(f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}")
@@ -202,7 +214,9 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
     measure = f if f.any() else solution.pressure(x[finite])  # what ought to be zero is measured by the pressure
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
     shift = _best_shift(exact_at, values, weight, solution.half_width)
-    l2 = float(np.sqrt(w @ e**2 / (w @ measure**2)))
+    below = w @ measure**2
+    l2 = float(np.sqrt(w @ e**2 / below))
+    factor = float(w @ (f * values[finite]) / (w @ f**2)) if f.any() else 1.0
     worst = np.abs(e).argmax()
     return Difference(
         points=len(f),
@@ -215,6 +229,8 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
         resultant=float(weight @ values) / whole - 1.0 if whole else None,
         shift=shift,
         l2_shifted=_misfit(exact_at(shift), values, weight) if shift else l2,
+        factor=factor,
+        l2_scaled=float(np.sqrt(w @ (values[finite] - factor * f) ** 2 / below)),
     )
 
 

@@ -398,3 +398,23 @@ def test_columns_that_are_not_compared_are_named(mesh, tmp_path):
     bare = tmp_path / "bare.csv"
     np.savetxt(bare, np.column_stack(list(columns.values())), delimiter=",")
     assert read_mesh(bare).others == ("2",)
+
+
+@pytest.mark.parametrize(
+    ("factor", "asks"),
+    [(-1.0, "factor -1 fits best, and leaves l2 = 0.000e+00: are the signs"), (1e-6, "factor +1e-06"), (1e6, "units of load"), (1.3, "")],
+)
+def test_other_units_and_signs_are_suspected_from_the_factor_that_fits(factor, asks, mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 101)
+    code, printed, _ = run({"x": x, "p": factor * solution.pressure(x), "q": solution.shear(x)})
+    assert code == 1
+    assert ("factor" in printed) == bool(asks)
+    assert asks in printed
+
+
+def test_noise_is_no_suspicion(mesh):
+    solution, run = mesh
+    x = np.linspace(*solution.edges, 101)
+    noise = np.random.default_rng(0).normal(size=x.shape)
+    assert "factor" not in run({"x": x, "p": noise})[1]
