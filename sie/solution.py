@@ -277,7 +277,7 @@ class Solution:
         return self.stress(x, 0.0)
 
     def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """Where the body yields first, and at which load; see `YieldPoint`."""
+        """Where the body yields first, and at which load, by criterion "mises" or "tresca"; see `YieldPoint`."""
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:
@@ -356,5 +356,6 @@ def _refuse_uncovered(scene: Scene) -> None:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick and slip in part at "
             f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is not covered yet; "
-            "let them slide (sliding = ±1), or set friction = 0 for the frictionless contact"
+            "let them slide (sliding = ±1), or set friction = 0 for the frictionless contact, "
+            f"or leave out what couples them, shear of the order of β p: modulus = {scene.Estar!r} and dundurs = 0 in place of the bodies"
         )

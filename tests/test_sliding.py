@@ -1,6 +1,7 @@
 """Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded flat punch)."""
 
 import math
+import re
 
 import mpmath
 import numpy as np
@@ -264,6 +265,17 @@ def test_partial_slip_of_dissimilar_bodies_is_not_covered_yet(tangential_load):
     scene = sie.Scene(profile=RIM, **SIMILAR, dundurs=0.1, friction=0.3, normal_load=0.1, tangential_load=tangential_load)
     with pytest.raises(sie.ContactError, match=r"stick and slip in part .* not covered yet"):
         sie.solve(scene)
+
+
+def test_the_refusal_of_partial_slip_names_the_similar_bodies_that_come_nearest():
+    pair = {"body": sie.Elastic(young=70e3, poisson=0.33), "indenter": sie.Elastic(young=210e3, poisson=0.3)}
+    scene = sie.Scene(profile=RIM, **pair, friction=0.3, normal_load=0.1, tangential_load=0.01)
+    with pytest.raises(sie.ContactError) as refusal:
+        sie.solve(scene)
+    modulus = float(re.search(r"modulus = (\S+) and dundurs = 0", str(refusal.value))[1])
+    assert modulus == scene.Estar
+    nearest = sie.Scene(profile=RIM, modulus=modulus, friction=0.3, normal_load=0.1, tangential_load=0.01)
+    assert sie.solve(nearest).check().ok
 
 
 def test_full_stick_is_for_flat_punches():
