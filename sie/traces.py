@@ -46,7 +46,7 @@ def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, d
     bad = ~np.isfinite(table).all(axis=1)
     if bad.any() and not drop_missing:
         lacking = [line for (line, _), is_bad in zip(rows, bad.tolist(), strict=True) if is_bad]
-        raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: leave such lines out, as mend = True does for a trace")
+        raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: delete such lines (for a trace, mend = true passes over them)")
     return tuple(table[~bad].T)
 
 
@@ -94,7 +94,7 @@ def _table(path: Path, skip: int) -> tuple[list[list[str]], int, list[str], str]
     for line in lines[:start][::-1]:  # the last line before them that names as many columns, be it a comment
         names = _cells(line.lstrip("#% "), separator)
         if len(names) == len(split[start]):
-            header = [re.sub(r"[\[(].*", "", name).strip().lower() for name in names]
+            header = [_bare_name(name) for name in names]
             break
     return split, start, header, separator
 
@@ -161,15 +161,21 @@ def _finite(cell: str, separator: str) -> bool:
 
 def _index(path: Path, column: Column, header: list[str], width: int) -> int:
     if isinstance(column, str):
-        if column.strip().lower() not in header:
+        name = _bare_name(column)
+        if name not in header:
             known = f"its header names {', '.join(header)}" if header else "it has no header"
             raise ValueError(f"{path.name} has no column {column!r}, {known}: give a name, or a number from 0 to {width - 1}")
-        return header.index(column.strip().lower())
+        return header.index(name)
     if isinstance(column, bool) or not isinstance(column, Integral) or not 0 <= column < width:
         raise ValueError(
             f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header"
         )
     return int(column)
+
+
+def _bare_name(name: str) -> str:
+    """A column's name in lower case, without the unit in brackets behind it."""
+    return re.sub(r"[\[(].*", "", name).strip().lower()
 
 
 def _named(lines: list[int]) -> str:

@@ -167,6 +167,14 @@ def test_columns_scale_and_skip(tmp_path):
     assert sie.Sampled.read(file, columns=(2, 1), scale=(1e-3, -1e-3), skip=1) == found
 
 
+def test_a_column_may_be_named_as_in_the_header_with_its_unit(tmp_path):
+    file = tmp_path / "trace.csv"
+    file.write_text("n,X (um),Z [um]\n" + "\n".join(f"{k},{x},{h}" for k, (x, h) in enumerate(TABLE)))
+    assert (
+        sie.Sampled.read(file, columns=("X (um)", "Z [um]")) == sie.Sampled.read(file, columns=("x", "z")) == sie.Sampled.read(file, (1, 2))
+    )
+
+
 def test_numbers_of_columns_and_lines_may_be_numpy_s(tmp_path):
     file = tmp_path / "trace.txt"
     file.write_text("7 7\n" + "\n".join(f"{h} {x}" for x, h in TABLE))
@@ -176,7 +184,7 @@ def test_numbers_of_columns_and_lines_may_be_numpy_s(tmp_path):
 def test_what_a_file_lacks_is_named_by_its_lines(tmp_path):
     file = tmp_path / "trace.csv"
     file.write_text("x,h\n-2,4\n-1,\n0,0\n1,nan\n2,4\n3,9\n4,16\n")
-    with pytest.raises(ValueError, match="lacks a value in lines 3, 5"):
+    with pytest.raises(ValueError, match="lacks a value in lines 3, 5: delete such lines"):
         sie.Sampled.read(file)
     assert sie.Sampled.read(file, mend=True).points.tolist() == [-2, 0, 2, 3, 4]
     file.write_text("x,h\n-2,4\n-1,abc\n0,0\n1,1\n2,4\n")
