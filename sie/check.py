@@ -137,7 +137,7 @@ class ShearCertificate:
             ("friction, largest |q| - f p / peak of f p", f"{self.excess:+.1e}"),
             ("lowest slip along q / largest slip", f"{self.opposing:+.1e}"),
             ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
-            ("error of the stick zone's load over one of Q", f"{self.condition:.1e}"),
+            ("error of the stick zone's load per error of Q", f"{self.condition:.1e}"),
         )
 
     @property

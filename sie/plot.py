@@ -294,13 +294,13 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     q = np.clip(solution.shear(x), -4.0 * largest, 4.0 * largest)
     for k, (lo, hi) in enumerate(solution.stick):
         axes.axvspan(lo * view.factor, hi * view.factor, color=PALE_BLUE, linewidth=0.0, zorder=0, label="" if k else "stick")
-    for sign in (1.0, -1.0):
-        label = r"$\pm f p$" if sign > 0.0 else ""
+    both = bool(q.min() < -1e-9 * largest)  # below an axis that ends under 0 the other limit would show two stubs
+    for sign, label in ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]:
         axes.plot(x * view.factor, sign * limit * scale, color=INK, linewidth=0.8, linestyle=DASHED, zorder=2, label=label)
     axes.plot(x * view.factor, q * scale, color=VERMILLION, linewidth=1.3, solid_joinstyle="round", zorder=3, label="$q$")
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     top = HEADROOM * largest * scale
-    axes.set_ylim(-top if q.min() < -1e-9 * largest else min(-0.1 * top, 0.0), top)
+    axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
     axes.set_ylabel(f"$q$ ({stress})", fontproperties=_font())
     place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
     axes.legend(**place, ncols=3, prop=_font(SMALL), frameon=False, handlelength=2.0)

@@ -162,7 +162,7 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
     axes = plot.picture(solution).axes[2]
     drawn = lines(axes)
     x, q = drawn["$q$"].get_data()
-    _, limit = drawn[r"$\pm f p$"].get_data()
+    _, limit = next(line for label, line in drawn.items() if "f p" in label).get_data()
     assert (np.abs(q) <= limit + 1e-9 * limit.max()).all()
     factor, _ = plot._scaled(solution.half_width, "mm")
     scale, _ = plot._scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
@@ -170,6 +170,15 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
     assert q[middle] == pytest.approx(float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max())
     shaded = [patch.get_extents().bounds[2] for patch in axes.patches]
     assert len(shaded) == len(solution.stick)
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
+    axes = plot.picture(solution).axes[2]
+    low, high = axes.get_ylim()
+    limits = [line.get_ydata() for line in axes.lines if line.get_linestyle() == "--" and len(line.get_ydata()) > 2]
+    assert all(low <= y[2 * len(y) // 5] <= high for y in limits)  # beside the middle, where a wedge's is infinite
+    assert len(limits) == 1 + bool((lines(axes)["$q$"].get_ydata() < 0.0).any())
 
 
 def test_after_a_path_the_loop_goes_through_its_turning_points():
