@@ -212,6 +212,8 @@ class JacobiDensity(Density):
     error             estimated error of φ over its largest value on the interval (singular ends divided out): what the last
                       coefficients, the residual and, next to narrow gaps, rounding leave open
     residual          largest residual of the equation at points that were not used to solve it, over the largest term there
+    cauchy(z, side), hilbert(x)     1/π ∫ φ(t)/(z - t) dt and its principal value, with the half-plane's sign: that of the equation's
+                      kernel 1/(t - x) is the opposite one; side = +1, -1, 0 is the limit from above, from below, the principal value
 
     Next to a gap of δ lengths between bounded ends, φ is of the order of δ times its peak when g is of one size everywhere. As g is known
     to rounding only, so is φ, and K there to n^1.5 roundings over δ: six digits are lost by δ = 1e-6, and two more by n = 70 nodes.
