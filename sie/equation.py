@@ -74,6 +74,8 @@ class CauchyEquation:
         object.__setattr__(self, "free", tuple(self.free))
         for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
             if not callable(function):
+                if np.ndim(function):
+                    raise ValueError(f"{name} = {function!r} is an array: give a function of an array x, or a number")
                 _constant(name, function)
         if self.k is not None and not callable(self.k):
             raise ValueError(f"k = {self.k!r} is not a function: give k(x, t), or None for no kernel")

@@ -462,3 +462,8 @@ def test_the_sign_of_a_density_s_potential_is_the_half_plane_s():
     assert density.hilbert(0.3) == pytest.approx(-1.0, abs=1e-14)  # the equation's 1/(t - x) gives g = +1
     assert density.cauchy(0.3, 0) == pytest.approx(-1.0, abs=1e-14)
     assert density.cauchy(0.3, 1) == pytest.approx(-1.0 - 1j * float(density(0.3)), abs=1e-14)
+
+
+def test_values_in_place_of_a_function_are_refused_with_what_to_give():
+    with pytest.raises(ValueError, match=r"g = .* is an array: give a function of an array x, or a number"):
+        sie.CauchyEquation((-1.0, 1.0), g=[1.0, 2.0], total=0.0)
