@@ -198,8 +198,9 @@ def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile,
     if kind == "json":
         return export.json_text(solution, file, arguments.points).encode()
     if kind == "field":
-        head = (f"{file.title or 'plane contact'} (sie {__version__})", repr(solution.scene), f"lengths in {file.units.length}, "
-                f"stresses in {file.units.stress}", f"contact from x1 = {solution.edges[0]!r} to x2 = {solution.edges[1]!r}")  # fmt: skip
+        units, (x1, x2) = file.units, solution.edges
+        head = (f"{file.title or 'plane contact'} (sie {__version__})", repr(solution.scene), f"lengths in {units.length}, "
+                f"stresses in {units.stress}, j2 in its square", f"contact from x1 = {x1!r} to x2 = {x2!r}")  # fmt: skip
         return file_bytes(Grid(solution, *(arguments.grid or SIZE)), path.suffix[1:].lower(), head)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes

@@ -48,16 +48,17 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, whatever is wanted, as the module's docstring describes."""
     x = abscissae(solution, points)
     units, (x1, x2) = file.units, solution.edges
-    head: tuple[str, ...] = (
-        f"# {file.title or 'plane contact'} (sie {__version__})",
-        f"# {solution.scene!r}",
-        f"# x and gap in {units.length}, p in {units.stress}, load in {units.force}",
-        f"# contact from x1 = {x1!r} to x2 = {x2!r}, load {solution.normal_load!r}",
-    )
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
     if solution.carries_shear:
         columns |= {"q": solution.shear(x)} | slip_of(solution, x)
-    head = (*head, ",".join(columns))
+    stresses, lengths = (" and ".join(name for name in columns if (name in "pq") is stress) for stress in (True, False))
+    head = (
+        f"# {file.title or 'plane contact'} (sie {__version__})",
+        f"# {solution.scene!r}",
+        f"# {lengths} in {units.length}, {stresses} in {units.stress}, load in {units.force}",
+        f"# contact from x1 = {x1!r} to x2 = {x2!r}, load {solution.normal_load!r}",
+        ",".join(columns),
+    )
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     return "\n".join((*head, *(",".join(map(repr, row)) for row in rows))) + "\n"
 

@@ -217,6 +217,15 @@ def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
     assert {*solution.edges, *(b for b in breaks if x[0] < b < x[-1])} <= set(x.tolist())
 
 
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [("parabola", "# x and gap in mm, p in MPa,"), ("partial-slip", "# x and gap and slip in mm, p and q in MPa,")],
+)
+def test_csv_tells_the_unit_of_every_column(kind, says, tmp_path, capsys):
+    main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
+    assert says in capsys.readouterr().out
+
+
 def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0))
     x = abscissae.inside(solution, 100)
