@@ -18,7 +18,6 @@ import math
 import textwrap
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -60,7 +59,7 @@ DASHED, DOTTED = (0, (5, 2.5)), (0, (1, 2))
 ARROW = {"arrowstyle": "-|>", "color": BLUE, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6}
 
 HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for the label
-LOOP_POINTS = 24  # from one turning point to the next
+LOOP_POINTS = 16  # from one turning point to the next; a power of two, so that steps to and fro meet the same loads
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 DIGITS = 4
 LABELS = {
@@ -317,12 +316,9 @@ def _has_loop(solution: Solution) -> bool:
 def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
     assert isinstance(solution, Followed)
     history = solution.history
-    turning = np.array([(history.path.points[0][0], 0.0, 0.0), *history.path.points])
-    t = np.linspace(0.0, 1.0, LOOP_POINTS + 1)[1:, None]
-    between = np.concatenate([lo + (hi - lo) * t for lo, hi in pairwise(turning)])
-    finer = follow(history.scene, Path(between.tolist()), history.tol, history.economy)
-    shift = np.concatenate(([0.0], [point.shift for point in finer]))
-    Q = np.concatenate(([0.0], between[:, 1]))
+    path = Path([(history.path.points[0][0], 0.0, 0.0), *history.path.points]).subdivided(LOOP_POINTS)
+    shift = np.array([point.shift for point in follow(history.scene, path, history.tol, history.economy)])
+    Q = np.array(path.points)[:, 1]
     (along, length), (up, force) = _scaled(float(np.abs(shift).max()) or 1.0, units.length), _scaled(float(np.abs(Q).max()), units.force)
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=INK, linewidth=0.6, zorder=1)
