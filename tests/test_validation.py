@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 import sie
-from validation import cases, certificate, economy, peers, pressure, readme, speed, stability
+from sie import charts
+from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, labelled
+from validation.measures import largest, smallest
 from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
 from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
@@ -35,7 +37,8 @@ def claim(measured, control, **given):
         (claim(1.5, 2.0), "fails"),
         (claim(math.nan, 2.0), "fails"),
         (claim(0.5, 0.9), "blind"),
-        (claim(0.5, math.nan), "holds"),
+        (claim(0.5, math.nan), "blind"),
+        (claim(math.nan, 0.5, erratum="it is not so"), "fails"),
         (claim(2.0, 0.5, erratum="it is not so"), "refuted"),
         (claim(0.5, 0.5, erratum="it is not so"), "fails"),
         (claim(2.0, 3.0, erratum="it is not so"), "blind"),
@@ -51,6 +54,48 @@ def test_a_verdict_follows_from_the_numbers(made, verdict):
 def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
     made = checked(lambda v: v * v, 0.1, 3, what="", by="", named="three", high=1.0)
     assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
+
+
+def test_the_worst_of_answers_of_which_one_is_none_is_none():
+    assert math.isnan(largest([1e-16, math.nan, 1e-15]))
+    assert math.isnan(smallest([1e-16, math.nan, 1e-15]))
+    assert (largest([1.0, 3.0]), smallest([1.0, 3.0])) == (3.0, 1.0)
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_no_measure_passes_over_an_answer_that_is_none(place):
+    found = [1.0, 2.0, 3.0]
+    assert measures.apart(found, [1, 2, 3]) == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error == 0.0
+    found[place] = math.nan
+    assert math.isnan(measures.apart(found, [1, 2, 3]))
+    assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
+
+
+def test_a_pressure_that_is_none_fails_the_figures_of_the_paper(monkeypatch):
+    """In the last of ten contacts, at one of the points only."""
+
+    class Holed(sie.Solution):
+        def __getattribute__(self, name):
+            right = super().__getattribute__(name)
+            return (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x))) if name == "pressure" else right
+
+    punch = charts.punch
+    monkeypatch.setattr(charts, "punch", lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio))
+    made = next(r for r in paper.figure_2() if isinstance(r, Claim))
+    assert not made.ok
+
+
+def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
+    right = sweeps.scale
+
+    def refused(length, modulus):
+        if length > 1.0 < modulus:
+            raise sie.ContactError("no")
+        return right(length, modulus)
+
+    monkeypatch.setattr(sweeps, "scale", refused)
+    made = next(r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what)
+    assert made.verdict == "fails"
 
 
 def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):

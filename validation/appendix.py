@@ -19,6 +19,7 @@ import sie
 from analytic import rounded_flat
 
 from .figures import Figure, axes, draw, labelled, legend
+from .measures import largest, smallest
 from .principal import GUARD, context, integral, principal_value
 from .records import Claim, Curve, Doing, Found, Record, Table
 
@@ -245,7 +246,7 @@ EQUATIONS = (
 def digits(value: Any, truth: Any) -> float:
     """How many agree: -log10 of the relative difference, at most those of the context."""
     difference = abs(mp.mpmathify(value) / truth - 1)
-    return float(mp.dps if difference == 0 else min(-mp.log10(difference), mp.dps))
+    return smallest((mp.dps, -mp.log10(difference) if difference else mp.inf))
 
 
 NAMES = ("identity", "printed", "analytic in mpmath", "analytic in NumPy", "sie")
@@ -286,8 +287,8 @@ def compute(quick: bool) -> Iterator[Record]:
     for equation in EQUATIONS:
         yield Doing(equation.name)
         found = [agreed(equation, s) for s in settings]
-        least = {name: min(f[name] for f in found) for name in found[0]}
-        most = max((f.get("printed", 0.0) for f in found), default=0.0)
+        least = {name: smallest(f[name] for f in found) for name in found[0]}
+        most = largest(f.get("printed", 0.0) for f in found)
         yield from _claims(equation, least, most, wrong_digits(equation, settings[0], spoiled))
         rows.append((equation.name, equation.says, *(least.get(name) for name in NAMES)))
     yield Table(

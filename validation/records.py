@@ -21,7 +21,7 @@ class Claim:
     """One claim, who makes it, the number measured in this run, the bar it is held to, and proof that the measure can fail.
 
     low, high   the bar: it holds if low <= measured <= high
-    control     the same measure on a wrong input, which `wrong` names: it must miss the bar
+    control     the same measure on a wrong input, which `wrong` names: it must miss the bar, by a number: nan proves nothing
     erratum     what is true instead, for a claim that this project says is mistaken: then the measure must miss the bar, and the
                 control, the corrected input, must meet it
     """
@@ -41,11 +41,11 @@ class Claim:
     @property
     def verdict(self) -> str:
         """holds, refuted (an erratum, as listed), fails, or blind: the control passed, so that the measure proves nothing."""
-        if self.within(self.control) != bool(self.erratum):
+        if math.isnan(self.control) or self.within(self.control) != bool(self.erratum):
             return "blind"
-        if self.within(self.measured):
-            return "fails" if self.erratum else "holds"
-        return "refuted" if self.erratum else "fails"
+        if math.isnan(self.measured) or self.within(self.measured) == bool(self.erratum):
+            return "fails"
+        return "refuted" if self.erratum else "holds"
 
     @property
     def ok(self) -> bool:

@@ -18,6 +18,7 @@ import sie
 
 from . import sweeps
 from .figures import Figure, axes, draw, heat, labelled, legend, legend_above
+from .measures import largest, smallest
 from .peers import erdogan_gupta_matrix
 from .records import Claim, Curve, Doing, Found, Map, Record, Table, checked
 from .sweeps import Outcome, Sweep, logit, near_ends
@@ -99,7 +100,7 @@ def compute(quick: bool) -> Iterator[Record]:
 def _promise(sweep: Sweep, inside: list[Outcome]) -> Iterator[Claim]:
     yield Claim(
         f"{sweep.name}: largest error in the promised range", "this project: stability",
-        max(math.inf if o.refused else o.error for o in inside), min(o.spoiled for o in inside if not o.refused),
+        largest(math.inf if o.refused else o.error for o in inside), smallest(o.spoiled for o in inside if not o.refused),
         f"answers off by {sweeps.SPOILED:.0e}", high=sweep.bar,
     )  # fmt: skip
 
@@ -126,7 +127,7 @@ def maps(quick: bool) -> Iterator[Record]:
     yield Map("map: scale", np.log10(lengths).tolist(), np.log10(lengths).tolist(), values)
     everything = [v for m in values for v in m]
     yield Claim(
-        "largest error over lengths and moduli from 1e-150 to 1e150", "this project", max(everything),
+        "largest error over lengths and moduli from 1e-150 to 1e150", "this project", largest(everything),
         sweeps.scale(1.0, 1.0).spoiled, f"an answer off by {sweeps.SPOILED:.0e}", high=BAR,
     )  # fmt: skip
 

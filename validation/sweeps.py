@@ -16,6 +16,7 @@ import numpy as np
 import sie
 from analytic import rounded_flat
 
+from .measures import largest
 from .principal import context
 
 mp = context(50)
@@ -65,7 +66,7 @@ def _outcome(solution: Any, found: Any, true: Any, scale: float, estimate: float
     """Errors of some values relative to `scale`; all numbers in mpmath, so that nothing is lost in the comparison."""
 
     def error(factor: float) -> float:
-        return float(max(abs(factor * mp.mpmathify(complex(f)) - t) for f, t in zip(found, true, strict=True)) / scale)
+        return largest(abs(factor * mp.mpmathify(complex(f)) - t) / scale for f, t in zip(found, true, strict=True))
 
     return Outcome(error(1.0), error(1.0 + SPOILED), solution.check().error if estimate is None else estimate)
 
