@@ -3,13 +3,14 @@
 import json
 import math
 import re
+import time
 from io import StringIO
 
 import numpy as np
 import pytest
 
 import sie
-from sie import charts
+from sie import charts, summation
 from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, labelled
@@ -18,7 +19,7 @@ from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
 from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
 from validation.report import Section, number, page
-from validation.running import run
+from validation.running import run, workers
 from validation.sweeps import SPOILED, Outcome
 from validation.timing import medians
 
@@ -98,6 +99,34 @@ def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
     assert made.verdict == "fails"
 
 
+def test_a_run_that_could_not_end_well_does_not_begin(monkeypatch, tmp_path, capsys):
+    def never(*given):
+        raise AssertionError("computed")
+
+    monkeypatch.setattr("validation.__main__.run", never)
+    (tmp_path / "file").write_text("")
+    for given, words in (
+        (["--only", "nonsense"], "invalid choice: 'nonsense'"),
+        (["--out", str(tmp_path / "file")], "is no folder that can be written to"),
+        (["--out", str(tmp_path / "file" / "below")], "is no folder that can be written to"),
+        (["--readme", "--only", "pressure"], "speed"),
+    ):
+        with pytest.raises(SystemExit) as end:
+            main([*given])
+        assert end.value.code == 2
+        assert words in capsys.readouterr().err
+
+
+def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("validation.__main__.run", interrupted)
+    assert main(["--out", str(tmp_path)]) == 130
+    assert "interrupted: nothing was written" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
     sections = [Section("one", "One", "", Found([claim(0.5, 2.0), claim(3.0, 2.0)]), (), 0.1)]
     assert summary(sections, 0.1, tmp_path) == 1
@@ -153,6 +182,14 @@ def test_a_sweep_sees_an_answer_that_is_off():
     outcome = sweep.run(0.5)
     assert outcome.error < 1e-13
     assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
+
+
+def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
+    """Pieces without corners between them would never meet the sums over far ones."""
+    assert sweeps.pieces(1000).error < 1e-13
+    right = summation._series
+    monkeypatch.setattr(summation, "_series", lambda *given: right(*given) * (1 + 1e-9))
+    assert sweeps.pieces(1000).error > 1e-12
 
 
 def test_random_contacts_are_the_same_in_every_run():
@@ -316,6 +353,38 @@ def test_the_bar_moves_forward_and_never_beyond_the_end():
     silent.behind("one")
     silent.behind("two")
     assert silent.stream.getvalue() == "one ...\ntwo done\n"
+
+
+def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("validation.progress.time.perf_counter", lambda: now[0])
+    monkeypatch.setenv("COLUMNS", "40")
+
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    progress = Progress({"one": 4.0, "two": 4.0, "last": 2.0}, Terminal())
+    progress.beside(["one", "two"], at_once=2)
+    shares = []
+    for now[0] in (0.0, 1.0, 2.0, 9.0):
+        progress.tell("a word that is far too long for a terminal as narrow as this one")
+        shares.append(progress.share())
+    assert shares == [0.0, 0.2, 0.4, pytest.approx(0.784)]
+    progress.behind("one")
+    progress.behind("two")
+    assert progress.share() == 0.8
+    assert max(len(line.removeprefix("\x1b[K")) for line in progress.stream.getvalue().split("\r")) < 40
+
+
+def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
+    monkeypatch.setattr("validation.running.os.cpu_count", lambda: 2)
+    begun = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
+        for _ in range(4):
+            pool.submit(time.sleep, 60.0)
+        raise KeyboardInterrupt
+    assert time.perf_counter() - begun < 30.0
 
 
 def test_topics_beside_each_other_find_what_they_find_alone():

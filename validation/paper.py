@@ -7,7 +7,7 @@ which share no code with it. Then what the paper says in words, with numbers. Re
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq, minimize, minimize_scalar
@@ -18,7 +18,7 @@ from sie import charts
 
 from .measures import largest, smallest
 from .paper_figures import figures
-from .records import Claim, Curve, Doing, Map, Record, Table
+from .records import Claim, Curve, Doing, Map, Record, Table, checked
 
 TITLE = "The paper: Figs 2 to 8 and its statements"
 SECONDS = (5.0, 14.0)
@@ -27,7 +27,7 @@ __all__ = ["SECONDS", "TIMED", "TITLE", "compute", "figures"]
 
 NU = charts.POISSON
 BAR = 1e-13
-SAME = 1e-10  # of limits, whose place is where a gradient vanishes
+SAME, PLACE = 1e-10, 1e-6  # of limits, and of their places, where a gradient vanishes: known to half the digits
 FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
 PRINTED_CROSSING = 0.55
 CROSSING = 0.540206764905  # where the strength is Hertz's again, as this project says
@@ -138,8 +138,16 @@ def root_j2(ratio: float, f: float, x: Any, y: Any) -> Any:
     return np.sqrt(interior.second_invariant(stress, poisson=NU)) / P
 
 
-def closed_limit(ratio: float, f: float) -> float:
-    """P/(bk) from the closed forms: a scan, then a simplex from its best, inside and on the surface."""
+class Weakest(NamedTuple):
+    """P/(bk), and where the material yields first; x and y in units of b."""
+
+    limit: float
+    x: float
+    y: float
+
+
+def closed_weakest(ratio: float, f: float) -> Weakest:
+    """From the closed forms: a scan, then a simplex from its best, inside and on the surface."""
     x, y = np.linspace(-1.2, 1.2, 97), np.linspace(0.02, 1.2, 60)[:, None]
     inside = root_j2(ratio, f, x, y)
     i, j = np.unravel_index(int(inside.argmax()), inside.shape)
@@ -150,12 +158,20 @@ def closed_limit(ratio: float, f: float) -> float:
     k = int(surface.argmax())
     around = {"bounds": (s[max(k - 1, 0)], s[min(k + 1, len(s) - 1)]), "method": "bounded", "options": {"xatol": 1e-9}}
     top = minimize_scalar(lambda v: -float(root_j2(ratio, f, v, 0.0)), **around)
-    return 1.0 / max(-float(below.fun), -float(top.fun))
+    if below.fun <= top.fun:
+        return Weakest(-1.0 / float(below.fun), float(below.x[0]), abs(float(below.x[1])))
+    return Weakest(-1.0 / float(top.fun), float(top.x), 0.0)
 
 
 def limit(ratio: float, f: float = 0.0) -> float:
     """P/(bk) by the package."""
     return charts.punch(ratio, f).elastic_limit().ratio
+
+
+def weakest(ratio: float, f: float) -> Weakest:
+    """By the package."""
+    found = charts.punch(ratio, f).elastic_limit()
+    return Weakest(found.ratio, *found.places[-1])
 
 
 def figure_4(quick: bool) -> Iterator[Record]:
@@ -179,15 +195,26 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
     yield Curve("figure 5", "P/(bk)", chart.ratios, chart.limit[:, 0])
     yield Curve("figure 5", "depth of the weakest point / b", chart.ratios, chart.y[:, 0], "dashed")
     marks = ratios if quick else ratios[::3]
-    yield Curve("figure 5", "P/(bk), closed form", marks, [closed_limit(r, 0.0) for r in marks], "points")
+    closed = [closed_weakest(r, 0.0) for r in marks]
+    yield Curve("figure 5", "P/(bk), closed form", marks, [w.limit for w in closed], "points")
+    yield Curve("figure 5", "depth, closed form", marks, [w.y for w in closed], "points")
     for k, ratio in enumerate(chart.ratios):
         about = {"colour": "black"} if ratio else {"colour": "tab:blue"}
         yield Curve("figure 6", f"{ratio:g}", chart.frictions, chart.limit[k], "dashed" if ratio == 0.0 else "line", about)
         below = chart.y[k] > 0.0
         yield Curve("figure 7", f"{ratio:g}", chart.x[k][below], chart.y[k][below])
     pairs = [(r, f) for r in ((0.6,) if quick else (0.3, 0.6, 0.9)) for f in (0.1, 0.4)]
-    exact = [closed_limit(*pair) for pair in pairs]
+    closed = [closed_weakest(*pair) for pair in pairs]
+    exact = [w.limit for w in closed]
     yield Curve("figure 6 points", "closed form", [f for _, f in pairs], list(exact), "points")
+    below_surface = [w for w in closed if w.y > 0.0]
+    yield Curve("figure 7 points", "closed form", [w.x for w in below_surface], [w.y for w in below_surface], "points")
+    yield checked(
+        lambda found: largest(np.hypot(a.x - b.x, a.y - b.y) for a, b in zip(found, closed, strict=True)),
+        [weakest(*pair) for pair in pairs], [w._replace(x=w.x + 1e-5) for w in closed],
+        what="Fig. 7: where the material yields first, general solver against closed form, largest distance / b", by="both packages",
+        named="places off by 1e-5", high=PLACE,
+    )  # fmt: skip
     on_surface = [float(interior.hertz_limit_on_surface(friction=f, poisson=NU)) for f in (0.3, 0.4, 0.5)]
     yield Curve("figure 6 points", "Hertz on its surface", (0.3, 0.4, 0.5), on_surface, "points")
     pairs += [(0.0, f) for f in (0.3, 0.4, 0.5)]
