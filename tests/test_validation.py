@@ -13,7 +13,7 @@ import sie
 from sie import charts, summation
 from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
-from validation.figures import Figure, axes, draw, drawn, labelled
+from validation.figures import Figure, axes, draw, drawn, heat, labelled
 from validation.measures import largest, smallest
 from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
@@ -169,6 +169,11 @@ def test_the_economy_measures_a_difference_and_a_footprint():
     assert economy.difference((one, one * (1 + 1e-11))) == pytest.approx(1e-11, rel=1e-4)
 
 
+def test_a_skip_that_costs_time_is_seen():
+    assert economy.saved("", [(1.0, 2.0), (3.0, 4.0)], 1.3).verdict == "holds"
+    assert economy.saved("", [(1.0, 2.0), (3.0, 3.0)], 1.3).verdict == "fails"
+
+
 def test_the_states_of_the_frontier():
     assert Outcome(error=1e-15, estimate=1e-15).state(1e-13) == "full"
     assert Outcome(error=1e-9, estimate=1e-9).state(1e-13) == "known"
@@ -291,6 +296,14 @@ def test_the_page_needs_no_network_and_fits_a_phone():
     assert html.count("<svg") == 2
     assert "<figcaption>What is seen." in html
     assert "x [mm]" in html
+
+
+def test_a_map_is_vector_graphics_with_a_name_for_those_who_cannot_see_it():
+    drawing, ax = axes()
+    heat(ax, Map("m", [1.0, 2.0], [1.0, 2.0], np.ones((2, 2))), label="error")
+    element = drawn(Figure("map", drawing, 'Errors < "1e-13".')).element
+    assert "<image" not in element
+    assert 'aria-label="Errors &lt; &quot;1e-13&quot;."' in element
 
 
 def test_no_two_elements_of_the_page_share_a_name():
