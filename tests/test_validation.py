@@ -340,6 +340,20 @@ def test_what_comes_next_is_told_and_not_kept():
     assert (told, len(found)) == (["this"], 1)
 
 
+def test_a_topic_that_breaks_off_fails_and_keeps_what_it_found(monkeypatch, capsys):
+    def broken(quick):
+        yield claim(0.5, 2.0)
+        raise ZeroDivisionError("nothing to divide by")
+
+    monkeypatch.setattr(economy, "compute", broken)
+    (section,), _ = run(["economy"], quick=True)
+    assert [c.verdict for c in section.found.claims] == ["holds", "fails"]
+    assert not section.found.claims[1].ok
+    assert "ZeroDivisionError: nothing to divide by" in section.found.claims[1].what
+    assert "nothing to divide by" in capsys.readouterr().err
+    assert not section.figures
+
+
 def test_numbers_read_as_numbers():
     assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == ["—", "3", "0.5", "1.0e-14", "0.0", "inf", "words"]
 

@@ -11,6 +11,7 @@ A topic is a module of this package with
 from __future__ import annotations
 
 import math
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -108,8 +109,15 @@ class Doing:
 Record = Claim | Table | Curve | Map | Doing
 
 
+BROKEN = "the topic runs to its end; it broke off with"
+
+
 class Found(list[Record]):
     """The records of a topic."""
+
+    @property
+    def broken(self) -> bool:
+        return any(c.what.startswith(BROKEN) for c in self.claims)
 
     @property
     def claims(self) -> list[Claim]:
@@ -154,11 +162,15 @@ def plain(value: Any) -> Any:
 
 
 def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
-    """All records but the `Doing`s, which are told."""
+    """All records but the `Doing`s, which are told; of a topic that breaks off those that it came to, and a claim that fails."""
     found = Found()
-    for record in records:
-        if isinstance(record, Doing):
-            tell(record.what)
-        else:
-            found.append(record)
+    try:
+        for record in records:
+            if isinstance(record, Doing):
+                tell(record.what)
+            else:
+                found.append(record)
+    except Exception as error:  # the other topics have their say all the same
+        traceback.print_exc()
+        found.append(Claim(f"{BROKEN} {type(error).__name__}: {error}", "this page", 1, math.inf, "without end", high=0))
     return found

@@ -59,8 +59,10 @@ def computed(name: str, quick: bool, tell: Callable[[str], None] = lambda what: 
 
 
 def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
-    """A topic's figures as SVG, and the seconds they took."""
+    """A topic's figures as SVG, and the seconds they took; none of a topic that broke off."""
     start = time.perf_counter()
+    if found.broken:
+        return [], 0.0
     return [drawn(figure) for figure in _topic(name).figures(found)], time.perf_counter() - start
 
 
