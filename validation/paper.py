@@ -203,11 +203,11 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
         yield Curve("figure 6", f"{ratio:g}", chart.frictions, chart.limit[k], "dashed" if ratio == 0.0 else "line", about)
         below = chart.y[k] > 0.0
         yield Curve("figure 7", f"{ratio:g}", chart.x[k][below], chart.y[k][below])
-    pairs = [(r, f) for r in ((0.6,) if quick else (0.3, 0.6, 0.9)) for f in (0.1, 0.4)]
+    pairs = [(r, f) for r in ((0.6,) if quick else (0.0, 0.1, 0.3, 0.6, 0.9)) for f in (0.1, 0.4)]
     closed = [closed_weakest(*pair) for pair in pairs]
     exact = [w.limit for w in closed]
     yield Curve("figure 6 points", "closed form", [f for _, f in pairs], list(exact), "points")
-    below_surface = [w for w in closed if w.y > 0.0]
+    below_surface = [w for w in closed if w.y > PLACE]
     yield Curve("figure 7 points", "closed form", [w.x for w in below_surface], [w.y for w in below_surface], "points")
     yield checked(
         lambda found: largest(np.hypot(a.x - b.x, a.y - b.y) for a, b in zip(found, closed, strict=True)),

@@ -81,7 +81,7 @@ def _places(found: Found) -> Figure:
     for curve in found.curves("figure 7"):
         ax.plot(curve.x, curve.y, "+-", markersize=4, linewidth=0.5, label=curve.label)
     for curve in found.curves("figure 7 points"):
-        ax.plot(curve.x, curve.y, "o", color="tab:red", markersize=6, mfc="none", label=curve.label)
+        ax.plot(curve.x, curve.y, "o", color="tab:red", markersize=6, mfc="none", zorder=4, label=curve.label)
     labelled(ax, "x/b", "y/b")
     ax.set_ylim(0.9, 0.0)
     legend(ax, title="a/b", ncols=3, loc="upper left")
