@@ -94,3 +94,11 @@ def test_the_counter_counts():
         for load in (0.1, 0.2):
             _ = sie.solve(scene(PUNCH, normal_load=load)).edges
     assert len(solves) == 2
+
+
+def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
+    patterns, found = pytestconfig.getini("python_files"), [*(pytestconfig.rootpath / "benchmarks").glob("*.py")]
+    assert found
+    for path in found:
+        assert any(path.match(pattern) for pattern in patterns)
+    assert "benchmarks" not in pytestconfig.getini("testpaths")

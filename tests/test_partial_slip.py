@@ -323,6 +323,20 @@ def test_bulk_stress_alone_slips_to_both_sides(sign):
     assert solution.check().ok
 
 
+def test_the_stress_under_slip_to_both_sides_reaches_the_surface():
+    """In each slip zone and in the stick zone: the surface is evaluated by formulas of its own."""
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.5, tangential_load=0.01, bulk_stress=1.0
+    )
+    solution = sie.solve(scene)
+    ((lo, hi),), b = solution.stick, solution.half_width
+    x = np.array([0.5 * (lo - b), 0.5 * (lo + hi), 0.5 * (hi + b)])
+    assert solution.shear(x[0]) > 0.0 > solution.shear(x[2])
+    below = solution.stress(x, 1e-10 * b)
+    for name in ("xx", "yy", "xy"):
+        assert getattr(solution.stress(x, 0.0), name) == pytest.approx(getattr(below, name), rel=1e-8, abs=1e-9)
+
+
 @pytest.mark.parametrize("strain", [2.0, 5.0, 12.0, 20.0])
 def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
     """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both halves alike; ρ falls below 1e-13 b."""

@@ -3,20 +3,23 @@
 import json
 import math
 import re
+import time
 from io import StringIO
 
 import numpy as np
 import pytest
 
 import sie
-from validation import cases, certificate, economy, peers, pressure, readme, speed, stability
+from sie import charts, summation
+from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
-from validation.figures import Figure, axes, draw, drawn, labelled
+from validation.figures import Figure, axes, draw, drawn, heat, labelled
+from validation.measures import largest, smallest
 from validation.problems import kinked, sliding, wavy
 from validation.progress import Progress
 from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
 from validation.report import Section, number, page
-from validation.running import run
+from validation.running import run, workers
 from validation.sweeps import SPOILED, Outcome
 from validation.timing import medians
 
@@ -35,7 +38,8 @@ def claim(measured, control, **given):
         (claim(1.5, 2.0), "fails"),
         (claim(math.nan, 2.0), "fails"),
         (claim(0.5, 0.9), "blind"),
-        (claim(0.5, math.nan), "holds"),
+        (claim(0.5, math.nan), "blind"),
+        (claim(math.nan, 0.5, erratum="it is not so"), "fails"),
         (claim(2.0, 0.5, erratum="it is not so"), "refuted"),
         (claim(0.5, 0.5, erratum="it is not so"), "fails"),
         (claim(2.0, 3.0, erratum="it is not so"), "blind"),
@@ -51,6 +55,76 @@ def test_a_verdict_follows_from_the_numbers(made, verdict):
 def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
     made = checked(lambda v: v * v, 0.1, 3, what="", by="", named="three", high=1.0)
     assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
+
+
+def test_the_worst_of_answers_of_which_one_is_none_is_none():
+    assert math.isnan(largest([1e-16, math.nan, 1e-15]))
+    assert math.isnan(smallest([1e-16, math.nan, 1e-15]))
+    assert (largest([1.0, 3.0]), smallest([1.0, 3.0])) == (3.0, 1.0)
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_no_measure_passes_over_an_answer_that_is_none(place):
+    found = [1.0, 2.0, 3.0]
+    assert measures.apart(found, [1, 2, 3]) == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error == 0.0
+    found[place] = math.nan
+    assert math.isnan(measures.apart(found, [1, 2, 3]))
+    assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
+
+
+def test_a_pressure_that_is_none_fails_the_figures_of_the_paper(monkeypatch):
+    """In the last of ten contacts, at one of the points only."""
+
+    class Holed(sie.Solution):
+        def __getattribute__(self, name):
+            right = super().__getattribute__(name)
+            return (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x))) if name == "pressure" else right
+
+    punch = charts.punch
+    monkeypatch.setattr(charts, "punch", lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio))
+    made = next(r for r in paper.figure_2() if isinstance(r, Claim))
+    assert not made.ok
+
+
+def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
+    right = sweeps.scale
+
+    def refused(length, modulus):
+        if length > 1.0 < modulus:
+            raise sie.ContactError("no")
+        return right(length, modulus)
+
+    monkeypatch.setattr(sweeps, "scale", refused)
+    made = next(r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what)
+    assert made.verdict == "fails"
+
+
+def test_a_run_that_could_not_end_well_does_not_begin(monkeypatch, tmp_path, capsys):
+    def never(*given):
+        raise AssertionError("computed")
+
+    monkeypatch.setattr("validation.__main__.run", never)
+    (tmp_path / "file").write_text("")
+    for given, words in (
+        (["--only", "nonsense"], "invalid choice: 'nonsense'"),
+        (["--out", str(tmp_path / "file")], "is no folder that can be written to"),
+        (["--out", str(tmp_path / "file" / "below")], "is no folder that can be written to"),
+        (["--readme", "--only", "pressure"], "speed"),
+    ):
+        with pytest.raises(SystemExit) as end:
+            main([*given])
+        assert end.value.code == 2
+        assert words in capsys.readouterr().err
+
+
+def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("validation.__main__.run", interrupted)
+    assert main(["--out", str(tmp_path)]) == 130
+    assert "interrupted: nothing was written" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
@@ -95,6 +169,11 @@ def test_the_economy_measures_a_difference_and_a_footprint():
     assert economy.difference((one, one * (1 + 1e-11))) == pytest.approx(1e-11, rel=1e-4)
 
 
+def test_a_skip_that_costs_time_is_seen():
+    assert economy.saved("", [(1.0, 2.0), (3.0, 4.0)], 1.3).verdict == "holds"
+    assert economy.saved("", [(1.0, 2.0), (3.0, 3.0)], 1.3).verdict == "fails"
+
+
 def test_the_states_of_the_frontier():
     assert Outcome(error=1e-15, estimate=1e-15).state(1e-13) == "full"
     assert Outcome(error=1e-9, estimate=1e-9).state(1e-13) == "known"
@@ -108,6 +187,14 @@ def test_a_sweep_sees_an_answer_that_is_off():
     outcome = sweep.run(0.5)
     assert outcome.error < 1e-13
     assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
+
+
+def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
+    """Pieces without corners between them would never meet the sums over far ones."""
+    assert sweeps.pieces(1000).error < 1e-13
+    right = summation._series
+    monkeypatch.setattr(summation, "_series", lambda *given: right(*given) * (1 + 1e-9))
+    assert sweeps.pieces(1000).error > 1e-12
 
 
 def test_random_contacts_are_the_same_in_every_run():
@@ -211,6 +298,14 @@ def test_the_page_needs_no_network_and_fits_a_phone():
     assert "x [mm]" in html
 
 
+def test_a_map_is_vector_graphics_with_a_name_for_those_who_cannot_see_it():
+    drawing, ax = axes()
+    heat(ax, Map("m", [1.0, 2.0], [1.0, 2.0], np.ones((2, 2))), label="error")
+    element = drawn(Figure("map", drawing, 'Errors < "1e-13".')).element
+    assert "<image" not in element
+    assert 'aria-label="Errors &lt; &quot;1e-13&quot;."' in element
+
+
 def test_no_two_elements_of_the_page_share_a_name():
     names = re.findall(r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False))
     assert len(names) > 20
@@ -245,6 +340,20 @@ def test_what_comes_next_is_told_and_not_kept():
     assert (told, len(found)) == (["this"], 1)
 
 
+def test_a_topic_that_breaks_off_fails_and_keeps_what_it_found(monkeypatch, capsys):
+    def broken(quick):
+        yield claim(0.5, 2.0)
+        raise ZeroDivisionError("nothing to divide by")
+
+    monkeypatch.setattr(economy, "compute", broken)
+    (section,), _ = run(["economy"], quick=True)
+    assert [c.verdict for c in section.found.claims] == ["holds", "fails"]
+    assert not section.found.claims[1].ok
+    assert "ZeroDivisionError: nothing to divide by" in section.found.claims[1].what
+    assert "nothing to divide by" in capsys.readouterr().err
+    assert not section.figures
+
+
 def test_numbers_read_as_numbers():
     assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == ["—", "3", "0.5", "1.0e-14", "0.0", "inf", "words"]
 
@@ -271,6 +380,38 @@ def test_the_bar_moves_forward_and_never_beyond_the_end():
     silent.behind("one")
     silent.behind("two")
     assert silent.stream.getvalue() == "one ...\ntwo done\n"
+
+
+def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("validation.progress.time.perf_counter", lambda: now[0])
+    monkeypatch.setenv("COLUMNS", "40")
+
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    progress = Progress({"one": 4.0, "two": 4.0, "last": 2.0}, Terminal())
+    progress.beside(["one", "two"], at_once=2)
+    shares = []
+    for now[0] in (0.0, 1.0, 2.0, 9.0):
+        progress.tell("a word that is far too long for a terminal as narrow as this one")
+        shares.append(progress.share())
+    assert shares == [0.0, 0.2, 0.4, pytest.approx(0.784)]
+    progress.behind("one")
+    progress.behind("two")
+    assert progress.share() == 0.8
+    assert max(len(line.removeprefix("\x1b[K")) for line in progress.stream.getvalue().split("\r")) < 40
+
+
+def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
+    monkeypatch.setattr("validation.running.os.cpu_count", lambda: 2)
+    begun = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
+        for _ in range(4):
+            pool.submit(time.sleep, 60.0)
+        raise KeyboardInterrupt
+    assert time.perf_counter() - begun < 30.0
 
 
 def test_topics_beside_each_other_find_what_they_find_alone():

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,6 +22,7 @@ TOPICS = (
     "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth",
     "stability", "certificate", "economy", "mutation",
 )  # fmt: skip
+INTERRUPTED = 130  # the exit status by which shells know it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,18 +32,35 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path("build/validation"), metavar="DIR", help="where report.html and report.json go")
     parser.add_argument("--readme", action="store_true", help="write the README's table anew from this run")
     given = parser.parse_args(arguments)
+    names = [name for name in TOPICS if given.only is None or name in given.only]
     try:
         importlib.import_module("matplotlib")
     except ImportError:
         parser.error("the report's figures need Matplotlib: pip install -e '.[plot]'")
-    sections, seconds = run([name for name in TOPICS if given.only is None or name in given.only], given.quick)
-    given.out.mkdir(parents=True, exist_ok=True)
+    if given.readme and not set(readme.TOPICS) <= set(names):
+        parser.error(f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without --only, or with both")
+    if not writable(given.out):
+        parser.error(f"--out {given.out} is no folder that can be written to: give another")
+    try:
+        sections, seconds = run(names, given.quick)
+    except KeyboardInterrupt:
+        print("\ninterrupted: nothing was written", file=sys.stderr)
+        return INTERRUPTED
     (given.out / "report.html").write_text(page(sections, seconds, given.quick), encoding="utf-8")
     numbers = {"machine": machine(), "quick": given.quick, "seconds": seconds, "topics": {s.name: s.found.as_json() for s in sections}}
     (given.out / "report.json").write_text(json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
     if given.readme:
         readme.write(numbers)
     return summary(sections, seconds, given.out)
+
+
+def writable(out: Path) -> bool:
+    """Whether the report can go there, asked before it is computed; makes the folder."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(out, os.W_OK)
 
 
 def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:

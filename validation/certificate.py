@@ -19,6 +19,7 @@ import sie
 from analytic import cattaneo_rounded, hertz, power, rounded_flat, sliding_hertz, sliding_rounded_flat, wedge
 
 from .figures import Figure, axes, draw, labelled, legend
+from .measures import largest, smallest
 from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import with_pressure, with_shear
@@ -188,7 +189,7 @@ def compute(quick: bool) -> Iterator[Record]:
         some = [j for j in found if j.wrong == wrong]
         yield Curve("judged", label, [j.true for j in some], [j.estimate for j in some], "points")
     rows = [
-        (kind, "wrong" if wrong else "right", len(some), max(j.true for j in some), _least(some))
+        (kind, "wrong" if wrong else "right", len(some), largest(j.true for j in some), _least(some))
         for kind in dict.fromkeys(j.kind for j in found)
         for wrong in (False, True)
         if (some := [j for j in found if j.kind == kind and j.wrong == wrong])
@@ -197,18 +198,19 @@ def compute(quick: bool) -> Iterator[Record]:
 
 
 def _least(some: list[Judged]) -> float:
-    return min((j.estimate / j.true for j in some if j.true), default=float("inf"))
+    return smallest(j.estimate / j.true if j.true else float("inf") for j in some)
 
 
 def claims(found: list[Judged]) -> Iterator[Claim]:
     right, wrong = ([j for j in found if j.wrong == w] for w in (False, True))
-    frozen = min(r.estimate for r in right) / max(w.true for w in wrong)
+    frozen = _least([w._replace(estimate=largest(r.estimate for r in right)) for w in wrong])
     yield Claim(
         f"smallest estimate over true error, {len(found)} random contacts, half of them made wrong",
-        "this project: never less than a third", _least(found), frozen, "the certificate of a right answer on a wrong one", low=SHARE,
+        "this project: never less than a third", _least(found), frozen, "wrong answers with the largest estimate of a right one", low=SHARE,
     )  # fmt: skip
     yield Claim(
-        "largest true error of the right answers", "README: to machine precision", max(j.true for j in right), max(j.true for j in wrong),
+        "largest true error of the right answers", "README: to machine precision",
+        largest(j.true for j in right), largest(j.true for j in wrong),
         "the wrong answers", high=1e-13,
     )  # fmt: skip
     alarm = [j.estimate / max(j.true, 1e-15) for j in wrong if j.true > 1e-11]

@@ -21,6 +21,7 @@ import sie
 from sie.system import System
 
 from .figures import Figure, axes, draw, labelled, legend
+from .measures import largest
 from .peers import erdogan_gupta_matrix
 from .records import Claim, Curve, Doing, Found, Record, Table
 
@@ -162,12 +163,14 @@ def claims(found: list[Row]) -> Iterator[Claim]:
     closed = [r for r in found if r.estimated is not None]
     words = f"answers off by {SPOILED:.0e}"
     yield Claim(
-        "largest error against elliptic integrals and closed forms", "this project: general solver", max(r.error or 0.0 for r in closed),
-        two_cracks(1.0, SPOILED).error or 0.0, words, high=BAR,
+        "largest error against elliptic integrals and closed forms", "this project: general solver",
+        largest(r.error or 0.0 for r in closed), two_cracks(1.0, SPOILED).error or 0.0, words, high=BAR,
     )  # fmt: skip
     conditions = [r.condition for r in found if r.condition is not None]
     dense = np.linalg.cond(erdogan_gupta_matrix(200)[0])
-    yield Claim("largest condition number, thin layer", "README: 1.7", max(conditions), dense, "the textbook's unscaled matrix", high=2.0)
+    yield Claim(
+        "largest condition number, thin layer", "README: 1.7", largest(conditions), dense, "the textbook's unscaled matrix", high=2.0
+    )
     yield _agreement(found)
     last = found[-2]
     if int(last.n) < COMPARED_FROM:
@@ -180,7 +183,7 @@ def _agreement(found: list[Row]) -> Claim:
     """Of the two ways through the same matrix, one of them with a right-hand side that is off."""
     system = System(thin_layer().problem, (QUICK_SIZES[0],))
     right, wrong = system.by_lapack(), System(thin_layer(1.0 + SPOILED).problem, (QUICK_SIZES[0],)).by_gmres()
-    apart = max(r.error or 0.0 for r in found if r.case.startswith("thin layer"))
+    apart = largest(r.error or 0.0 for r in found if r.case.startswith("thin layer"))
     return Claim("thin layer: largest difference of elimination and iteration", "this project: two ways, one answer", apart,
                  float(np.abs(right - wrong).max() / np.abs(right).max()), f"right-hand side off by {SPOILED:.0e}", high=BAR)  # fmt: skip
 

@@ -9,6 +9,7 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -141,7 +142,8 @@ def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) 
     """A map of decimal logarithms."""
     values = np.log10(np.maximum(np.array(found.values, dtype=float), 10.0**low))
     mesh = ax.pcolormesh(found.x, found.y, values, cmap="viridis", vmin=low, vmax=high, shading="nearest", rasterized=False)
-    ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
+    bar = ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
+    bar.solids.set(rasterized=False, edgecolor="face")  # else Matplotlib puts a bitmap into the page
 
 
 def svg(figure: Figure) -> str:
@@ -159,4 +161,4 @@ def svg(figure: Figure) -> str:
     element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
     element = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{figure.name}-", element)
     element = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", element, count=1)
-    return re.sub(r'(<svg[^>]*?) height="[^"]*"', r'\1 role="img"', element, count=1)
+    return re.sub(r'(<svg[^>]*?) height="[^"]*"', lambda m: f'{m[1]} role="img" aria-label="{escape(figure.caption)}"', element, count=1)

@@ -138,5 +138,11 @@ def sampled(quick: bool) -> Iterator[Record]:
         "Profile h = cosh x - 1 known at n points; truth: the profile as a function, itself held to 40 digits above",
     )
     sizes = (16, 64) if quick else (16, 32, 64, 128, 256)
-    yield curve(name, "this package", _points(package, sizes, error), says=says)
-    yield curve(name, "FFT boundary elements", _points(elements, sizes, error), says=says)
+    ours, theirs = _points(package, sizes, error), _points(elements, sizes, error)
+    yield curve(name, "this package", ours, says=says)
+    yield curve(name, "FFT boundary elements", theirs, says=says)
+    yield checked(
+        lambda errors: errors[1] / errors[0], (ours[-1][1], theirs[-1][1]), (theirs[-1][1], ours[-1][1]),
+        what=f"sampled at {sizes[-1]} points: the elements' error over this package's", by="this project: what no peer has",
+        named="the two exchanged", low=100.0,
+    )  # fmt: skip

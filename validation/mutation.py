@@ -21,6 +21,7 @@ from sie import normal, panels, sliding
 
 from . import peers
 from .figures import Figure, axes, labelled, legend_above
+from .measures import largest
 from .mutation_parts import PARTS
 from .records import Claim, Curve, Doing, Found, Record, Table
 from .wrong import PUNCH, SKEW, SMOOTH, closed_form, gauss_chebyshev, root, with_pressure
@@ -182,7 +183,7 @@ def _shear(name: str, says: str, right: dict[str, float], wrong: dict[str, float
         if is_wrong:
             solution.__dict__["tangential"] = sie.solve(sie.Scene(**common, **wrong)).tangential
         shear = solution.check().shear
-        return max(shear.residual, abs(shear.equilibrium), shear.excess, -shear.opposing)
+        return largest((shear.residual, abs(shear.equilibrium), shear.excess, -shear.opposing))
 
     return Mutant(name, says, "certificate of the shear", number)
 

@@ -56,7 +56,7 @@ def _contours(found: Found) -> Figure:
 
 
 def _limits(found: Found) -> Figure:
-    limit, depth, points = found.curves("figure 5")
+    limit, depth, points, deep = found.curves("figure 5")
     drawing, ax = axes()
     ax.plot(limit.x, limit.y, "k-", label=limit.label)
     ax.plot(points.x, points.y, ".", color="tab:red", label=points.label)
@@ -65,6 +65,7 @@ def _limits(found: Found) -> Figure:
     ax.set_ylim(0.0, 6.5)
     other = ax.twinx()
     other.plot(depth.x, depth.y, "--", color="tab:blue", label=depth.label)
+    other.plot(deep.x, deep.y, ".", color="tab:orange", label=deep.label)
     other.set(ylabel="depth y/b", ylim=(0.0, 1.0))
     other.spines[["top"]].set_visible(False)
     ax.legend(
@@ -79,6 +80,8 @@ def _places(found: Found) -> Figure:
     drawing, ax = axes()
     for curve in found.curves("figure 7"):
         ax.plot(curve.x, curve.y, "+-", markersize=4, linewidth=0.5, label=curve.label)
+    for curve in found.curves("figure 7 points"):
+        ax.plot(curve.x, curve.y, "o", color="tab:red", markersize=6, mfc="none", zorder=4, label=curve.label)
     labelled(ax, "x/b", "y/b")
     ax.set_ylim(0.9, 0.0)
     legend(ax, title="a/b", ncols=3, loc="upper left")

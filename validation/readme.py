@@ -19,11 +19,12 @@ BEGIN, END = "<!-- from validation/readme.json by `python -m validation --readme
 FORMATS = ("{}", "{:.1e}", "{:.1e}", "{:.1e}", "{}", "{:.2f} ms", "{:.1f}")
 HEADER = (*pressure.HEADER, "solve + 1001 p", "ratio")
 SHOWN = cases.QUICK
+TOPICS = ("pressure", "speed")  # that the table is made of
 
 
 def rows(report: Mapping[str, Any]) -> list[list[Any]]:
     """From the JSON of a report: the cases that the README shows, the first of each kind; errors and counts, then times."""
-    errors, times = first_of_each_kind(report, "pressure", pressure.TABLE), first_of_each_kind(report, "speed", speed.TABLE)
+    errors, times = (first_of_each_kind(report, *of) for of in zip(TOPICS, (pressure.TABLE, speed.TABLE), strict=True))
     return [[*errors[name], *times[name][1:]] for name in SHOWN]
 
 

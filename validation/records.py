@@ -11,6 +11,7 @@ A topic is a module of this package with
 from __future__ import annotations
 
 import math
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -21,7 +22,7 @@ class Claim:
     """One claim, who makes it, the number measured in this run, the bar it is held to, and proof that the measure can fail.
 
     low, high   the bar: it holds if low <= measured <= high
-    control     the same measure on a wrong input, which `wrong` names: it must miss the bar
+    control     the same measure on a wrong input, which `wrong` names: it must miss the bar, by a number: nan proves nothing
     erratum     what is true instead, for a claim that this project says is mistaken: then the measure must miss the bar, and the
                 control, the corrected input, must meet it
     """
@@ -41,11 +42,11 @@ class Claim:
     @property
     def verdict(self) -> str:
         """holds, refuted (an erratum, as listed), fails, or blind: the control passed, so that the measure proves nothing."""
-        if self.within(self.control) != bool(self.erratum):
+        if math.isnan(self.control) or self.within(self.control) != bool(self.erratum):
             return "blind"
-        if self.within(self.measured):
-            return "fails" if self.erratum else "holds"
-        return "refuted" if self.erratum else "fails"
+        if math.isnan(self.measured) or self.within(self.measured) == bool(self.erratum):
+            return "fails"
+        return "refuted" if self.erratum else "holds"
 
     @property
     def ok(self) -> bool:
@@ -108,8 +109,15 @@ class Doing:
 Record = Claim | Table | Curve | Map | Doing
 
 
+BROKEN = "the topic runs to its end; it broke off with"
+
+
 class Found(list[Record]):
     """The records of a topic."""
+
+    @property
+    def broken(self) -> bool:
+        return any(c.what.startswith(BROKEN) for c in self.claims)
 
     @property
     def claims(self) -> list[Claim]:
@@ -154,11 +162,15 @@ def plain(value: Any) -> Any:
 
 
 def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
-    """All records but the `Doing`s, which are told."""
+    """All records but the `Doing`s, which are told; of a topic that breaks off those that it came to, and a claim that fails."""
     found = Found()
-    for record in records:
-        if isinstance(record, Doing):
-            tell(record.what)
-        else:
-            found.append(record)
+    try:
+        for record in records:
+            if isinstance(record, Doing):
+                tell(record.what)
+            else:
+                found.append(record)
+    except Exception as error:  # the other topics have their say all the same
+        traceback.print_exc()
+        found.append(Claim(f"{BROKEN} {type(error).__name__}: {error}", "this page", 1, math.inf, "without end", high=0))
     return found

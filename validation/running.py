@@ -10,7 +10,7 @@ import multiprocessing
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
@@ -20,6 +20,7 @@ from .progress import Progress
 from .records import Found, kept
 from .report import Section
 
+TICK = 0.5  # seconds between two looks of the progress bar
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -31,10 +32,12 @@ def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
         progress = Progress({name: topic.SECONDS[not quick] for name, topic in topics.items()})
         longest = sorted((name for name in names if not topics[name].TIMED), key=lambda name: -topics[name].SECONDS[not quick])
         beside = {pool.submit(computed, name, quick): name for name in longest}
-        progress.tell(f"{len(beside)} topics beside each other")
-        for future in as_completed(beside):
-            found[beside[future]] = future.result()
-            progress.behind(beside[future])
+        progress.beside(longest, at_once=os.cpu_count() or 1)
+        while waiting := [future for future in beside if beside[future] not in found]:
+            for future in wait(waiting, TICK, FIRST_COMPLETED).done:
+                found[beside[future]] = future.result()
+                progress.behind(beside[future])
+            progress.tell(f"{len(waiting)} topics beside each other")
         for name, topic in topics.items():
             if topic.TIMED:
                 progress.topic(name)
@@ -56,8 +59,10 @@ def computed(name: str, quick: bool, tell: Callable[[str], None] = lambda what: 
 
 
 def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
-    """A topic's figures as SVG, and the seconds they took."""
+    """A topic's figures as SVG, and the seconds they took; none of a topic that broke off."""
     start = time.perf_counter()
+    if found.broken:
+        return [], 0.0
     return [drawn(figure) for figure in _topic(name).figures(found)], time.perf_counter() - start
 
 
@@ -68,13 +73,20 @@ def workers(topics: int) -> Iterator[Executor]:
     if min(topics, cores) == 1:
         yield Here()
         return
+    others = set(multiprocessing.active_children())
     before = {name: os.environ.get(name) for name in ONE_THREAD}
     os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # only what is started from here on reads them
     try:
         with ProcessPoolExecutor(min(topics, cores), mp_context=multiprocessing.get_context("spawn")) as pool:
-            for _ in range(cores):
-                pool.submit(awake)  # they import while this process does
-            yield pool
+            try:
+                for _ in range(cores):
+                    pool.submit(awake)  # they import while this process does
+                yield pool
+            except BaseException:  # an interrupt too: else the pool would compute all that it was given before it lets go
+                pool.shutdown(wait=False, cancel_futures=True)
+                for child in set(multiprocessing.active_children()) - others:
+                    child.terminate()
+                raise
     finally:
         for name, value in before.items():
             if value is None:

@@ -19,7 +19,7 @@ import sie
 from analytic import bonded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
 
 from .figures import Figure, axes, draw, labelled, legend
-from .measures import apart, relative
+from .measures import apart, largest, relative
 from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table
 
@@ -114,20 +114,20 @@ def _of_potential(slider: Slider, solution: sie.Solution, k: Any, factor: float)
     assert slider.potential is not None
     z = np.array([x + 1j * y for x in (-0.6, 0.3, 1.4) for y in DEPTHS])
     found = factor * solution.pressure.cauchy(z)
-    return max(apart([f], [slider.potential(mp.mpc(v), k)]) for f, v in zip(found, z.tolist(), strict=True))
+    return largest(apart([f], [slider.potential(mp.mpc(v), k)]) for f, v in zip(found, z.tolist(), strict=True))
 
 
 def _claims(slider: Slider, found: list[tuple[float, float, float | None, float]]) -> Iterator[Claim]:
     right, by = slider.name, "both packages"
     wrong, named = judged(slider, 0.3, truth=-0.3), "the closed form with β of the other sign"
-    yield Claim(f"sliding {right}: largest error of the pressure / peak", by, max(f[0] for f in found), wrong[0], named, high=BAR)
-    yield Claim(f"sliding {right}: largest error of the moment / P r", by, max(f[1] for f in found), wrong[1], named, high=BAR)
+    yield Claim(f"sliding {right}: largest error of the pressure / peak", by, largest(f[0] for f in found), wrong[0], named, high=BAR)
+    yield Claim(f"sliding {right}: largest error of the moment / P r", by, largest(f[1] for f in found), wrong[1], named, high=BAR)
     if found[0][2] is not None:
         spoiled = judged(slider, 0.3, 1.0 + SPOILED)[2] or 0.0
         yield Claim(
             f"sliding {right}: largest relative error of the potential, 1e-8 to 100 half-widths deep",
             by,
-            max(f[2] or 0.0 for f in found),
+            largest(f[2] or 0.0 for f in found),
             spoiled,
             f"potentials off by {SPOILED:.0e}",
             high=BAR,
@@ -159,7 +159,7 @@ def full_stick(quick: bool) -> Iterator[Record]:
     yield Claim(
         "bonded flat: largest error of p + iq / largest value",
         by,
-        max(worst),
+        largest(worst),
         _bonded(0.3, P, Q, -0.3),
         "the closed form with β of the other sign",
         high=BAR,
@@ -168,7 +168,7 @@ def full_stick(quick: bool) -> Iterator[Record]:
     yield Claim(
         "bonded flat: largest relative error of the tilt under a moment",
         by,
-        max(tilts),
+        largest(tilts),
         relative(solution.tilt, bonded_flat.tilt(**given)),
         "a moment off by 0.05 %",
         high=BAR,

@@ -19,10 +19,10 @@ import sie
 from analytic import cattaneo, cattaneo_rounded, hertz
 
 from .figures import HEIGHT, Figure, axes, draw, labelled, legend, legend_above
-from .measures import apart, relative
+from .measures import apart, largest, relative
 from .principal import context
 from .records import Claim, Curve, Doing, Found, Record, Table, checked
-from .timing import compared
+from .timing import fastest
 
 TITLE = "Partial slip: zones, shear, slip, energy, cycles"
 SECONDS = (3.5, 9.0)
@@ -98,7 +98,7 @@ def loaded(contact: Contact, fraction: float, factor: float = 1.0) -> tuple[floa
     shear = apart(solution.shear(x), contact.exact("shear", x, Q), factor)
     outside = np.array([s * (c + (b - c) * u) for s in (-1, 1) for u in (0.35, 0.6, 0.95)])
     slip = apart(factor * solution.slip(outside), slip_of(contact, outside, Q)) - _of_ulps(solution, outside)
-    return shear, max(slip, 0.0), relative(c, stick_of(contact, Q), factor)
+    return shear, largest((slip, 0.0)), relative(c, stick_of(contact, Q), factor)
 
 
 def _of_ulps(solution: sie.Solution, x: Any) -> float:
@@ -127,7 +127,7 @@ def _loading(contact: Contact, fractions: Sequence[float], found: Sequence[tuple
         yield Claim(
             f"{contact.name}, Q/fP from {fractions[0]:g} to 1 - {1 - fractions[-1]:.0e}: largest error of the {name}",
             "README: partial slip to 1e-12",
-            max(errors),
+            largest(errors),
             spoiled[k],
             f"answers off by {SPOILED:.0e}",
             high=bar,
@@ -211,12 +211,12 @@ def bulk() -> Iterator[Record]:
         yield Curve("bulk points", "", PLACES, [float(q) / FP for q in exact], "points")
     by, wrong = "Nowell & Hills 1987", "the bulk stress with the other sign"
     control = max(w[2] for w in worst)
-    yield Claim("Hertz with bulk stress: largest error of the shear", by, max(w[0] for w in worst), control, wrong, high=BAR)
+    yield Claim("Hertz with bulk stress: largest error of the shear", by, largest(w[0] for w in worst), control, wrong, high=BAR)
     spoiled = apart(sie.solve(HERTZ.scene(tangential_load=Q)).stick[0], cattaneo.bulk_stick(**given))
     yield Claim(
         "Hertz with bulk stress: error of the ends of the stick zone / half-width",
         by,
-        max(w[1] for w in worst),
+        largest(w[1] for w in worst),
         spoiled,
         "without bulk stress",
         high=BAR_OF_SLIP,
@@ -263,17 +263,18 @@ def cost(steps: int) -> Claim:
     def followed() -> None:
         _ = [solution.stick for solution in sie.follow(PUNCH.scene(), path)]
 
-    def one_by_one(times: int) -> None:
-        for t in angles[: steps * times // 10]:
+    def a_tenth() -> None:
+        for t in angles[: steps // 10]:
             _ = sie.solve(PUNCH.scene(tangential_load=0.8 * FP * np.sin(t))).stick
 
-    _, ratio = compared(followed, lambda: one_by_one(1), patience=0.2)
-    return Claim(
-        f"a cycle of {steps} steps: time over that of as many single scenes",
-        "this project: cheaper than one by one",
-        ratio / 10.0,
-        1.0,
-        "the single scenes themselves",
+    together, tenth = fastest((followed, a_tenth), patience=0.002 * steps)  # other topics run beside this one
+    return checked(
+        lambda times: times[0] / times[1],
+        (together, 10.0 * tenth),
+        (10.0 * tenth, together),
+        what=f"a cycle of {steps} steps: time over that of as many single scenes",
+        by="this project: cheaper than one by one",
+        named="the two exchanged",
         high=0.7,
     )
 
