@@ -66,6 +66,32 @@ def test_every_component_agrees_with_forty_digits_under_kinks_and_edges_too(case
             assert abs(error) <= 1e-13 * peak(solution), (component, x)
 
 
+SHEARED = {"profile": sie.RoundedFlat(0.5, 1.0), "modulus": 1.0, "normal_load": 0.3, "friction": 0.4}
+TRACTIONS = {
+    "pressure": sie.solve(PUNCH).pressure,
+    "sharp edges": sie.solve(SHARP).pressure,
+    "slip of one sign": sie.solve(sie.Scene(**SHEARED, tangential_load=0.09)).shear,
+    "slip of both signs": sie.solve(sie.Scene(**SHEARED, tangential_load=0.03, bulk_stress=0.5)).shear,
+    "slip of both signs, mirrored": sie.solve(sie.Scene(**SHEARED, tangential_load=-0.03, bulk_stress=-2.0)).shear,
+    "after a path": sie.follow(sie.Scene(**SHEARED), sie.Path([(0.3, 0.1), (0.3, -0.05)]))[1].shear,
+    "dissimilar, sliding": sie.solve(sie.Scene(**SHEARED, dundurs=0.2, sliding=1)).shear,
+    "bonded": sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.3, normal_load=1.0, friction=np.inf)).shear,
+}
+
+
+@pytest.mark.parametrize("density", TRACTIONS.values(), ids=TRACTIONS)
+def test_the_derivative_of_a_potential_is_its_derivative(density):
+    """By Cauchy's formula on a circle that stays within the body."""
+    x1, x2 = density.interval
+    m, r, omega = 0.5 * (x1 + x2), 0.5 * (x2 - x1), np.exp(2j * np.pi * np.arange(32) / 32)
+    for z in (m + r * w for w in (0.3 + 0.2j, -0.9 + 0.05j, 1.01 + 0.03j, -1.3 + 0.4j, 0.1 + 2.0j, 20.0 + 9.0j, 0.6 - 0.1j)):
+        radius = 0.3 * z.imag
+        around = density.cauchy(z + radius * omega)
+        assert density.cauchy_derivative(z) == pytest.approx(
+            (around / omega).mean() / radius, rel=1e-11, abs=1e-13 * np.abs(around).max() / abs(radius)
+        )
+
+
 @pytest.mark.parametrize("case", [c for c in CASES if c.sharp != (False, False)], ids=str)
 def test_potentials_of_sharp_edges_agree_with_forty_digits(case):
     """F from the reference's own quadrature, F' from Cauchy's formula on it."""
