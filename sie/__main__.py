@@ -19,7 +19,7 @@ import os
 import pathlib
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from types import ModuleType
 from typing import Any, NoReturn
@@ -114,9 +114,13 @@ def _compare(arguments: argparse.Namespace) -> int:
 def _compared(kind: str, path: pathlib.Path, solution: Solution, found: Comparison, file: SceneFile) -> bytes:
     if kind == "json":
         return export.strict_json(found.as_dict()).encode()
-    figure = _pictures().comparison_picture(solution, found, file.units, file.title)
-    data: bytes = _pictures().picture_bytes(figure, path.suffix[1:].lower())
-    return data
+    return _drawn(lambda: _overlay(solution, found, file), path)
+
+
+def _overlay(solution: Solution, found: Comparison, file: SceneFile) -> Any:
+    from .overlay import overlay  # noqa: PLC0415
+
+    return overlay(solution, found, file.units, file.title)
 
 
 def _plan(arguments: argparse.Namespace) -> int:
@@ -202,10 +206,13 @@ def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile,
         head = (f"{file.title or 'plane contact'} (sie {__version__})", repr(solution.scene), f"lengths in {units.length}, "
                 f"stresses in {units.stress}, j2 in its square", f"contact from x1 = {x1!r} to x2 = {x2!r}")  # fmt: skip
         return file_bytes(Grid(solution, *(arguments.grid or SIZE)), path.suffix[1:].lower(), head)
+    return _drawn(lambda: _figure(solution, file), path)
+
+
+def _drawn(make: Callable[[], Any], path: pathlib.Path) -> bytes:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes
-        figure = _figure(solution, file)
-        data: bytes = _pictures().picture_bytes(figure, path.suffix[1:].lower())
+        data: bytes = _pictures().picture_bytes(make(), path.suffix[1:].lower())
     return data
 
 

@@ -7,8 +7,8 @@
     with shear      q(x) between the limits ± f p, the stick zones shaded; and after a path the loop of Q over the shift that slip allows,
                     a dot on each turning point
 
-Dotted lines through both panels are the edges x1 and x2. This file alone imports Matplotlib, and nothing imports it before a picture is
-asked for; `pyplot` is not used, and no global setting is changed.
+Dotted lines through both panels are the edges x1 and x2. Matplotlib is imported here and by the other pictures (`contours`, `overlay`), and
+nothing imports these before one is asked for; `pyplot` is not used, and no global setting is changed.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .abscissae import REACH, abscissae, ceiling, peak, summits
-from .compare import QUANTITIES, Comparison
 from .history import Followed, follow
 from .path import Path
 from .scenefile import UNITS, Units
@@ -62,15 +61,6 @@ HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for th
 LOOP_POINTS = 16  # from one turning point to the next; a power of two, so that steps to and fro meet the same loads
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 DIGITS = 4
-LABELS = {
-    "p": "$p$",
-    "q": "$q$",
-    "sxx": r"$\sigma_{xx}$",
-    "syy": r"$\sigma_{yy}$",
-    "sxy": r"$\sigma_{xy}$",
-    "szz": r"$\sigma_{zz}$",
-    "mises": "Mises",
-}
 # A length in mm may be read in these; in other units a power of ten stands before the unit.
 METRIC = ((1e-3, "m"), (1.0, "mm"), (1e3, "µm"), (1e6, "nm"))
 READABLE = (0.1, 1e4)  # largest values that need no other unit
@@ -111,69 +101,6 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     if title:
         figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
     return figure
-
-
-def comparison_picture(solution: Solution, comparison: Comparison, units: Units = UNITS, title: str = "") -> Figure:
-    """For each quantity of a mesh result a panel with both curves, and one with their difference, as a part of the largest exact value.
-
-    Points scattered in the body are drawn where they are, coloured by the mesh's value and by the difference.
-    """
-    names = list(comparison.differences)
-    figure = Figure(figsize=(WIDTH, 0.5 + 2.5 * len(names)), dpi=DPI, layout="constrained")
-    panels = figure.subplots(2 * len(names), 1, sharex=True, height_ratios=(1.6, 1.0) * len(names))
-    factor, length = _scaled(solution.half_width, units.length)
-    for name, upper, lower in zip(names, panels[::2], panels[1::2], strict=True):
-        x, y, values = comparison.mesh.points(name)
-        exact = QUANTITIES[name](solution, x, y)
-        finite = np.isfinite(exact)
-        largest = float(np.abs(exact[finite]).max()) or ceiling(solution)
-        scale, stress = _scaled(largest, units.stress)
-        label = f"{LABELS[name]} ({stress})"
-        percent = np.where(finite, 100.0 * (values - np.where(finite, exact, 0.0)) / largest, np.nan)
-        if comparison.mesh.scattered(name):
-            for axes, shown, text in ((upper, values * scale, label), (lower, percent, "difference (%)")):
-                _points(figure, axes, (x * factor, y * factor), shown, text)
-                axes.set_ylabel(f"$y$ ({length})", fontproperties=_font())
-        else:
-            fine = np.unique(np.concatenate((abscissae(solution, POINTS), x)))
-            fine = fine[(fine >= x[0]) & (fine <= x[-1])]
-            curve, bound = QUANTITIES[name](solution, fine, np.full_like(fine, y[0])), 2.0 * HEADROOM * largest
-            upper.plot(fine * factor, np.clip(curve, -bound, bound) * scale, color=BLUE, linewidth=1.0, zorder=2, label="exact")
-            style = {"color": VERMILLION, "marker": "o", "markersize": 1.8, "linewidth": 0.0, "zorder": 3}
-            upper.plot(x * factor, values * scale, label="mesh", **style)
-            low, high = (HEADROOM * float(end) * scale for end in (np.min(exact[finite]), np.max(exact[finite])))
-            upper.set_ylim(min(0.0, low), max(0.0, high) or None)
-            upper.set_ylabel(label, fontproperties=_font())
-            upper.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), borderaxespad=0.1, ncols=2, prop=_font(SMALL), frameon=False)
-            lower.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
-            lower.plot(x * factor, percent, color=VERMILLION, linewidth=0.9, zorder=2)
-            lower.set_ylabel("difference (%)", fontproperties=_font())
-            for axes in (upper, lower):
-                for edge in solution.edges:
-                    axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=0.5)
-        for axes in (upper, lower):
-            _plain(axes)
-            axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    panels[-1].set_xlabel(f"$x$ ({length})", fontproperties=_font())
-    panels[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
-    figure.align_ylabels()
-    if title:
-        figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
-    return figure
-
-
-def _points(figure: Figure, axes: Axes, at: tuple[Array, Array], values: Array, label: str) -> None:
-    """Points in the body, depth downwards, with a scale of colours that is white at zero."""
-    bound = float(np.nanmax(np.abs(values))) or 1.0
-    drawn = axes.scatter(
-        *at, c=values, s=float(np.clip(8000.0 / len(values), 0.5, 16.0)), cmap="RdBu_r", vmin=-bound, vmax=bound, linewidths=0.0
-    )
-    bar = figure.colorbar(drawn, ax=axes, pad=0.02, aspect=14)
-    bar.set_label(label, fontproperties=_font(SMALL))
-    for text in bar.ax.get_yticklabels():
-        text.set_fontproperties(_font(SMALL))
-    if not axes.yaxis_inverted():
-        axes.invert_yaxis()
 
 
 def suffixes() -> tuple[str, ...]:

@@ -21,7 +21,7 @@ ORDER = (
     "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
     "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "abscissae", "entries", "scenefile", "compare", "grid",
-    "export", "summary", "files", "plot", "contours", "__main__",
+    "export", "summary", "files", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip
 
 
