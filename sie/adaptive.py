@@ -82,7 +82,10 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
 
 
 def _split(pieces: Array, graded_towards: Array) -> Array:
-    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once."""
+    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once.
+
+    A piece that has been halved before touches no more than one.
+    """
     touches = np.isin(pieces, graded_towards)
     alone = ~touches.any(axis=1)
     lo, hi = pieces[alone].T

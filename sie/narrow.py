@@ -24,6 +24,8 @@ NARROW = 0.5  # of the distance of c from the nearer edge: beyond, the lengths o
 PINCHED = 8.0 * EPS  # of the distance of c from the nearer edge, which says where c is
 STEP = 1e-7  # of finite differences
 MAX_STEPS = 30
+ROUGHLY = 1e-3  # of ln ρ, and of the excess along it: from there Newton's method converges
+SETTLED = 1e-10  # relative steps below it that no longer shrink are rounding
 
 
 def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zones | None:
@@ -90,7 +92,7 @@ def _narrowed(excess: Callable[[float], float], low: float, high: float) -> floa
     for _ in range(MAX_STEPS):
         u = (a * at_b - b * at_a) / (at_b - at_a)
         value = excess(math.exp(u))
-        if abs(b - a) < 1e-3 or abs(value) <= 1e-3 * abs(at_a - at_b) / (b - a):
+        if abs(b - a) < ROUGHLY or abs(value) <= ROUGHLY * abs(at_a - at_b) / (b - a):
             break
         if value > 0.0:
             a, at_a, at_b = u, value, 0.5 * at_b
@@ -111,7 +113,7 @@ def _settled(excess: Callable[[float, float], tuple[float, float]], rho: float, 
             break
         step = np.array([J[0, 1] * turn - J[1, 1] * pull, J[1, 0] * pull - J[0, 0] * turn]) / determinant
         size = float(np.abs(step).max())
-        if size >= previous and size < 1e-10:
+        if size >= previous and size < SETTLED:
             break
         rho, depth, previous = rho * math.exp(step[0]), depth * math.exp(step[1]), size
         if size <= 4.0 * EPS:

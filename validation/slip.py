@@ -77,6 +77,7 @@ def compute(quick: bool) -> Iterator[Record]:
         yield from _loading(contact, fractions, found)
         yield Doing(f"{contact.name}: unloading and reloading")
         yield from turned(contact)
+        yield from cycled(contact)
     yield Table("First loading: errors over the largest value", ("contact", "Q/fP", "shear", "slip", "half-width of the stick zone"), rows)
     yield Doing("bulk stress")
     yield from bulk()
@@ -160,6 +161,10 @@ def turned(contact: Contact) -> Iterator[Record]:
                 named="the shear at the first turning point",
                 high=BAR,
             )
+
+
+def cycled(contact: Contact) -> Iterator[Claim]:
+    """Q to and fro between ± 0.8 fP: what is lost in it, and that it closes."""
     Q = TURNS[0] * FP
     cycle = sie.follow(contact.scene(), sie.Path([(P, Q), (P, -Q), (P, Q)]))
     given = contact.given | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
@@ -174,6 +179,7 @@ def turned(contact: Contact) -> Iterator[Record]:
         named="with that of the first loading",
         high=BAR_OF_SLIP,
     )
+    x = cycle[0].half_width * PLACES
     peak = float(np.abs(cycle[0].shear(x)).max())
     yield checked(
         lambda k: float(np.abs(cycle[k].shear(x) - cycle[0].shear(x)).max()) / peak,
