@@ -32,8 +32,8 @@ Exponent = float | complex
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
-FAINT = 0.25
-PHASE = 4.0 * EPS
+FAINT = 0.25  # exponents below it: cosec(πα) > √2, and what it multiplies is to cancel by formula
+PHASE = 4.0 * EPS  # an imaginary part of a/b below it is rounding of constants of one phase
 MOST_STEPS = 20_000  # of the continued fraction: it is asked only where a series of that many terms would grow
 
 
