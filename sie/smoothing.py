@@ -100,14 +100,14 @@ class _Problem:
         return float(n * (misfit @ misfit) / (n - basis.trace(lam)) ** 2)
 
     def spline(self, lam: float) -> tuple[Array, Array]:
-        from scipy.interpolate import BSpline, PPoly  # noqa: PLC0415
+        from scipy.interpolate import BSpline  # noqa: PLC0415
 
         if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
             return self.x, _reinsch(self.at, self.h, lam) / self.length ** np.arange(4.0)
         basis = self.basis(lam)
-        pieces = PPoly.from_spline(BSpline(basis.knots, basis.coefficients(lam), 3)).c[:, 3:-3]
-        c: Array = pieces.T[:, ::-1] / self.length ** np.arange(4.0)
-        return self.x[basis.chosen], c
+        knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
+        c = _pieces(knots, spline(knots), spline(knots, 2))
+        return self.x[basis.chosen], c / self.length ** np.arange(4.0)
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:
@@ -127,10 +127,18 @@ def _reinsch(x: Array, h: Array, lam: float) -> Array:
     f = h.copy()
     for entries, at in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
         f[at] -= lam * entries * gamma
-    # Both pieces at a point take the same slope there, to the last digit: a jump of h' would be a corner of the indenter
-    second = np.concatenate(([0.0], gamma, [0.0]))
+    return _pieces(x, f, np.concatenate(([0.0], gamma, [0.0])))
+
+
+def _pieces(x: Array, f: Array, second: Array) -> Array:
+    """Coefficients about the left end of each piece of the cubic spline with these values and second derivatives at its knots.
+
+    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a corner of the indenter.
+    """
+    step = np.diff(x)
     chord = np.diff(f) / step
-    slope = np.append(chord - step * (2.0 * second[:-1] + second[1:]) / 6.0, chord[-1] + step[-1] * second[-2] / 6.0)
+    last = chord[-1] + step[-1] * (second[-2] + 2.0 * second[-1]) / 6.0
+    slope = np.append(chord - step * (2.0 * second[:-1] + second[1:]) / 6.0, last)
     excess = slope[:-1] + slope[1:] - 2.0 * chord
     return np.stack((f[:-1], slope[:-1], (chord - slope[:-1] - excess) / step, excess / (step * step)), axis=1)
 
