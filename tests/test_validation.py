@@ -265,14 +265,17 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
         assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
 
 
-def test_times_in_turns_tell_three_times_the_work():
-    work = np.random.default_rng(1).random(20_000)
+def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
+    """On a clock that only the two programs move; every third call is disturbed."""
+    now, calls = [0.0], [0]
+    monkeypatch.setattr("validation.timing.time.perf_counter", lambda: now[0])
 
-    def once():
-        np.sort(work)
+    def work(seconds):
+        calls[0] += 1
+        now[0] += seconds * (1.0 + 5.0 * (calls[0] % 3 == 0))
 
-    one, eight = medians((once, lambda: [once() for _ in range(8)]), 0.2)
-    assert 3 < eight / one < 20
+    one, eight = medians((lambda: work(1e-3), lambda: work(8e-3)), 0.5)
+    assert (one, eight) == (pytest.approx(1e-3), pytest.approx(8e-3))
 
 
 # -- the page -------------------------------------------------------------------------------------------------------------
@@ -406,12 +409,10 @@ def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
 
 def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
     monkeypatch.setattr("validation.running.os.cpu_count", lambda: 2)
-    begun = time.perf_counter()
     with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
-        for _ in range(4):
-            pool.submit(time.sleep, 60.0)
+        left = [pool.submit(time.sleep, 60.0) for _ in range(4)]
         raise KeyboardInterrupt
-    assert time.perf_counter() - begun < 30.0
+    assert not [future for future in left if future.done() and not future.cancelled() and future.exception() is None]
 
 
 def test_topics_beside_each_other_find_what_they_find_alone():
