@@ -20,7 +20,8 @@ ORDER = (
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
-    "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "abscissae", "entries", "scenefile", "compare", "grid",
+    "solution", "ladder", "path", "history", "fretting", "charts", "workers", "sweep",
+    "abscissae", "entries", "scenefile", "compare", "grid",
     "export", "summary", "files", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip
 
