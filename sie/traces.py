@@ -16,10 +16,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import files
+
 Array = NDArray[np.float64]
 Column = int | str
 
 FORMATS = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")  # read as text; all others are SurfaceTopography's
+MOST_BYTES, MOST_LINES = 16 * 10**6, 10**5
 NAMED = 5  # lines that a message names
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "inf", "-inf", "+inf", "bad", "*****"}
 
@@ -59,6 +62,7 @@ def header_of(path: str | Path, skip: int = 0) -> tuple[list[str], int]:
 def read_topography(path: str | Path) -> tuple[Array, Array]:
     """A line scan in any format that SurfaceTopography knows; lengths and heights in the unit of the file's lengths."""
     path = Path(path)
+    files.content(path, MOST_BYTES)
     try:
         import SurfaceTopography  # noqa: PLC0415 -- an extra
     except ImportError:
@@ -107,7 +111,9 @@ def _first_row(split: list[list[str]], separator: str) -> int | None:
 
 
 def _text(path: Path) -> str:
-    data = path.read_bytes()
+    data = files.content(path, MOST_BYTES)
+    if data.count(b"\n") > MOST_LINES:
+        raise ValueError(f"{path.name} has more than {MOST_LINES} lines: thin the trace out, by every tenth point for instance")
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
         try:
             text = data.decode(encoding)
