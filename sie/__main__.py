@@ -63,6 +63,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         _forget_output()
         _complain(" ".join(_sentence(problem).split()))
         return REFUSED
+    except MemoryError:
+        _forget_output()
+        _complain("the memory does not suffice: ask for fewer points, or thin out what is read")
+        return REFUSED
     finally:
         quiet.outside()
 

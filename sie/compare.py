@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from .entries import nearest
 from .solution import Solution
-from .traces import header_of, read_columns
+from .traces import MESH, header_of, read_columns
 
 Array = NDArray[np.float64]
 
@@ -154,7 +154,7 @@ class Comparison:
 def read_mesh(path: str | Path) -> Mesh:
     """The columns x, y and whatever of QUANTITIES the header names; without a header the first two are x and p."""
     path = Path(path)
-    header, width = header_of(path)
+    header, width = header_of(path, most=MESH)
     names = [NAMES.get(name, name) for name in header] or ["x", "p"]
     known = [name for name in names[:width] if name in ("x", "y", *QUANTITIES)]
     found = [name for name in known if name in QUANTITIES]
@@ -164,7 +164,7 @@ def read_mesh(path: str | Path) -> Mesh:
         raise ValueError(
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
-    columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known)), strict=True))
+    columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known), most=MESH), strict=True))
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
     passed = names[:width] if header else [*names, *map(str, range(len(names), width))]

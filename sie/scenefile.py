@@ -130,7 +130,7 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
     try:
         return _scene_file(table, folder)
     except ValueError as problem:
-        raise SceneFileError(f"{name}: {problem}") from None
+        raise SceneFileError(f"{name}: {entries.told(problem)}") from None
 
 
 def _decoded(data: bytes, name: str) -> str:
@@ -292,7 +292,9 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
         return Sampled.read(folder / path, **options)
     except OSError as problem:
         why = "there is no such file" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
-        raise ValueError(f'path = "{path}" is not read, {why}: give the trace\'s file, from where the scene file is') from None
+        raise ValueError(
+            f'path = "{entries.shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
+        ) from None
 
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:

@@ -156,7 +156,7 @@ def test_what_is_no_ordinary_file_is_refused_in_a_sentence(role, kind, said, fol
 
 def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, capsys):
     Path("trace.csv").write_text("0 0\n" * 200_000)
-    assert "thin the trace out" in refused(["solve", "scene.toml"], capsys)
+    assert "thin the points out" in refused(["solve", "scene.toml"], capsys)
 
 
 @posix
