@@ -396,6 +396,15 @@ def test_a_device_is_written_to_and_not_replaced(scene):
     assert Path("/dev/null").is_char_device()
 
 
+def test_exhausted_memory_is_told_in_a_sentence(scene, monkeypatch, capsys):
+    def exhausted(*args, **kwargs):
+        raise MemoryError
+
+    monkeypatch.setattr(command, "solve", exhausted)
+    assert main(["solve", scene]) == 2
+    assert "memory" in sentence(capsys)
+
+
 def test_an_interruption_is_exit_code_130(scene, monkeypatch, capsys):
     def interrupted(*args, **kwargs):
         raise KeyboardInterrupt
