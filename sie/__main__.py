@@ -326,7 +326,14 @@ def _arguments(argv: Sequence[str]) -> argparse.Namespace:
         near = nearest(unknown[0], OPTIONS)
         remedy = f"did you mean {near}?" if near else f"`sie {found.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
+    words = getattr(found, "want", None) or []
+    if len(words) > 1 and found.scene is None and _names_a_scene(words[-1]):
+        found.scene = words.pop()  # --want takes all words that follow it, a scene after them too
     return found
+
+
+def _names_a_scene(word: str) -> bool:
+    return word not in WANTS and (word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word))
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -118,6 +118,23 @@ def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
     assert {name for name, mark in marks.items() if mark in out} == {want}
 
 
+@pytest.mark.parametrize("name", ["scene.toml", "punch"])
+@pytest.mark.parametrize("before", [["--want", "edges"], ["--tol", "1e-9", "--want", "edges", "check"], ["--want", "edges,check"]])
+@pytest.mark.parametrize("word", ["solve", "plan"])
+def test_the_scene_may_follow_what_is_wanted(word, before, name, scene, capsys):
+    if word == "plan":
+        before = [option for option in before if option not in ("--tol", "1e-9")]
+    Path(scene).rename(name)
+    assert main([word, name, *before]) == 0
+    expected = capsys.readouterr()
+    assert main([word, *before, name]) == 0
+    assert capsys.readouterr() == expected
+
+
+def test_a_scene_from_standard_input_may_follow_what_is_wanted():
+    assert run("solve", "--want", "edges", "-", input=scenefile.example("wedge")).returncode == 0
+
+
 def test_wanting_the_edges_of_a_convex_profile_computes_no_pressure(scene, solved, capsys):
     main(["solve", scene, "--want", "edges"])
     assert "normal" in vars(solved[0]) and "pressure" not in vars(solved[0])
