@@ -28,7 +28,7 @@ from typing import Any, NoReturn
 from . import __version__, export, files, quiet, scenefile
 from .abscissae import POINTS
 from .compare import Comparison, compare, read_mesh
-from .entries import nearest
+from .entries import nearest, told
 from .errors import ContactError
 from .grid import SIZE, SUFFIXES, Grid, file_bytes
 from .history import follow
@@ -61,7 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except (ValueError, ContactError, OSError) as problem:
         _forget_output()
-        _complain(" ".join(_sentence(problem).split()))
+        _complain(" ".join(told(_sentence(problem)).split()))
         return REFUSED
     except MemoryError:
         _forget_output()

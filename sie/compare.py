@@ -64,6 +64,7 @@ NAMES = {
 FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
+LARGEST = 1e100  # of a column: no length or stress, and its square is finite
 FACTORS = 0.5, 2.0  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
 
 
@@ -165,6 +166,10 @@ def read_mesh(path: str | Path) -> Mesh:
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
     columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known), most=MESH), strict=True))
+    for name, values in columns.items():
+        largest = float(np.abs(values).max())
+        if largest > LARGEST:
+            raise ValueError(f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines")
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
     passed = names[:width] if header else [*names, *map(str, range(len(names), width))]

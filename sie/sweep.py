@@ -286,6 +286,8 @@ def _values(solution: Solution, wanted: dict[str, Any]) -> dict[str, Any]:
 
 
 def _floats(name: str, value: Any) -> Any:
+    if type(value) is float:
+        return np.float64(value)
     try:
         array = np.asarray(value)
         if array.dtype.kind in "biuf":

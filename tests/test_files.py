@@ -154,6 +154,19 @@ def test_what_is_no_ordinary_file_is_refused_in_a_sentence(role, kind, said, fol
     assert said in refused(["compare", "scene.toml", name] if role == "mesh" else argv, capsys)
 
 
+@pytest.mark.parametrize("column", [0, 1, 2])
+def test_a_mesh_with_marks_for_missing_values_is_refused(column, folder, capsys):
+    rows = [[0.1 * k, 0.0, 1.0] for k in range(-5, 6)]
+    rows[3][column] = 1e300
+    Path("mesh.csv").write_text("x,y,p\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+    assert "1e+300" in refused(["compare", "scene.toml", "mesh.csv"], capsys)
+
+
+def test_a_header_as_long_as_a_file_is_told_in_short(folder, capsys):
+    Path("mesh.csv").write_text("x" * 10**6 + ",p\n0,1\n0.1,2\n")
+    assert len(refused(["compare", "scene.toml", "mesh.csv"], capsys)) < 500
+
+
 def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, capsys):
     Path("trace.csv").write_text("0 0\n" * 200_000)
     assert "thin the points out" in refused(["solve", "scene.toml"], capsys)
