@@ -45,6 +45,8 @@ OPTIONS = ("--want", "--plot", "--csv", "--json", "--field", "--grid", "--points
 STANDARD = "-"
 MOST_POINTS = 10**6
 TOL = 1e-13
+# Letters that are printed at once. Of what is not buffered, Python passes over an error in the midst of one piece.
+PIECE = 4096
 # For a terminal without block elements.
 PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)}
 
@@ -279,7 +281,9 @@ def _print(text: str) -> None:
         text.encode(encoding)
     except UnicodeEncodeError:
         text = text.translate(PLAIN).encode(encoding, "replace").decode(encoding)
-    print(text, end="", flush=True)
+    for start in range(0, len(text), PIECE):
+        print(text[start : start + PIECE], end="")
+    sys.stdout.flush()
 
 
 def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:

@@ -250,6 +250,17 @@ def test_a_reader_who_leaves_early_is_exit_code_141(argv, folder):
 
 
 @posix
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_who_leaves_in_the_midst_is_exit_code_141(unbuffered, folder):
+    command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--points", "20000", "--csv", "-"]
+    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.readline()
+        process.stdout.close()
+        assert (process.wait(), process.stderr.read()) == (141, b"")
+
+
+@posix
 def test_a_reader_who_leaves_early_costs_no_file_and_is_told_of_devices_too(folder):
     read, write = os.pipe()
     os.close(read)
