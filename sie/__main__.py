@@ -8,7 +8,8 @@
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output (--csv, --json).
 
 Exit codes: 0 solved; 1 solved, but the certificate is not met, or the mesh result differs by more than --tol; 2 refused, with one sentence
-on standard error and no file touched; 130 interrupted; 141 nobody reads the output any more.
+on standard error and no file touched; 130 interrupted; 141 nobody reads the output any more (what was to be written to files is there).
+No file that a scene or a command reads is ever written to.
 """
 
 from __future__ import annotations
