@@ -101,9 +101,9 @@ class SceneFile:
 def read(path: str | pathlib.Path) -> SceneFile:
     """The scene in a TOML file. Raises SceneFileError if there is none."""
     path = pathlib.Path(path)
-    if path.is_fifo():
-        raise SceneFileError(f"{path} is a pipe: give a file, or send the scene to standard input and give -")
     try:
+        if path.is_fifo():
+            raise ValueError(f"{path} is a pipe: give a file, or send the scene to standard input and give -")
         data = files.content(path, MOST_BYTES)
     except ValueError as problem:
         raise SceneFileError(str(problem)) from None

@@ -316,7 +316,7 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[
         array = np.full((len(answers), *inner), np.nan)
         for k, (values, _) in enumerate(answers):
             if name in values:
-                place: Any = (k, *(slice(n) for n in values[name].shape))
+                place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
                 array[place] = values[name]
         data[name] = array.reshape(shape + inner)
     reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
