@@ -34,11 +34,11 @@ from .superposition import scaled
 
 Array = NDArray[np.float64]
 
+_SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment", "epsilon", "bonded"})
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
 _SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "sliding", "bulk_stress"}
 _STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
 _STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
