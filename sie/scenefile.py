@@ -125,10 +125,10 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         raise SceneFileError(f"{name} is not TOML: {problem}; `sie example` prints files that are") from None
+    except ValueError:  # Python's own limit
+        raise SceneFileError(f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3") from None
     except RecursionError:
         raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
-    except ValueError:  # Python reads no integer of more than 4300 digits
-        raise SceneFileError(f"{name} has an integer of thousands of digits: write numbers like 2.1e5") from None
     try:
         return _scene_file(table, folder)
     except ValueError as problem:
