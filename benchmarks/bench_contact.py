@@ -50,6 +50,13 @@ def test_partial_slip(benchmark):
     benchmark(lambda: sie.solve(question).shear(X))
 
 
+@pytest.mark.parametrize("scenes", [1000, 8000])
+def test_sweep_on_one_core(benchmark, scenes):
+    """Eight times the scenes take eight times as long."""
+    over = {"normal_load": np.linspace(0.1, 0.4, scenes)}
+    benchmark(lambda: sie.sweep(scene(PROFILES["rounded flat"]), over=over))
+
+
 def test_stress_on_a_grid(benchmark):
     solution = sie.solve(scene(PROFILES["rounded flat"], friction=0.5, sliding=1))
     x, y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]

@@ -28,6 +28,7 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
+from . import quiet as quiet
 from .density import ZERO, Density
 from .equation import CauchyEquation
 from .errors import ContactError, InequalityError, LoadError, ResolutionError

@@ -8,7 +8,8 @@
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output (--csv, --json).
 
 Exit codes: 0 solved; 1 solved, but the certificate is not met, or the mesh result differs by more than --tol; 2 refused, with one sentence
-on standard error and no file touched; 130 interrupted; 141 nobody reads the output any more.
+on standard error and no file touched; 130 interrupted; 141 nobody reads the output any more (what was to be written to files is there).
+No file that a scene or a command reads is ever written to.
 """
 
 from __future__ import annotations
@@ -21,28 +22,32 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import combinations
 from types import ModuleType
 from typing import Any, NoReturn
 
-from . import __version__, export, files, scenefile
+from . import __version__, export, files, quiet, scenefile
 from .abscissae import POINTS
 from .compare import Comparison, compare, read_mesh
-from .entries import nearest
+from .entries import nearest, told
 from .errors import ContactError
 from .grid import SIZE, SUFFIXES, Grid, file_bytes
 from .history import follow
 from .path import Path
 from .plan import UNASKED, WANTS, plan
+from .quiet import INTERRUPTED
 from .scenefile import SceneFile
 from .solution import Solution, solve
 from .summary import summary
 
-CERTIFIED, NOT_CERTIFIED, REFUSED, INTERRUPTED, UNREAD = 0, 1, 2, 130, 141
+CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 COMMANDS = ("solve", "compare", "plan", "example")
 OPTIONS = ("--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol", "--help", "--version")
 STANDARD = "-"
 MOST_POINTS = 10**6
 TOL = 1e-13
+# Letters that are printed at once. Of what is not buffered, Python passes over an error in the midst of one piece.
+PIECE = 4096
 # For a terminal without block elements.
 PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)}
 
@@ -50,12 +55,8 @@ PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│�
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit code, and raises nothing for bad input."""
     try:
-        arguments = _arguments(sys.argv[1:] if argv is None else argv)
-        status: int = arguments.run(arguments)
-        if sys.stdout is not None:
-            sys.stdout.flush()
-    except SystemExit as done:  # --help and --version
-        return int(done.code or 0)
+        quiet.inside()
+        return _run(sys.argv[1:] if argv is None else argv)
     except BrokenPipeError:
         _forget_output()
         return UNREAD
@@ -63,8 +64,24 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except (ValueError, ContactError, OSError) as problem:
         _forget_output()
-        print("sie:", " ".join(_sentence(problem).split()), file=sys.stderr)
+        _complain(" ".join(told(_sentence(problem)).split()))
         return REFUSED
+    except MemoryError:
+        _forget_output()
+        _complain("the memory does not suffice: ask for fewer points, or thin out what is read")
+        return REFUSED
+    finally:
+        quiet.outside()
+
+
+def _run(argv: Sequence[str]) -> int:
+    try:
+        arguments = _arguments(argv)
+        status: int = arguments.run(arguments)
+    except SystemExit as done:  # --help and --version
+        status = int(done.code or 0)
+    if sys.stdout is not None:
+        sys.stdout.flush()
     return status
 
 
@@ -77,15 +94,15 @@ def _solve(arguments: argparse.Namespace) -> int:
     if arguments.grid and not arguments.field:
         raise ValueError("--grid says how many points --field writes: give --field FILE too, with one of the suffixes .csv, .npz, .vti")
     file = _scene(arguments)
+    _refuse_overwriting(arguments, outputs, file)
     solution = _solution(file, arguments.tol)
     contents = {path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()}
     shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
-    files.write_files(contents)
-    _print(text)
+    _give(contents, text)
     if not certified:
-        print(f"sie: the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check", file=sys.stderr)
+        _complain(f"the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check")
     return CERTIFIED if certified else NOT_CERTIFIED
 
 
@@ -99,6 +116,7 @@ def _compare(arguments: argparse.Namespace) -> int:
         raise ValueError("give the mesh result after the scene: sie compare scene.toml fem.csv, with columns x and p")
     outputs = _outputs(arguments)
     file = _scene(arguments)
+    _refuse_overwriting(arguments, outputs, file)
     mesh = read_mesh(arguments.mesh)
     if not arguments.tol > 0.0:
         raise ValueError(f"tol = {arguments.tol:g} is not positive: give the l2 error that is let pass, relative")
@@ -106,8 +124,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     found = compare(solution, mesh, arguments.tol)
     contents = {path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()}
     shown = contents.pop(pathlib.Path(STANDARD), None)
-    files.write_files(contents)
-    _print(shown.decode() if shown is not None else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n")
+    _give(contents, shown.decode() if shown is not None else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n")
     return CERTIFIED if found.ok else NOT_CERTIFIED
 
 
@@ -150,8 +167,14 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
     if arguments.scene is None:
         raise ValueError(f"give the scene file first: sie {arguments.command} scene.toml; `sie example` lists some to start from")
     standard = arguments.scene == STANDARD
-    file = scenefile.parse(sys.stdin.buffer.read(), "standard input") if standard else scenefile.read(arguments.scene)
+    file = scenefile.parse(_standard_input(), "standard input") if standard else scenefile.read(arguments.scene)
     return replace(file, want=want or export.wanted(file))
+
+
+def _standard_input() -> bytes:
+    if sys.stdin is None:
+        raise ValueError("standard input is closed: give the scene a file")
+    return sys.stdin.buffer.read(scenefile.MOST_BYTES + 1)
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
@@ -163,19 +186,34 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
         path = outputs["field"]
         raise ValueError(f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}')
-    taken = {pathlib.Path(arguments.scene).resolve(): "the scene file"} if arguments.scene not in (None, STANDARD) else {}
-    if getattr(arguments, "mesh", None) is not None:
-        taken[pathlib.Path(arguments.mesh).resolve()] = "the mesh result"
-    for kind, path in outputs.items():
-        place = path.resolve()
-        if place in taken and path == pathlib.Path(STANDARD):
+    for (first, path), (second, other) in combinations(outputs.items(), 2):
+        if path == other == pathlib.Path(STANDARD):
             raise ValueError("--csv and --json cannot both go to standard output: give one of them a file")
-        if place in taken:
-            raise ValueError(f"--{kind} {path} would overwrite {taken[place]}: give another name")
-        taken[place] = f"what --{kind} writes"
+        if files.same(_place(path), _place(other)):
+            raise ValueError(f"--{second} {other} would overwrite what --{first} writes: give another name")
+    for path in outputs.values():
         if path != pathlib.Path(STANDARD):
             files.writable(path)
     return outputs
+
+
+def _place(path: pathlib.Path) -> int | pathlib.Path:
+    """What the system knows the file by."""
+    return 1 if path == pathlib.Path(STANDARD) else path
+
+
+def _refuse_overwriting(arguments: argparse.Namespace, outputs: dict[str, pathlib.Path], file: SceneFile) -> None:
+    """ValueError if an output, or what is printed, would go into a file that is read."""
+    scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
+    read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
+    if getattr(arguments, "mesh", None) is not None:
+        read[pathlib.Path(arguments.mesh)] = "the mesh result"
+    read |= dict.fromkeys(file.reads, "a trace that the scene reads")
+    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {"standard output": 1}
+    for place, what in read.items():
+        for name, target in written.items():
+            if os.path.isfile(place) and files.same(target, place):
+                raise ValueError(f"{name} would overwrite {what}: give another name")
 
 
 def _check_picture(path: pathlib.Path) -> None:
@@ -230,18 +268,34 @@ def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
 
+def _complain(sentence: str) -> None:
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):
+            print("sie:", sentence, file=sys.stderr, flush=True)
+
+
 def _print(text: str) -> None:
+    if sys.stdout is None:
+        raise OSError("standard output is closed: send it to a file, or to the null device")
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     try:
         text.encode(encoding)
     except UnicodeEncodeError:
         text = text.translate(PLAIN).encode(encoding, "replace").decode(encoding)
-    print(text, end="")
+    for start in range(0, len(text), PIECE):
+        print(text[start : start + PIECE], end="")
+    sys.stdout.flush()
+
+
+def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:
+    """Write the files and print the text: both, or neither."""
+    with files.writing(contents):
+        _print(text)
 
 
 def _sentence(problem: Exception) -> str:
     if isinstance(problem, OSError) and problem.strerror:
-        return f"{problem.filename or 'output'}: {problem.strerror}"
+        return f"{problem.filename or 'standard output'}: {problem.strerror}"
     return str(problem)
 
 
@@ -258,10 +312,13 @@ def _forget_output() -> None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """argparse, but a mistake is a ValueError instead of a usage message and an exit."""
+    """argparse, but a mistake raises ValueError instead of an exit, and help that cannot be printed OSError."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}; `{self.prog} --help` explains")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        _print(message)
 
 
 def _arguments(argv: Sequence[str]) -> argparse.Namespace:
@@ -274,7 +331,14 @@ def _arguments(argv: Sequence[str]) -> argparse.Namespace:
         near = nearest(unknown[0], OPTIONS)
         remedy = f"did you mean {near}?" if near else f"`sie {found.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
+    words = getattr(found, "want", None) or []
+    if len(words) > 1 and found.scene is None and _names_a_scene(words[-1]):
+        found.scene = words.pop()  # --want takes all words that follow it, a scene after them too
     return found
+
+
+def _names_a_scene(word: str) -> bool:
+    return word not in WANTS and (word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word))
 
 
 def _parser() -> argparse.ArgumentParser:

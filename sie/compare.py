@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from .entries import nearest
 from .solution import Solution
-from .traces import header_of, read_columns
+from .traces import MESH, header_of, read_columns
 
 Array = NDArray[np.float64]
 
@@ -64,6 +64,7 @@ NAMES = {
 FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
+LARGEST = 1e100  # of a column: no length or stress, and its square is finite
 FACTORS = 0.5, 2.0  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
 
 
@@ -154,7 +155,7 @@ class Comparison:
 def read_mesh(path: str | Path) -> Mesh:
     """The columns x, y and whatever of QUANTITIES the header names; without a header the first two are x and p."""
     path = Path(path)
-    header, width = header_of(path)
+    header, width = header_of(path, most=MESH)
     names = [NAMES.get(name, name) for name in header] or ["x", "p"]
     known = [name for name in names[:width] if name in ("x", "y", *QUANTITIES)]
     found = [name for name in known if name in QUANTITIES]
@@ -164,7 +165,11 @@ def read_mesh(path: str | Path) -> Mesh:
         raise ValueError(
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
-    columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known)), strict=True))
+    columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known), most=MESH), strict=True))
+    for name, values in columns.items():
+        largest = float(np.abs(values).max())
+        if largest > LARGEST:
+            raise ValueError(f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines")
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
     passed = names[:width] if header else [*names, *map(str, range(len(names), width))]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
 Reader = Callable[[str, Any], Any]
+LONGEST = 60  # letters of a value that are shown
 
 
 def number(where: str, value: Any) -> float:
@@ -39,6 +41,8 @@ def listed(where: str, value: Any) -> list[Any]:
 
 
 def numbers(where: str, value: Any) -> tuple[float, ...]:
+    if isinstance(value, list) and all(type(v) is float for v in value):
+        return tuple(value)  # a trace, without a name for each of its numbers
     return tuple(number(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
@@ -65,7 +69,9 @@ def whole(where: str, value: Any) -> int:
 
 
 def columns(where: str, value: Any) -> tuple[int | str, ...]:
-    return tuple(v if isinstance(v, str) else whole(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
+    if len(listed(where, value)) != 2:
+        raise ValueError(f"{where} = {shown(value)} is not a pair: give the columns of x and of h")
+    return tuple(v if isinstance(v, str) else whole(f"{where}[{k}]", v) for k, v in enumerate(value))
 
 
 def table(where: str, value: Any) -> dict[str, Any]:
@@ -78,9 +84,20 @@ def table(where: str, value: Any) -> dict[str, Any]:
 
 def shown(value: Any) -> str:
     """A value as TOML writes it, shortened."""
-    text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
-    text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
+    try:
+        text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
+    except ValueError:  # Python writes no integer of more than 4300 digits
+        text = "an integer of thousands of digits"
+    return shortened(" ".join(text.split()))
+
+
+def shortened(text: str) -> str:
+    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+
+
+def told(sentence: object) -> str:
+    """A sentence without words that nobody reads: a key or a formula may be as long as a file."""
+    return re.sub(r"\S{256,}", lambda word: shortened(word[0]), str(sentence))
 
 
 # -- names that are not known ------------------------------------------------------------------------------------------
@@ -92,6 +109,8 @@ def nearest(name: str, known: Iterable[str]) -> str:
     >>> nearest("normal_laod", ["normal_load", "tangential_load"])
     'normal_load'
     """
+    if len(name) > LONGEST:
+        return ""
     by_letters = {k.lower().replace("_", "-"): k for k in known}
     found = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
     return by_letters[found[0]] if found else ""

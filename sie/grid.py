@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import base64
 import io
+import re
 import sys
 from dataclasses import dataclass
 from functools import cached_property
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,8 @@ COMPONENTS = ("xx", "yy", "xy", "zz", "j2")
 SIZE = (201, 101)
 # The window: beside the contact and in depth, in half-widths.
 BESIDE, DEPTH = 1.0, 2.0
+# Characters that no XML text may contain, in whatever form (XML 1.0, production 2).
+FORBIDDEN = "[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +60,12 @@ def file_bytes(grid: Grid, suffix: str, head: tuple[str, ...] = ()) -> bytes:
     writers = {"csv": _csv, "npz": _npz, "vti": _vti}
     if suffix not in writers:
         raise ValueError(f'a grid cannot be written as ".{suffix}": choose .{", .".join(SUFFIXES)}')
-    return writers[suffix](grid, head)
+    return writers[suffix](grid, tuple(map(_one_line, head)))
+
+
+def _one_line(text: str) -> str:
+    """The text without line ends, and without characters that UTF-8 or XML does not have."""
+    return " ".join(re.sub(FORBIDDEN, "\ufffd", text).splitlines())
 
 
 def _csv(grid: Grid, head: tuple[str, ...]) -> bytes:
@@ -82,9 +89,9 @@ def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
     extent = f"0 {grid.nx - 1} 0 {grid.ny - 1} 0 0"
     spacing = " ".join(repr(float(v[1] - v[0])) for v in (grid.x, grid.y))
     order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
-    about = quoteattr("; ".join(head)).replace("--", "- -")
+    about = re.sub("-(?=-|$)", "- ", "; ".join(head))  # a comment has no two hyphens in a row, and none at its end
     return f"""<?xml version="1.0"?>
-<!-- about={about} -->
+<!-- {about} -->
 <VTKFile type="ImageData" version="1.0" byte_order="{order}" header_type="UInt64">
   <ImageData WholeExtent="{extent}" Origin="{float(grid.x[0])!r} 0.0 0.0" Spacing="{spacing} 1.0">
     <Piece Extent="{extent}">

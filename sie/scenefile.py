@@ -29,13 +29,14 @@ from __future__ import annotations
 
 import codecs
 import pathlib
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
 
-from . import entries
+from . import entries, files
 from .indenters import profile_kinds
 from .material import RIGID, Body, Elastic
 from .path import Path
@@ -70,17 +71,28 @@ class Units:
 
 UNITS = Units()
 HERE = pathlib.Path()
+# A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
+MOST_BYTES = 10**6
+# Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene needs three.
+DEEPEST = 20
+# What is not closed ends with the line, or with the file: so each character is looked at once.
+_STRING_OR_COMMENT = re.compile(
+    r'"{3}(?:\\.|[^\\])*?(?:"{3,5}|\Z)' "|" r"'{3}.*?(?:'{3,5}|\Z)" "|"
+    r'"(?:\\.|[^"\\\n])*+"?' "|" r"'[^'\n]*+'?" "|" r"#[^\n]*+", re.DOTALL,
+)  # fmt: skip
+_DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST}}}")
 
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file holds; `want` is empty where the file leaves it to the asker."""
+    """What a scene file holds; `want` is empty where the file leaves it to the asker, `reads` are the files that it names."""
 
     scene: Scene
     title: str = ""
     units: Units = UNITS
     want: tuple[str, ...] = ()
     path: tuple[tuple[float, float, float], ...] = ()
+    reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
 
 # -- reading -----------------------------------------------------------------------------------------------------------
@@ -89,28 +101,38 @@ class SceneFile:
 def read(path: str | pathlib.Path) -> SceneFile:
     """The scene in a TOML file. Raises SceneFileError if there is none."""
     path = pathlib.Path(path)
-    if path.is_dir():
-        raise SceneFileError(f"{path} is a directory: give a scene file, like scene.toml")
     try:
-        return parse(path.read_bytes(), path.name, path.parent)
+        if path.is_fifo():
+            raise ValueError(f"{path} is a pipe: give a file, or send the scene to standard input and give -")
+        data = files.content(path, MOST_BYTES)
+    except ValueError as problem:
+        raise SceneFileError(str(problem)) from None
     except FileNotFoundError:
         raise SceneFileError(f"{path} does not exist: write one with  sie example rounded-flat > {path.name}") from None
     except OSError as problem:
         raise SceneFileError(f"{path} cannot be read ({problem.strerror}): give a readable scene file") from None
+    return parse(data, path.name, path.parent)
 
 
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
     """The scene in a TOML text; `name` is what messages call it, `folder` where the files are that it names. Raises SceneFileError."""
+    if len(text) > MOST_BYTES:
+        raise SceneFileError(f"{name} has more than {MOST_BYTES / 1e6:g} MB: put a trace in a file of its own, as path")
+    text = text if isinstance(text, str) else _decoded(text, name)
     try:
-        table = tomllib.loads(text if isinstance(text, str) else _decoded(text, name))
+        if _DEEP_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
+            raise RecursionError
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         raise SceneFileError(f"{name} is not TOML: {problem}; `sie example` prints files that are") from None
+    except ValueError:  # Python's own limit
+        raise SceneFileError(f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3") from None
     except RecursionError:
         raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
     try:
         return _scene_file(table, folder)
     except ValueError as problem:
-        raise SceneFileError(f"{name}: {problem}") from None
+        raise SceneFileError(f"{name}: {entries.told(problem)}") from None
 
 
 def _decoded(data: bytes, name: str) -> str:
@@ -196,6 +218,7 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
         units=Units(**_taken("units", top.get("units", {}))),
         want=wants("want", entries.texts("want", top.get("want", []))),
         path=path,
+        reads=tuple(folder / term["path"] for term in (top["profile"], *top["profile"].get("plus", ())) if "path" in term),
     )
 
 
@@ -271,7 +294,9 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
         return Sampled.read(folder / path, **options)
     except OSError as problem:
         why = "there is no such file" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
-        raise ValueError(f'path = "{path}" is not read, {why}: give the trace\'s file, from where the scene file is') from None
+        raise ValueError(
+            f'path = "{entries.shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
+        ) from None
 
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:

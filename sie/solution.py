@@ -34,6 +34,7 @@ from .superposition import scaled
 
 Array = NDArray[np.float64]
 
+_SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment", "epsilon", "bonded"})
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
@@ -297,10 +298,9 @@ class Solution:
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
-        known = {f.name for f in fields(Scene)}
         for name in changes:
-            if name not in known:
-                raise ValueError(f"{name} is not a field of a scene: change {', '.join(sorted(known))}")
+            if name not in _SCENE_FIELDS:
+                raise ValueError(f"{name} is not a field of a scene: change {', '.join(sorted(_SCENE_FIELDS))}")
         for one, other in (("normal_load", "half_width"), ("tilt", "moment")):
             for given, replaced in ((one, other), (other, one)):
                 if changes.get(given) is not None and replaced not in changes:
@@ -309,8 +309,7 @@ class Solution:
             changes = {"body": None, "indenter": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        changed = {name for name in known if getattr(new.scene, name) != getattr(self.scene, name)}
-        changed |= {name for name in ("epsilon", "bonded") if getattr(new.scene, name) != getattr(self.scene, name)}
+        changed = {name for name in (*changes, "epsilon", "bonded") if getattr(new.scene, name) != getattr(self.scene, name)}
         if self.scene.bonded and changed & _SHEAR_FIELDS:
             changed.add("bonded")
         kept = [stage for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs]

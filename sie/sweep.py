@@ -13,10 +13,12 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from contextlib import closing
-from dataclasses import fields, replace
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future
+from contextlib import closing, suppress
+from dataclasses import dataclass, field, fields, replace
+from functools import partial
 from operator import attrgetter
 from typing import Any, NamedTuple, cast
 
@@ -25,6 +27,7 @@ import numpy as np
 from .errors import ContactError
 from .scene import Scene
 from .solution import Solution, solve
+from .workers import outcomes
 
 Point = dict[str, Any]
 Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("" if there are)
@@ -108,18 +111,17 @@ def sweep(
     points = list(_points(axes))
     size = _chunk_size(chunk, len(points), executor)
     chunks = [points[i : i + size] for i in range(0, len(points), size)]
-    found: dict[int, list[Answer]] = {}
-    bar = _Progress(len(points), progress)
+    run = _Run(Work(scene, wanted, tol), chunks, _Progress(len(points), progress))
     try:
-        with closing(_answered(Work(scene, wanted, tol), chunks, executor, found)) as answered:
-            for k, answers in answered:
-                found[k] = answers
-                bar.show(sum(map(len, found.values())))
+        if executor is None:
+            run.here()
+        else:
+            run.through(executor)
     except KeyboardInterrupt:
-        raise Interrupted(_labelled(axes, wanted, chunks, found)) from None
+        raise Interrupted(_labelled(axes, wanted, run.answers())) from None
     finally:
-        bar.clear()
-    return _labelled(axes, wanted, chunks, found)
+        run.bar.clear()
+    return _labelled(axes, wanted, run.answers())
 
 
 # -- the grid ----------------------------------------------------------------------------------------------------------
@@ -129,7 +131,8 @@ def _axes(scene: Scene | Callable[..., Scene], over: Mapping[str, Sequence[Any]]
     if not over:
         raise ValueError('nothing to sweep over: give over = {"normal_load": [...], ...}')
     for name, values in over.items():
-        if isinstance(values, str) or not hasattr(values, "__len__") or not len(values):
+        unsized = isinstance(values, str) or not hasattr(values, "__len__")
+        if unsized or getattr(values, "ndim", 1) == 0 or not len(values):
             raise ValueError(f"over {name} = {values!r} holds no values: give a sequence of them")
         if isinstance(scene, Scene):
             _check_name(scene, name)
@@ -164,13 +167,16 @@ def _chunk_size(chunk: int | None, points: int, executor: Executor | None) -> in
 
 
 def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str | Wanted]:
-    if isinstance(want, Mapping):
-        return dict(want)
-    names = (want,) if isinstance(want, str) else tuple(want)
-    for name in names:
-        if name not in QUANTITIES:
-            raise ValueError(f'want "{name}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution')
-    return {name: name for name in names}
+    names = (want,) if isinstance(want, str) else want
+    wanted = dict(want) if isinstance(want, Mapping) else {name: name for name in names}
+    for name, quantity in wanted.items():
+        if not callable(quantity) and quantity not in QUANTITIES:
+            raise ValueError(
+                f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution'
+            )
+        if name == "reason":
+            raise ValueError('want "reason" is what a sweep calls why a point has no answer: give the quantity another name')
+    return wanted
 
 
 # -- the work ----------------------------------------------------------------------------------------------------------
@@ -184,35 +190,51 @@ class Work(NamedTuple):
     tol: float
 
 
-def _answered(
-    work: Work, chunks: list[list[Point]], executor: Executor | None, found: dict[int, list[Answer]]
-) -> Generator[tuple[int, list[Answer]]]:
-    """(number of a chunk, its answers), in the order in which they are ready; what an interruption leaves goes to `found`."""
-    if executor is None:
+@dataclass
+class _Run:
+    """The chunks of a sweep and what was found of them, also where it was interrupted."""
+
+    work: Work
+    chunks: list[list[Point]]
+    bar: _Progress
+    found: dict[int, list[Answer]] = field(default_factory=dict)
+
+    def here(self) -> None:
         last: Solution | None = None
-        for k, chunk in enumerate(chunks):
-            found[k] = []
-            last = _answer_into(found[k], work, chunk, last)
-            yield k, found[k]
-        return
-    pending: dict[Future[list[Answer]], int] = {executor.submit(answers_of, work, chunk): k for k, chunk in enumerate(chunks)}
-    try:
-        while pending:
-            for future in wait(pending, return_when=FIRST_COMPLETED)[0]:
-                k = pending.pop(future)
-                yield k, _chunk_result(future, len(chunks[k]))
-    finally:
-        for future, k in pending.items():
-            if not future.cancel() and future.done():
-                found[k] = _chunk_result(future, len(chunks[k]))
+        for k, chunk in enumerate(self.chunks):
+            self.found[k] = []
+            last = _answer_into(self.found[k], self.work, chunk, last)
+            self.bar.advance(len(chunk))
 
+    def through(self, executor: Executor) -> None:
+        left: dict[int, Future[list[Answer]]] = {}
+        try:
+            task, chunks = partial(answers_of, self.work), dict(enumerate(self.chunks))
+            with closing(outcomes(task, chunks, executor, left)) as done:
+                for k, future in done:
+                    self._keep(k, future)
+                    self.bar.advance(len(self.chunks[k]))
+        finally:
+            for k, future in left.items():
+                self._keep(k, future)
 
-def _chunk_result(future: Future[list[Answer]], points: int) -> list[Answer]:
-    """The answers of a chunk, or why there are none: a worker that died, or functions that cannot be sent to another process."""
-    try:
-        return future.result()
-    except Exception as problem:  # whatever an executor raises
-        return [({}, _reason(problem))] * points
+    def _keep(self, k: int, future: Future[list[Answer]]) -> None:
+        """The answers of a chunk, or why there are none.
+
+        A process may have died, or a function could not be sent to another process.
+        """
+        try:
+            self.found[k] = future.result()
+        except Exception as problem:  # whatever an executor raises
+            self.found[k] = [({}, _reason(problem))] * len(self.chunks[k])
+
+    def answers(self) -> list[Answer]:
+        """One for each point."""
+        answers: list[Answer] = []
+        for k, chunk in enumerate(self.chunks):
+            have = self.found.get(k, [])
+            answers += [*have, *[({}, "interrupted")] * (len(chunk) - len(have))]
+        return answers
 
 
 def answers_of(work: Work, chunk: list[Point]) -> list[Answer]:
@@ -235,6 +257,11 @@ def _answer_into(answers: list[Answer], work: Work, chunk: list[Point], last: So
 
 def _reason(problem: Exception) -> str:
     """The sentence that says why; of what is not ours, its kind too."""
+    if isinstance(problem, BrokenExecutor):
+        return (
+            "the process that computed this chunk died: its memory was exhausted, or a function that is "
+            "wanted crashed; ask for these points alone, or with a smaller chunk"
+        )
     return str(problem) if isinstance(problem, (ContactError, ValueError)) else f"{type(problem).__name__}: {problem}"
 
 
@@ -255,17 +282,26 @@ def _values(solution: Solution, wanted: dict[str, Any]) -> dict[str, Any]:
     for name, quantity in wanted.items():
         value = (QUANTITIES[quantity] if isinstance(quantity, str) else quantity)(solution)
         values |= value if isinstance(value, Mapping) else {name: value}
-    return {name: np.asarray(value, dtype=float) for name, value in values.items()}
+    return {name: _floats(name, value) for name, value in values.items()}
+
+
+def _floats(name: str, value: Any) -> Any:
+    if type(value) is float:
+        return np.float64(value)
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind in "biuf":
+            return array.astype(float)
+    except ValueError:  # lists of unequal lengths
+        pass
+    raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")
 
 
 # -- the result --------------------------------------------------------------------------------------------------------
 
 
-def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], chunks: list[list[Point]], found: dict[int, list[Answer]]) -> Any:
-    answers: list[Answer] = []
-    for k, chunk in enumerate(chunks):
-        have = found.get(k, [])
-        answers += [*have, *[({}, "interrupted")] * (len(chunk) - len(have))]
+def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:
+    answers = _of_one_rank(answers)
     shape = tuple(map(len, axes.values()))
     shapes: dict[str, tuple[int, ...]] = {}
     for values, _ in answers:
@@ -280,7 +316,7 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], chunks: list[l
         array = np.full((len(answers), *inner), np.nan)
         for k, (values, _) in enumerate(answers):
             if name in values:
-                place: Any = (k, *(slice(n) for n in values[name].shape))
+                place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
                 array[place] = values[name]
         data[name] = array.reshape(shape + inner)
     reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
@@ -294,9 +330,30 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], chunks: list[l
     return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=coordinates)
 
 
+def _of_one_rank(answers: list[Answer]) -> list[Answer]:
+    """The answers without values whose rank differs from that of most points.
+
+    One array holds a quantity of all points, and has as many dimensions everywhere.
+    """
+    ranks: dict[str, Counter[int]] = {}
+    for values, _ in answers:
+        for name, value in values.items():
+            ranks.setdefault(name, Counter())[value.ndim] += 1
+    usual = {name: count.most_common(1)[0][0] for name, count in ranks.items() if len(count) > 1}
+    return [_without_odd(answer, usual) for answer in answers] if usual else answers
+
+
+def _without_odd(answer: Answer, usual: dict[str, int]) -> Answer:
+    values, reason = answer
+    odd = {name: values[name].ndim for name in usual if name in values and values[name].ndim != usual[name]}
+    told = "; ".join(f"{name} has {rank} dimensions here and {usual[name]} at most other points" for name, rank in odd.items())
+    return {name: value for name, value in values.items() if name not in odd}, told or reason
+
+
 def _coordinate(values: list[Any]) -> Any:
     if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
-        return np.array(values, dtype=float)
+        with suppress(OverflowError):  # an integer beyond all floats: its points say so
+            return np.array(values, dtype=float)
     return np.array([repr(v) for v in values], dtype=object)
 
 
@@ -304,18 +361,21 @@ class _Progress:
     """A bar on standard error, if someone sees it and it is worth while."""
 
     def __init__(self, total: int, wanted: bool) -> None:
-        self.total, self.start, self.drawn = total, time.monotonic(), 0.0
+        self.total, self.done, self.start, self.drawn = total, 0, time.monotonic(), 0.0
         self.seen = wanted and sys.stderr is not None and sys.stderr.isatty()
 
-    def show(self, done: int) -> None:
+    def advance(self, points: int) -> None:
+        self.done += points
         now = time.monotonic()
         elapsed = now - self.start
         if not self.seen or elapsed < PATIENCE or now - self.drawn < REDRAWN:
             return
         self.drawn = now
-        full = BAR * done // self.total
-        left = elapsed / done * (self.total - done)
-        print(f"\rsweep |{'#' * full}{'-' * (BAR - full)}| {done}/{self.total}, {left:.0f} s left ", end="", file=sys.stderr, flush=True)
+        full = BAR * self.done // self.total
+        left = elapsed / self.done * (self.total - self.done)
+        bar = f"{'#' * full}{'-' * (BAR - full)}"
+        told = f"\rsweep |{bar}| {self.done}/{self.total}, {left:.0f} s left "
+        print(told, end="", file=sys.stderr, flush=True)
 
     def clear(self) -> None:
         if self.drawn:

@@ -16,26 +16,33 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import files
+
 Array = NDArray[np.float64]
 Column = int | str
 
 FORMATS = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")  # read as text; all others are SurfaceTopography's
+# Bytes and lines of a file that is read: a trace within a second, a mesh result within ten.
+TRACE, MESH = (4 * 10**6, 10**5), (64 * 10**6, 5 * 10**5)
 NAMED = 5  # lines that a message names
 MISSING = {"", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "inf", "-inf", "+inf", "bad", "*****"}
 
 DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"
 
 
-def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, drop_missing: bool = False) -> tuple[Array, ...]:
+def read_columns(
+    path: str | Path, columns: tuple[Column, ...], skip: int = 0, drop_missing: bool = False, most: tuple[int, int] = TRACE
+) -> tuple[Array, ...]:
     """The columns of a text file, given by number (the first is 0) or by the name in the header.
 
     skip            lines at the top that are no part of the table
     drop_missing    leave out lines that lack one of the values
+    most            bytes and lines of the file
 
     Raises ValueError, naming the lines, where a value is missing or is no number; FileNotFoundError, OSError.
     """
     path = Path(path)
-    split, start, header, separator = _table(path, skip)
+    split, start, header, separator = _table(path, skip, most)
     wanted = [_index(path, column, header, len(split[start])) for column in columns]
     rows = [(k + skip + 1, cells) for k, cells in enumerate(split[start:], start) if cells]
     values = [[_value(cells[j], separator) if j < len(cells) else math.nan for j in wanted] for _, cells in rows]
@@ -50,15 +57,16 @@ def read_columns(path: str | Path, columns: tuple[Column, ...], skip: int = 0, d
     return tuple(table[~bad].T)
 
 
-def header_of(path: str | Path, skip: int = 0) -> tuple[list[str], int]:
+def header_of(path: str | Path, skip: int = 0, most: tuple[int, int] = TRACE) -> tuple[list[str], int]:
     """(names of the columns in lower case and without their units, none if there is no header; how many columns there are)."""
-    split, start, header, _ = _table(Path(path), skip)
+    split, start, header, _ = _table(Path(path), skip, most)
     return header, len(split[start])
 
 
 def read_topography(path: str | Path) -> tuple[Array, Array]:
     """A line scan in any format that SurfaceTopography knows; lengths and heights in the unit of the file's lengths."""
     path = Path(path)
+    files.content(path, TRACE[0])
     try:
         import SurfaceTopography  # noqa: PLC0415 -- an extra
     except ImportError:
@@ -71,7 +79,8 @@ def read_topography(path: str | Path) -> tuple[Array, Array]:
     except OSError:
         raise
     except Exception as problem:  # whatever its many readers raise
-        raise ValueError(f"{path.name} is not read by SurfaceTopography ({problem}): export the trace as text") from None
+        why = type(problem).__name__  # its words are those of all its readers, a line each
+        raise ValueError(f"{path.name} is not read by SurfaceTopography ({why}): export the trace as text") from None
     if topography.dim != 1:
         raise ValueError(f"{path.name} holds a map, {topography.nb_grid_pts} points: give a line scan, or one line of it as Sampled(x, h)")
     x, h = topography.positions_and_heights()
@@ -82,9 +91,9 @@ def is_text(path: str | Path) -> bool:
     return Path(path).suffix.lower() in FORMATS
 
 
-def _table(path: Path, skip: int) -> tuple[list[list[str]], int, list[str], str]:
+def _table(path: Path, skip: int, most: tuple[int, int]) -> tuple[list[list[str]], int, list[str], str]:
     """(cells of every line, the first line with numbers, names of the columns, separator)."""
-    lines = _text(path).splitlines()[skip:]
+    lines = _text(path, most).splitlines()[skip:]
     separator = _separator(lines)
     split = [_cells(line, separator) for line in lines]
     start = _first_row(split, separator)
@@ -106,8 +115,10 @@ def _first_row(split: list[list[str]], separator: str) -> int | None:
     return next((k for k in rows if len(split[k]) == usual[0][0] or all(_value(c, separator) is not None for c in split[k])), None)
 
 
-def _text(path: Path) -> str:
-    data = path.read_bytes()
+def _text(path: Path, most: tuple[int, int]) -> str:
+    data = files.content(path, most[0])
+    if data.count(b"\n") > most[1]:
+        raise ValueError(f"{path.name} has more than {most[1]} lines: thin the points out, for instance keep every tenth")
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1"):
         try:
             text = data.decode(encoding)

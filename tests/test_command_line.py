@@ -118,6 +118,23 @@ def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
     assert {name for name, mark in marks.items() if mark in out} == {want}
 
 
+@pytest.mark.parametrize("name", ["scene.toml", "punch"])
+@pytest.mark.parametrize("before", [["--want", "edges"], ["--tol", "1e-9", "--want", "edges", "check"], ["--want", "edges,check"]])
+@pytest.mark.parametrize("word", ["solve", "plan"])
+def test_the_scene_may_follow_what_is_wanted(word, before, name, scene, capsys):
+    if word == "plan":
+        before = [option for option in before if option not in ("--tol", "1e-9")]
+    Path(scene).rename(name)
+    assert main([word, name, *before]) == 0
+    expected = capsys.readouterr()
+    assert main([word, *before, name]) == 0
+    assert capsys.readouterr() == expected
+
+
+def test_a_scene_from_standard_input_may_follow_what_is_wanted():
+    assert run("solve", "--want", "edges", "-", input=scenefile.example("wedge")).returncode == 0
+
+
 def test_wanting_the_edges_of_a_convex_profile_computes_no_pressure(scene, solved, capsys):
     main(["solve", scene, "--want", "edges"])
     assert "normal" in vars(solved[0]) and "pressure" not in vars(solved[0])
@@ -394,6 +411,15 @@ def test_a_written_file_keeps_its_permissions_and_a_link_stays_a_link(scene, tmp
 def test_a_device_is_written_to_and_not_replaced(scene):
     assert main(["solve", scene, "--csv", "/dev/null"]) == 0
     assert Path("/dev/null").is_char_device()
+
+
+def test_exhausted_memory_is_told_in_a_sentence(scene, monkeypatch, capsys):
+    def exhausted(*args, **kwargs):
+        raise MemoryError
+
+    monkeypatch.setattr(command, "solve", exhausted)
+    assert main(["solve", scene]) == 2
+    assert "memory" in sentence(capsys)
 
 
 def test_an_interruption_is_exit_code_130(scene, monkeypatch, capsys):

@@ -61,6 +61,16 @@ def test_the_vti_file_decodes_to_the_arrays(grid):
     assert origin[:2] + spacing[:2] * (6, 4) == pytest.approx((grid.x[-1], grid.y[-1]))
 
 
+@pytest.mark.parametrize(
+    "title", ["---", "a---b", "-", "--", "-->", "-" * 7, "]]>", "<!-- & -->", "\x00\x08\x0b\x1f\x7f", "\ud800", "\uffff", "a\nb\u2028c", ""]
+)
+def test_with_any_title_the_vti_file_is_xml_and_the_csv_file_has_its_rows(title, grid):
+    image = ET.fromstring(file_bytes(grid, "vti", (title, title)))
+    assert len(list(image.iter("DataArray"))) == 3
+    lines = file_bytes(grid, "csv", (title,)).decode(errors="surrogatepass").split("\n")
+    assert lines[0].startswith("# ") and lines[1].startswith("x,y,") and len(lines) == 2 + 35 + 1
+
+
 def test_the_command_writes_the_field_and_the_contours(scene, tmp_path):
     assert main(["solve", scene, "--want", "stress", "--field", "field.npz", "--grid", "9x4", "--plot", "stress.png"]) == 0
     assert np.load(tmp_path / "field.npz")["xx"].shape == (4, 9)

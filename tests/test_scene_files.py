@@ -190,6 +190,54 @@ def test_a_file_that_is_no_text_is_refused(data, said, tmp_path):
         read(path)
 
 
+DEEP = 100_000
+PROFILE = BODY + LOAD + "[profile]\n"
+HOSTILE = {
+    "arrays within arrays": "a = " + "[" * DEEP,
+    "arrays within arrays, closed": "a = " + "[" * DEEP + "]" * DEEP,
+    "a coefficient of arrays": PROFILE + 'kind = "polynomial"\ncoefficients = ' + "[" * 300 + "]" * 300,
+    "tables within tables": "a = " + "{a=" * DEEP,
+    "a long dotted key": "a" + ".a" * DEEP + " = 1",
+    "a long dotted header": "[a" + " . a" * DEEP + "]",
+    "a long dotted key in quotes": '""' + '.""' * DEEP + " = 1",
+    "a long dotted key in apostrophes": "'.'" + ".'.'" * DEEP + " = 1",
+    "a long dotted key with escapes": r'"\"#"' + r'."\"#"' * DEEP + " = 1",
+    "a long dotted key behind five quotes": 'x = ["""a""""", {a' + ".a" * DEEP + "=1}]",
+    "a long dotted key behind four apostrophes": "x = ['''a'''', {a" + ".a" * DEEP + "=1}]",
+    "a string without end": 'a = "' + r"\"" * DEEP,
+    "lines without end": 'a = """' + r'\"""' * DEEP,
+    "quotes": '"' * DEEP,
+    "apostrophes": "'" * DEEP,
+    "backslashes": "\\" * DEEP,
+    "dots": "." * DEEP,
+    "one word": "x" * DEEP,
+    "a key as long as a file": "x" * DEEP + " = 1\n" + BODY + PARABOLA + LOAD,
+    "a key of the load as long as a file": BODY + PARABOLA + LOAD + "normal_load" * (DEEP // 2) + " = 1\n",
+    "a kind as long as a file": PROFILE + 'kind = "' + "parabola" * DEEP + '"',
+    "a want as long as a file": 'want = ["' + "x" * DEEP + '"]\n' + BODY + PARABOLA + LOAD,
+    "a path as long as a file": PROFILE + 'kind = "sampled"\npath = "' + "x" * DEEP + '"',
+    "columns without number": PROFILE + 'kind = "sampled"\npath = "trace.csv"\ncolumns = [' + "0," * DEEP + "]",
+    "an integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = ' + "9" * 5000,
+    "a hexadecimal integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = 0x' + "f" * 5000,
+    "such an integer in a list": PROFILE + 'kind = "polynomial"\ncoefficients = [[0x' + "f" * 5000 + "]]",
+    "such an integer for a table": "load = 0x" + "f" * 5000,
+    "such an integer for a title": "title = 0x" + "f" * 5000 + "\n" + BODY + PARABOLA + LOAD,
+    "more than a megabyte": "#" * 10**6 + "\n" + BODY + PARABOLA + LOAD,
+    "a date": PROFILE + 'kind = "parabola"\nradius = 1979-05-27',
+    "old line ends": (BODY + PARABOLA + LOAD).replace("\n", "\r"),
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
+def test_a_hostile_file_is_refused_in_a_sentence_that_can_be_read(text):
+    assert len(refusal(text)) < 500
+
+
+def test_dots_in_strings_and_comments_nest_nothing():
+    text = f'title = "{"a." * 50}" # {"b." * 50}\n' + PARABOLA + BODY + LOAD
+    assert parse(text).title == "a." * 50
+
+
 def test_a_file_that_cannot_be_read_is_refused(tmp_path):
     with pytest.raises(SceneFileError, match="does not exist: write one with"):
         read(tmp_path / "none.toml")

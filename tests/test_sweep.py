@@ -1,12 +1,15 @@
 """A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and loses nothing."""
 
+import builtins
+import os
 import sys
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 import sie
+from sie import workers
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
@@ -103,16 +106,13 @@ class Interrupting(Executor):
 
 
 def test_an_interrupt_loses_nothing(monkeypatch):
-    pool, waited = Interrupting(), []
-    original = module.wait
+    pool = Interrupting()
 
-    def wait(futures, **kwargs):
-        if waited:
-            raise KeyboardInterrupt
-        waited.append(1)
-        return original(futures, **kwargs)
+    def completed(futures):
+        yield from futures[:2]
+        raise KeyboardInterrupt
 
-    monkeypatch.setattr(module, "wait", wait)
+    monkeypatch.setattr(workers, "as_completed", completed)
     with pytest.raises(KeyboardInterrupt) as caught:
         sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=pool, chunk=1)
     found = plain(caught.value.result)
@@ -136,13 +136,25 @@ def test_an_interrupt_within_a_chunk_keeps_its_first_points():
 
 
 def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
-    def wait(futures, **kwargs):
+    def completed(futures):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(module, "wait", wait)
+    monkeypatch.setattr(workers, "as_completed", completed)
     with pytest.raises(sie.Interrupted) as caught:
         sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Interrupting(), chunk=1)
     assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
+
+
+def test_an_interrupt_while_chunks_are_given_to_the_workers_keeps_what_is_done():
+    class Impatient(Interrupting):
+        def submit(self, function, /, *args, **kwargs):
+            if len(self.futures) == 3:
+                raise KeyboardInterrupt
+            return super().submit(function, *args, **kwargs)
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=Impatient(), chunk=1)
+    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False, False]
 
 
 def one_in_three(solution):
@@ -169,6 +181,128 @@ def test_a_worker_that_dies_costs_its_own_chunk_only():
     found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Broken(), chunk=1))
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
     assert found["reason"][2] == "RuntimeError: a worker died"
+
+
+def deadly(solution):
+    """A half-width, but loads above 1 kill the process, as the system does with one that takes all memory."""
+    if solution.normal_load > 1.0:
+        os._exit(1)
+    return solution.half_width
+
+
+# From Python 3.12 on, a process that has threads (those of an older pool) warns when it is forked.
+pools_of_processes = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+
+
+@pools_of_processes
+@pytest.mark.parametrize(
+    "dying",
+    [{0}, {3}, {7}, {0, 4, 7}, set(range(8))],
+    ids=["the first", "one in the middle", "the last", "three", "all"],
+)
+def test_a_process_that_dies_costs_its_own_chunk_only(dying):
+    loads = [0.1 + 0.1 * k + (10.0 if k in dying else 0.0) for k in range(8)]
+    with ProcessPoolExecutor(2) as pool:
+        found = plain(sie.sweep(SCENE, over={"normal_load": loads}, want={"b": deadly}, executor=pool, chunk=1))
+    assert np.isnan(found["b"]).tolist() == [k in dying for k in range(8)]
+    assert ["died" in reason for reason in found["reason"]] == [k in dying for k in range(8)]
+
+
+@pools_of_processes
+def test_a_pool_that_broke_before_the_sweep_costs_nothing():
+    with ProcessPoolExecutor(2) as pool:
+        assert isinstance(pool.submit(os._exit, 1).exception(), BrokenExecutor)
+        found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool))
+    assert found["half_width"].tolist() == [single(normal_load=P).half_width for P in LOADS]
+
+
+@pools_of_processes
+def test_processes_that_cannot_start_are_not_tried_for_each_chunk(monkeypatch):
+    started, original = [], workers._pool_of_one
+    monkeypatch.setattr(workers, "_pool_of_one", lambda pool: started.append(1) or original(pool))
+    with ProcessPoolExecutor(2, initializer=os._exit, initargs=(1,)) as pool:
+        found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1))
+    assert np.isnan(found["half_width"]).all() and all("died" in reason for reason in found["reason"])
+    assert len(started) == 1
+
+
+@pools_of_processes
+def test_an_interrupt_after_a_death_keeps_what_was_found(monkeypatch):
+    original, waited = workers.wait, []
+
+    def wait(futures, **kwargs):
+        waited.append(1)
+        if len(waited) == 3:
+            raise KeyboardInterrupt
+        return original(futures, **kwargs)
+
+    monkeypatch.setattr(workers, "wait", wait)
+    with ProcessPoolExecutor(1) as pool, pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, over={"normal_load": [9.0, 0.1, 0.2, 0.3]}, want={"b": deadly}, executor=pool, chunk=1)
+    found = plain(caught.value.result)
+    assert np.isfinite(found["b"]).sum() >= 1 and found["reason"][-1] == "interrupted"
+
+
+@pytest.mark.parametrize("works_again", [True, False])
+def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_again):
+    class Refusing(Executor):
+        asked = 0
+
+        def submit(self, function, /, *args, **kwargs):
+            self.asked += 1
+            if self.asked == 3 or (self.asked > 3 and not works_again):
+                raise BrokenExecutor("a worker died")
+            future = Future()
+            future.set_result(function(*args, **kwargs))
+            return future
+
+    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=Refusing(), chunk=1))
+    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, works_again]
+    assert "died" in found["reason"][2]
+
+
+@pytest.mark.parametrize(
+    ("odd", "usual"), [(lambda p: p[0], (3,)), (lambda p: p[None], (3,))], ids=["a number among arrays", "a matrix among arrays"]
+)
+def test_a_value_of_another_rank_costs_itself_only(odd, usual):
+    x = np.linspace(-0.1, 0.1, 3)
+    want = {"p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x), "b": lambda s: s.half_width}
+    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want=want))
+    assert found["p"].shape == (len(LOADS), *usual)
+    assert np.isnan(found["p"]).all(axis=1).tolist() == [False, True, False]
+    assert np.isfinite(found["b"]).all()
+    assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
+
+
+@pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()])
+def test_a_value_that_is_no_number_is_told_in_a_sentence(value):
+    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want={"v": lambda s: value if s.normal_load == 0.2 else 1.0}))
+    assert np.isnan(found["v"]).tolist() == [False, True, False]
+    assert found["reason"][1].startswith("v is neither a number nor an array of numbers")
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_what_a_sweep_does_itself_grows_in_proportion_to_its_points(parallel, monkeypatch):
+    class Here(Executor):
+        def submit(self, function, /, *args, **kwargs):
+            future = Future()
+            future.set_result(function(*args, **kwargs))
+            return future
+
+    def counted(points):
+        counts = 0
+
+        def count(values):
+            nonlocal counts
+            counts += 1
+            return builtins.len(values)
+
+        for part in (module, workers):
+            monkeypatch.setattr(part, "len", count, raising=False)
+        sie.sweep(SCENE, over={"normal_load": np.linspace(0.1, 0.4, points)}, executor=Here() if parallel else None, chunk=1)
+        return counts
+
+    assert counted(200) < 2.5 * counted(100)
 
 
 @pytest.mark.parametrize("want", list(sie.QUANTITIES))
@@ -200,6 +334,10 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
         ({"over": {"profile.radiuss": [1.0]}}, '"profile.radiuss" is not known: choose half_flat, radius'),
         ({"over": {"tilt": []}}, "holds no values"),
         ({"over": {"tilt": 0.1}}, "holds no values"),
+        ({"over": {"tilt": np.array(0.1)}}, "holds no values"),
+        ({"over": {"tilt": [0.1]}, "want": {"b": "width"}}, 'want "width" is not known'),
+        ({"over": {"tilt": [0.1]}, "want": {"b": 3}}, 'want "3" is not known'),
+        ({"over": {"tilt": [0.1]}, "want": {"reason": peak}}, "another name"),
         ({"over": {"tilt": [0.1]}, "want": "width"}, 'want "width" is not known'),
         ({"over": {"tilt": [0.1]}, "chunk": 0}, "chunk = 0"),
     ],
@@ -207,6 +345,11 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
 def test_a_bad_question_is_refused_before_any_work(arguments, words):
     with pytest.raises(ValueError, match=words):
         sie.sweep(SCENE, **arguments)
+
+
+def test_a_value_beyond_all_floats_costs_its_own_point_only():
+    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 10**400]}, want="half_width"))
+    assert np.isfinite(found["half_width"]).tolist() == [True, False]
 
 
 def test_with_xarray_the_result_is_labelled():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import charts, summation
+from sie import charts, files, summation
 from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, heat, labelled
@@ -115,6 +115,23 @@ def test_a_run_that_could_not_end_well_does_not_begin(monkeypatch, tmp_path, cap
             main([*given])
         assert end.value.code == 2
         assert words in capsys.readouterr().err
+
+
+def test_a_report_that_cannot_be_written_leaves_the_last_one_whole(monkeypatch, tmp_path, capsys):
+    write = files._write_part
+
+    def full(part, data, like):
+        write(part, data[:10], like)
+        if like.suffix == ".json":
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("validation.__main__.run", lambda names, quick: ([], 0.0))
+    monkeypatch.setattr(files, "_write_part", full)
+    for name in ("report.html", "report.json"):
+        (tmp_path / name).write_text("as it was")
+    assert main(["--out", str(tmp_path)]) == 2
+    assert "No space left on device" in capsys.readouterr().err
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"report.html": "as it was", "report.json": "as it was"}
 
 
 def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):

@@ -13,6 +13,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from sie.files import write_files
+
 from . import readme
 from .report import Section, machine, number, page
 from .running import run
@@ -22,6 +24,7 @@ TOPICS = (
     "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth",
     "stability", "certificate", "economy", "mutation",
 )  # fmt: skip
+NOT_WRITTEN = 2
 INTERRUPTED = 130  # the exit status by which shells know it
 
 
@@ -46,11 +49,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\ninterrupted: nothing was written", file=sys.stderr)
         return INTERRUPTED
-    (given.out / "report.html").write_text(page(sections, seconds, given.quick), encoding="utf-8")
     numbers = {"machine": machine(), "quick": given.quick, "seconds": seconds, "topics": {s.name: s.found.as_json() for s in sections}}
-    (given.out / "report.json").write_text(json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
-    if given.readme:
-        readme.write(numbers)
+    report = {
+        given.out / "report.html": page(sections, seconds, given.quick).encode(),
+        given.out / "report.json": (json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode(),
+    }
+    try:
+        write_files(report | (readme.files(numbers) if given.readme else {}))
+    except OSError as problem:
+        print(problem, file=sys.stderr)
+        return NOT_WRITTEN
     return summary(sections, seconds, given.out)
 
 

@@ -55,7 +55,8 @@ def with_table(text: str, table: str) -> str:
     return before + BEGIN + table + END + rest.split(END)[1]
 
 
-def write(report: Mapping[str, Any]) -> None:
+def files(report: Mapping[str, Any]) -> dict[Path, bytes]:
+    """What is to be written: the README, and what its table is made of."""
     found = rows(report)
-    KEPT.write_text(json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    README.write_text(with_table(README.read_text(encoding="utf-8"), markdown(found)), encoding="utf-8")
+    kept = json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False) + "\n"
+    return {KEPT: kept.encode(), README: with_table(README.read_text(encoding="utf-8"), markdown(found)).encode()}

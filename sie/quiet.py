@@ -1,0 +1,37 @@
+"""Ctrl-C ends the command line quietly also while it is being imported, or ends: exit code 130, no traceback.
+
+`main` handles an interruption while it runs. Before and after that, and only in a process that was
+started as `sie` or `python -m sie`, the handler of this module takes the place of Python's own; nothing
+is open then that has to be closed. Where `sie` is imported by a program of another name, nothing changes.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import Any
+
+INTERRUPTED = 130
+# While a package is imported by "python -m", its name is not yet in sys.argv.
+PROGRAM = "sie" in sys.orig_argv if sys.argv[:1] == ["-m"] else Path(*sys.argv[:1]).stem == "sie"
+
+
+def _exit(*_: Any) -> None:
+    os._exit(INTERRUPTED)
+
+
+def outside() -> None:
+    """From here on, Ctrl-C ends the process at once."""
+    if PROGRAM and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _exit)
+
+
+def inside() -> None:
+    """From here on, Ctrl-C is a KeyboardInterrupt again."""
+    if signal.getsignal(signal.SIGINT) is _exit:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+outside()
