@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
@@ -25,7 +26,10 @@ from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 from .slope_density import PanelDensity, PowerDensity, SlopeDensity, TransformDensity
+from .smooth import smooth_contact
 from .widest import widest_contact
+
+Array = NDArray[np.float64]
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
@@ -46,10 +50,14 @@ MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more w
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact, and whether its symmetry halved the search."""
+    """The found contact, and whether its symmetry halved the search.
+
+    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
+    """
 
     edges: Edges
     symmetric: bool
+    series: Array | None = field(default=None, compare=False, repr=False)
 
 
 def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
@@ -72,6 +80,9 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
         return Normal(_of_power_law(law, scene), True)
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
+    smooth = _smooth(scene, tol, "symmetry" in economy) if "transform" in economy else None
+    if smooth is not None:
+        return smooth
     lo, hi = _first_window(scene)
     ends = profile.domain
     carried = 0.0  # the largest load that the last window carried
@@ -132,6 +143,28 @@ def _of_power_law(law: PowerLaw, scene: Scene) -> Edges:
     return Edges(contact, P, contact.m * P, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
 
 
+def _smooth(scene: Scene, tol: float, symmetry: bool) -> Normal | None:
+    """The contact where one series resolves the slope, and no moment asks for the tilt."""
+    if scene.moment is not None or scene.epsilon:
+        return None
+    slope, G = scene.profile.pieces.tilted(scene.tilt), 0.5 * scene.Estar
+    axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
+    load = None if scene.normal_load is None else scene.normal_load / G
+    found = smooth_contact(slope, load, scene.half_width, axis, _resolution(tol))
+    if found is None:
+        return None
+    contact, c = found.contact.rounded(slope.break_points), found.series
+    c[0] = 0.0  # the edges' condition, which was met to rounding
+    P, M = 0.5 * math.pi * G * contact.r * float(c[1]), 0.0
+    if scene.normal_load is not None:
+        P = scene.normal_load
+    if len(c) > 2 and axis is None:
+        M = 0.25 * math.pi * G * contact.r**2 * float(c[2])
+    smooth, n = (False, False), found.evaluations
+    edges = Edges(contact, P, contact.m * P + M, scene.tilt, smooth, 0.0, 0.0, 0.0, n)
+    return Normal(edges, axis is not None, c)
+
+
 def contact_under(
     load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, *, near: Interval | None = None
 ) -> Normal:
@@ -152,6 +185,8 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
+    if normal.series is not None:
+        return TransformDensity(*common, normal.series)
     declared = scene.profile.pieces.tilted(edges.tilt)
     if scene.epsilon:
         slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
