@@ -306,7 +306,8 @@ def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
     if at_fixed_width:
         k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
-        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
+        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
+        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
     return falls
 
 

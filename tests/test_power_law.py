@@ -151,6 +151,20 @@ def test_the_pressure_next_to_the_axis_joins_that_of_the_panels(m, given):
     assert np.abs(solution.pressure(x) / panels - 1.0).max() <= 1e-14
 
 
+@pytest.mark.parametrize("dx", [-0.25, -0.2537, 3.0])
+def test_a_tilted_power_next_to_a_wedge_far_from_x_0_is_answered(dx):
+    profile = sie.Power(1.0002, 0.142).shifted(dx)
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.086, tilt=0.136))
+    assert tilted.check().force < 1e-9
+
+
+@pytest.mark.parametrize(("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)])
+def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
+    tilted = sie.solve(sie.Scene(profile=sie.Power(m, A), modulus=1.0, half_width=b, moment=M))
+    assert tilted.moment == pytest.approx(M, rel=1e-12)
+    assert tilted.check().ok
+
+
 @pytest.mark.parametrize("m", [*NEAR_ONE, 51.1, 60.0])
 def test_every_exponent_answers_all_of_a_contact(m):
     solution = sie.solve(scene(m, friction=0.4, tangential_load=0.05))
