@@ -60,20 +60,24 @@ class PowerLaw:
 
     def load(self, b: float, half_modulus: float) -> float:
         """P of the half-width b."""
+        return self._load(b, half_modulus, f"half-width {b:.6g}")
+
+    def _load(self, b: float, half_modulus: float, given: str) -> float:
         m, A, factor = self.exponent, self.coefficient, self._factor
         rise = m * math.log(b)
         height = rise + math.log(A)
         stress = height + math.log(half_modulus)
-        self._refuse_beyond_range(f"half-width {b:.6g}", rise, height, stress)
+        self._refuse_beyond_range(given, rise, height, stress)
         return half_modulus * (A * b**m) * factor
 
     def half_width(self, P: float, half_modulus: float) -> float:
         """b under the load P: by logarithms, whose rounding one step of Newton takes away."""
         m, scales = self.exponent, (half_modulus, self.coefficient, self._factor)
         size = (math.log(P) - math.fsum(map(math.log, scales))) / m
-        self._refuse_beyond_range(f"load {P:.6g}", size)
+        given = f"load {P:.6g}"
+        self._refuse_beyond_range(given, size)
         b = math.exp(size)
-        return b + b * (P / self.load(b, half_modulus) - 1.0) / m
+        return b + b * (P / self._load(b, half_modulus, given) - 1.0) / m
 
     def _refuse_beyond_range(self, given: str, *logarithms: float) -> None:
         if max(map(abs, logarithms)) > RANGE:
