@@ -8,12 +8,18 @@ import numpy as np
 import pytest
 
 import sie
+from validation.speed import closed_form
+from validation.timing import compared
 
 PROFILES = {
     "parabola": sie.Parabola(1.0),
     "rounded flat": sie.RoundedFlat(0.5, 1.0),
     "wedge": sie.Wedge(0.3),
     "function": sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"),
+    "|x|^1.001": sie.Power(1.001, 0.75),
+    "|x|^2.5": sie.Power(2.5, 0.75),
+    "|x|^60": sie.Power(60.0, 0.75),
+    "lopsided function": sie.FromFunction("sinh(x) + x**2/4"),
     "1000 pieces": sie.Piecewise(np.linspace(-2.0, 2.0, 1001), [(0.0, 1.0)] * 1000),
 }
 X = np.linspace(-0.4, 0.4, 1001)
@@ -26,6 +32,23 @@ def scene(profile, **given):
 @pytest.mark.parametrize("name", PROFILES)
 def test_solve_and_1001_pressures(benchmark, name):
     benchmark(lambda: sie.solve(scene(PROFILES[name])).pressure(X))
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_over_the_closed_form_of_the_rounded_punch(benchmark, name):
+    """The ratio in one run, in turns: `ratio` among the extra information of each."""
+    question = scene(PROFILES[name])
+    run = lambda: sie.solve(question).pressure(X)  # noqa: E731
+    benchmark.extra_info["ratio"] = compared(run, closed_form)[1]
+    benchmark(run)
+
+
+@pytest.mark.parametrize("name", [name for name in PROFILES if name.startswith("|x|")])
+def test_powers_over_the_rounded_flat(benchmark, name):
+    question, flat = scene(PROFILES[name]), scene(PROFILES["rounded flat"])
+    solves = [lambda: sie.solve(question).pressure(X), lambda: sie.solve(flat).pressure(X)]
+    benchmark.extra_info["ratio"] = compared(*solves)[1]
+    benchmark(solves[0])
 
 
 @pytest.mark.parametrize("name", PROFILES)

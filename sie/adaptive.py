@@ -32,6 +32,7 @@ NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of 
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 FINER = 1e-3  # of the tolerance: next to a declared break
 MAX_PIECES = 20_000
+SHORTEST = EPS**6  # of the interval
 PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
 
 
@@ -41,6 +42,7 @@ class Tolerance(NamedTuple):
     relative: float
     absolute: float
     breaks: Array
+    shortest: float  # of the pieces: next to x = 0 powers of x are not smooth to the last double
 
     def of(self, pieces: Array, values: Array, scale: float) -> Array:
         """For each piece (K, 2) with these values (K, n), where the largest of all is `scale`."""
@@ -57,7 +59,8 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
     open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
-    tolerance = Tolerance(tol, NOISE * rounding_noise(function, breaks[0], breaks[-1]), breaks[1:-1])
+    noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
+    tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
     done: list[tuple[float, float, int]] = []
     scale, level = 0.0, 0
     while len(open_):
@@ -96,7 +99,8 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
         away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
         x = at[:, None] + away
         parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
-    return np.concatenate(parts)
+    halves = np.concatenate(parts)
+    return halves[halves[:, 0] < halves[:, 1]]  # the last halvings may be less than an ulp
 
 
 def _degrees(
@@ -116,7 +120,8 @@ def _degrees(
     floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half))
     missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
-    settled |= 2.0 * half <= 4.0 * np.spacing(np.abs(pieces).max(axis=1))
+    ulp = np.spacing(np.abs(pieces).max(axis=1))
+    settled |= 2.0 * half <= np.maximum(4.0 * ulp, tolerance.shortest)
     chopped = zip(c, 0.5 * enough, settled, strict=True)
     lengths = [chebyshev.chopped_length(row, by) - 1 if ok else -1 for row, by, ok in chopped]
     return np.array(lengths, dtype=np.int64), scale

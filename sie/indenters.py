@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .adaptive import integral
 from .expression import Expression
+from .power_law import PowerLaw, PowerSlope
 from .profile import Parity, Profile
 from .sampled import Sampled
 from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
@@ -122,17 +123,6 @@ class Wedge(_Convex):
 
 
 @dataclass(frozen=True)
-class _PowerSlope:
-    """y -> exponent coefficient |y|^(exponent - 1) sign y."""
-
-    exponent: float
-    coefficient: float
-
-    def __call__(self, y: Array) -> Array:
-        return np.copysign(self.exponent * self.coefficient * np.abs(y) ** (self.exponent - 1.0), y)
-
-
-@dataclass(frozen=True)
 class Power(_Convex):
     """h = coefficient |x|^exponent, exponent >= 1 (1 is a wedge, 2 a parabola, large ones approach a flat punch)."""
 
@@ -155,10 +145,14 @@ class Power(_Convex):
                 return polynomial_slope((-INF, INF), (0.0,), (row,))
             return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ([-c for c in row], row))
         smooth = polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((0.0,), (0.0,)))
-        return Slope(smooth.breaks, smooth.origins, smooth.coefficients, smooth.degrees, (FunctionTerm(_PowerSlope(m, A)),))
+        return replace(smooth, functions=(FunctionTerm(PowerSlope(m, A)),))
 
     def height(self, x: ArrayLike) -> Array:
         return self.coefficient * np.abs(np.asarray(x, dtype=float)) ** self.exponent
+
+    @property
+    def power_law(self) -> PowerLaw:
+        return PowerLaw(self.exponent, self.coefficient)
 
 
 @dataclass(frozen=True)

@@ -9,22 +9,27 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
 from .edges import Edges, Search
 from .errors import ContactError, LoadError
 from .geometry import Geometry
-from .interval import EPS, Interval
+from .interval import EPS, Interval, interval_about
 from .panels import CHOP, Panels
+from .power_law import PowerLaw
 from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
-from .slope_density import PanelDensity, SlopeDensity, TransformDensity
+from .slope_density import PanelDensity, PowerDensity, SlopeDensity, TransformDensity
+from .smooth import smooth_contact
 from .widest import widest_contact
+
+Array = NDArray[np.float64]
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
@@ -45,10 +50,14 @@ MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more w
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact, and whether its symmetry halved the search."""
+    """The found contact, and whether its symmetry halved the search.
+
+    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
+    """
 
     edges: Edges
     symmetric: bool
+    series: Array | None = field(default=None, compare=False, repr=False)
 
 
 def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
@@ -66,16 +75,24 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
 
 def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     profile = scene.profile
+    law = upright_law(scene, economy)
+    if law is not None and _asks_for_no_tilt(scene, law.axis):
+        return Normal(_of_power_law(law, scene), True)
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
+    smooth = _smooth(scene, tol, "symmetry" in economy) if "transform" in economy else None
+    if smooth is not None:
+        return smooth
     lo, hi = _first_window(scene)
     ends = profile.domain
     carried = 0.0  # the largest load that the last window carried
     grown, shrunk, settled = 0, 0, False
+    tilt = 0.0  # at which the last window was fitted: another may have its contact beyond it
     while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
-            found = _searched(scene, refined(profile.pieces, lo, hi, _resolution(tol)), economy)
+            slope = refined(profile.pieces, lo, hi, _resolution(tol))
+            found = _searched(scene, slope, economy, tilt)
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
             if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
@@ -98,6 +115,54 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
             return found
         shrunk += 1
         lo, hi = fitted
+        tilt = found.edges.tilt
+
+
+def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
+    """The power law of a profile that is pressed upright, where its closed form serves."""
+    law = scene.profile.power_law
+    upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
+    return law if law is not None and law.explicit and upright else None
+
+
+def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:
+    """Whether the moment is not given, or is that of a load on the axis."""
+    if scene.moment is None or scene.normal_load is None:
+        return scene.moment is None or scene.moment == axis == 0.0
+    return scene.moment == axis * scene.normal_load
+
+
+def _of_power_law(law: PowerLaw, scene: Scene) -> Edges:
+    G = 0.5 * scene.Estar
+    if scene.half_width is not None:
+        r, P = scene.half_width, law.load(scene.half_width, G)
+    else:
+        assert scene.normal_load is not None
+        r, P = law.half_width(scene.normal_load, G), scene.normal_load
+    contact = interval_about(law.axis, r).rounded((law.axis,))
+    return Edges(contact, P, contact.m * P, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
+
+
+def _smooth(scene: Scene, tol: float, symmetry: bool) -> Normal | None:
+    """The contact where one series resolves the slope, and no moment asks for the tilt."""
+    if scene.moment is not None or scene.epsilon:
+        return None
+    slope, G = scene.profile.pieces.tilted(scene.tilt), 0.5 * scene.Estar
+    axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
+    load = None if scene.normal_load is None else scene.normal_load / G
+    found = smooth_contact(slope, load, scene.half_width, axis, _resolution(tol))
+    if found is None:
+        return None
+    contact, c = found.contact.rounded(slope.break_points), found.series
+    c[0] = 0.0  # the edges' condition, which was met to rounding
+    P, M = 0.5 * math.pi * G * contact.r * float(c[1]), 0.0
+    if scene.normal_load is not None:
+        P = scene.normal_load
+    if len(c) > 2 and axis is None:
+        M = 0.25 * math.pi * G * contact.r**2 * float(c[2])
+    smooth, n = (False, False), found.evaluations
+    edges = Edges(contact, P, contact.m * P + M, scene.tilt, smooth, 0.0, 0.0, 0.0, n)
+    return Normal(edges, axis is not None, c)
 
 
 def contact_under(
@@ -105,7 +170,9 @@ def contact_under(
 ) -> Normal:
     """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
     profile = scene.profile
-    if near is not None and profile.axis is not None and tilt == 0.0 and "symmetry" in economy and not profile.pieces.functions:
+    upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy
+    searched = not profile.pieces.functions and upright_law(scene, economy, tilt) is None
+    if near is not None and upright and searched:
         search = Search(profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy)
         contact = search.symmetric_near(load, near)
         if contact is not None:
@@ -118,6 +185,8 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
+    if normal.series is not None:
+        return TransformDensity(*common, normal.series)
     declared = scene.profile.pieces.tilted(edges.tilt)
     if scene.epsilon:
         slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
@@ -129,6 +198,9 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
             if not any(edges.sharp):
                 series[0] = 0.0  # the edges' condition, which quadrature met to rounding
             return TransformDensity(*common, series)
+    law = upright_law(scene, economy, edges.tilt)
+    if law is not None:
+        return PowerDensity(*common, law, declared, _resolution(tol))
     slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
     return PanelDensity(*common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0))
 
@@ -137,8 +209,8 @@ def _resolution(tol: float) -> float:
     return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS
 
 
-def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
-    """The edges for a slope that is resolved; the tilt is searched for if the moment is what is given."""
+def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
+    """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
     axis = scene.profile.axis if "symmetry" in economy else None
     epsilon, keep_zero = scene.epsilon, "zero panels" not in economy
     G = 0.5 * scene.Estar * math.cos(math.pi * epsilon)
@@ -167,7 +239,8 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
         return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
-    edges = _tilt_of_moment(edges_at, scene.moment, Search(slope, G, epsilon=epsilon), scene.half_width is not None)
+    search, at_fixed_width = Search(slope, G, epsilon=epsilon), scene.half_width is not None
+    edges = _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
@@ -179,9 +252,15 @@ def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> 
         )
 
 
-def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, search: Search, at_fixed_width: bool) -> Edges:
+def _tilt_of_moment(
+    edges_at: Callable[[float], Edges],
+    moment: float,
+    search: Search,
+    at_fixed_width: bool,
+    tilt: float,
+) -> Edges:
     """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
-    low, high, tilt = -math.inf, math.inf, 0.0
+    low, high = -math.inf, math.inf
     best = edges_at(tilt)
     edges = best
     for _ in range(MAX_TILTS):
@@ -227,7 +306,8 @@ def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
     if at_fixed_width:
         k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
-        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
+        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
+        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
     return falls
 
 
@@ -266,7 +346,8 @@ def _first_window(scene: Scene) -> tuple[float, float]:
     """
     profile = scene.profile
     lo, hi = profile.domain
-    if scene.half_width is not None and profile.axis is not None and scene.tilt == scene.epsilon == 0.0:
+    upright = scene.tilt == scene.epsilon == 0.0 and scene.moment is None
+    if scene.half_width is not None and profile.axis is not None and upright:
         reach = FITTED * scene.half_width
         return max(lo, profile.axis - reach), min(hi, profile.axis + reach)
     if np.isfinite(lo) and np.isfinite(hi):

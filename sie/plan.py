@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from .normal import ECONOMY
+from .normal import ECONOMY, upright_law
 from .scene import Scene
 from .slip import sheared
 
@@ -78,8 +78,8 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     if not convex:
         stages |= {"pressure", "inequalities"}
     steps = [
-        _resolution(scene),
-        Step("edges", True, _edges(scene), "normal"),
+        _resolution(scene, economy),
+        Step("edges", True, _edges(scene, economy), "normal"),
         _symmetry(scene, economy),
         _flat_pieces(scene, economy),
         _tilt(scene),
@@ -135,15 +135,19 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
     return names
 
 
-def _resolution(scene: Scene) -> Step:
-    n = len(scene.profile.pieces.functions)
-    if n:
-        return Step("resolution", True, "the slope is a function: Chebyshev pieces on a window fitted to the contact")
+def _resolution(scene: Scene, economy: Collection[str]) -> Step:
+    if upright_law(scene, economy) is not None:
+        return Step("resolution", False, "the slope is a power law: known exactly")
+    if scene.profile.pieces.functions:
+        how = "one Chebyshev series in the contact, or pieces on a window fitted to it"
+        return Step("resolution", True, f"the slope is a function: {how}")
     return Step("resolution", False, "the slope is polynomial on each piece: known exactly")
 
 
-def _edges(scene: Scene) -> str:
+def _edges(scene: Scene, economy: Collection[str]) -> str:
     given = "half-width" if scene.half_width is not None else "load"
+    if upright_law(scene, economy) is not None and scene.moment is None:
+        return f"{given} given: smooth edges, in closed form"
     ends = " or sharp at the ends of the indenter" if any(abs(e) != float("inf") for e in scene.profile.domain) else ""
     return f"{given} given: smooth edges{ends}, by bracketed Newton with exact derivatives"
 
@@ -182,6 +186,8 @@ def _pressure(scene: Scene, economy: Collection[str]) -> str:
         return "exact panels with the edges' exponents"
     if "transform" not in economy:
         return "exact panels: economy is switched off"
+    if scene.profile.breaks and upright_law(scene, economy) is not None:
+        return "two series of a power law"
     if not scene.profile.breaks:
         return "the slope is smooth: one DCT, no linear system"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"

@@ -8,7 +8,7 @@ profiles by tilting, shifting, mirroring and adding. The kinds themselves are in
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
+from .power_law import PowerLaw
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -43,6 +44,11 @@ class Profile(ABC):
     def convex(self) -> bool:
         """Whether the profile is known to be convex: then p > 0 and gap > 0 follow and need not be checked."""
         return False
+
+    @property
+    def power_law(self) -> PowerLaw | None:
+        """h = A |x - c|^m where the profile is known to be nothing else."""
+        return None
 
     def slope(self, x: ArrayLike) -> Array:
         """h'(x), same shape as x: the mean of both sides at a corner, -inf and inf beyond the ends of the indenter."""
@@ -153,6 +159,11 @@ class Shifted(_Derived):
     def convex(self) -> bool:
         return self.profile.convex
 
+    @property
+    def power_law(self) -> PowerLaw | None:
+        law = self.profile.power_law
+        return law and replace(law, axis=law.axis + self.dx)
+
     def shifted(self, dx: float) -> Profile:
         return self.profile.shifted(self.dx + checks.finite("dx", dx))
 
@@ -184,6 +195,11 @@ class Mirrored(_Derived):
     @property
     def convex(self) -> bool:
         return self.profile.convex
+
+    @property
+    def power_law(self) -> PowerLaw | None:
+        law = self.profile.power_law
+        return law and replace(law, axis=-law.axis)
 
     def mirrored(self) -> Profile:
         return self.profile

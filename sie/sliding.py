@@ -30,6 +30,7 @@ from .interval import EPS, Interval
 from .moments import Moments, rises
 from .panels import Panels
 from .potential import Plane
+from .power_law import PowerLaw, PowerSlope
 from .slope import Slope
 from .slope_density import PanelDensity
 
@@ -268,8 +269,14 @@ class SlidingDensity(PanelDensity):
         """The edges' exponents are 1/2 ± epsilon."""
         return self.panels.geometry.epsilon
 
-    def _regular(self, x: Array) -> Array:
+    def _by_pieces(self, x: Array) -> Array:
         return (self.panels.cos**2 / np.pi) * self.panels.on_contact(x)
+
+    def _of_powers(self, laws: list[PowerLaw], y: Array, b: float) -> Array:
+        """As H and p are conjugate, 1/π PV∫p/(x - t) + p tan πε = H is met with H sin πε cos πε."""
+        slope = np.sum([PowerSlope(law.exponent, law.coefficient)(y) for law in laws], axis=0)
+        cos, sin = self.panels.cos, math.sin(math.pi * self.epsilon)
+        return cos * cos * super()._of_powers(laws, y, b) + sin * cos * slope
 
     @cached_property
     def _plane(self) -> Plane:

@@ -2,7 +2,7 @@
 
 Two forms know this in closed form, `TransformDensity` by a Chebyshev series (smooth H) and `PanelDensity` by exact panels (H with breaks).
 Both carry the square-root singular ends of a sharp-edged punch apart, as k1/2 sqrt((1-s)/(1+s)) + k2/2 sqrt((1+s)/(1-s)), so that a
-smooth edge stays smooth.
+smooth edge stays smooth. `PowerDensity` has the pressure of a power law by series of its own.
 
 Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell & Sackfield, Mechanics of Elastic Contacts (1993), ch. 2.
 """
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -19,16 +19,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import chebyshev
+from .adaptive import refined
 from .density import Density, in_order, on_axis, reflected, shallow
+from .geometry import Geometry
 from .interval import Interval
 from .panels import FAR_FIELD, Panels
 from .potential import Plane, outer_series
+from .power_law import PowerLaw, PowerSlope
+from .slope import Slope
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
 CONTINUATION = 4.0
+# Powers below CUSP are steep on their axis; nearer to it than this fraction of the half-width,
+# what else there is to the pressure is straight to rounding.
+CUSP, BESIDE_CUSP = 2.0, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -308,8 +315,7 @@ class TransformDensity(SlopeDensity):
         return total + self.series[0]
 
 
-@dataclass(frozen=True, eq=False)
-class PanelDensity(SlopeDensity):
+class OnPanels(SlopeDensity):
     """H piece by piece: p = E*/(2π) V on the contact, F = -E*/(2π) V elsewhere (`panels`)."""
 
     panels: Panels
@@ -319,7 +325,42 @@ class PanelDensity(SlopeDensity):
         return self.panels.scale
 
     def _regular(self, x: Array) -> Array:
+        p = self._by_pieces(x)
+        for axis, laws in self._cusps.items():
+            self._put_cusp(p, x, axis, laws)
+        return p
+
+    def _by_pieces(self, x: Array) -> Array:
         return self.panels.on_contact(x) / np.pi
+
+    @cached_property
+    def _cusps(self) -> dict[float, list[PowerLaw]]:
+        """The powers |x - axis|^m, m < CUSP, of the slope: too steep on the axis for pieces."""
+        cusps: dict[float, list[PowerLaw]] = {}
+        for term in self.panels.geometry.slope.functions:
+            f = term.function
+            if isinstance(f, PowerSlope) and 1.0 < f.exponent < CUSP:
+                law = PowerLaw(f.exponent, f.coefficient, term.shift)
+                cusps.setdefault(term.shift, []).append(law)
+        lo, hi = self.interval
+        return {axis: laws for axis, laws in cusps.items() if lo < axis < hi}
+
+    def _put_cusp(self, p: Array, x: Array, axis: float, laws: list[PowerLaw]) -> None:
+        """The pressure next to an axis: that of the powers alone, and a straight line."""
+        b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+        close = BESIDE_CUSP * b
+        at = np.flatnonzero(np.abs(x - axis) < close)
+        if not at.size:
+            return
+
+        y, ends = x[at] - axis, np.array([-close, close])
+        left, right = (self._by_pieces(axis + ends) - self._of_powers(laws, ends, b)).tolist()
+        rest = 0.5 * (left + right) + 0.5 * (right - left) * (y / close)
+        p[at] = self._of_powers(laws, y, b) + rest
+
+    def _of_powers(self, laws: list[PowerLaw], y: Array, b: float) -> Array:
+        """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
+        return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
 
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
@@ -338,7 +379,8 @@ class PanelDensity(SlopeDensity):
         return self.panels.off_axis(z) / -np.pi
 
     def _corner(self, x: float) -> float:
-        return next((math.copysign(1.0, infinite) for e, infinite in self.panels.jumps if e == x), 0.0)
+        at = (infinite for e, infinite in self.panels.jumps if e == x and x not in self._cusps)
+        return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
 
     @cached_property
     def _plane(self) -> Plane:
@@ -360,3 +402,47 @@ class PanelDensity(SlopeDensity):
     def breaks(self) -> tuple[float, ...]:
         inner = {e for e in self.panels.geometry.ends.ravel().tolist() if self.contact.x1 < e < self.contact.x2}
         return (self.contact.x1, *sorted(inner), self.contact.x2)
+
+
+@dataclass(frozen=True, eq=False)
+class PanelDensity(OnPanels):
+    """The same with its panels given."""
+
+    panels: Panels
+
+
+@dataclass(frozen=True, eq=False)
+class PowerDensity(OnPanels):
+    """A power law pressed upright: p in closed form (`power_law`), the potential by panels."""
+
+    law: PowerLaw
+    declared: Slope
+    resolution: float
+
+    @cached_property
+    def panels(self) -> Panels:  # type: ignore[override]
+        pieces = refined(self.declared, self.contact.x1, self.contact.x2, self.resolution)
+        return Panels(Geometry(pieces, self.contact))
+
+    @property
+    def slope_scale(self) -> float:
+        return self.law.slope(self.contact.r)
+
+    def _regular(self, x: Array) -> Array:
+        near = np.minimum(self.contact.from_left(x), self.contact.from_right(x))
+        J = self.law.superposed(x - self.law.axis, near, self.contact.r)
+        mean = self.resultant / (np.pi * self.contact.r) / self.half_modulus
+        return (self.law.exponent * mean) * J
+
+    def _slope(self, x: Array) -> Array:
+        return self.declared(x)
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        return -self.slope_scale, self.slope_scale
+
+    def moved(self, contact: Interval, dx: float, tail: float) -> PowerDensity:
+        """The same with its contact, and what it knows of the slope, moved by dx + tail."""
+        law = replace(self.law, axis=self.law.axis + dx + tail)
+        declared = self.declared.shifted(dx).shifted(tail)
+        return replace(self, contact=contact, law=law, declared=declared)

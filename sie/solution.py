@@ -106,7 +106,8 @@ class Solution:
     def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
         density = pressure(found, scene, self.tol, self.economy)
         slope = scene.profile.pieces.tilted(found.edges.tilt)
-        if not ("convexity" in self.economy and slope_rises(density, slope)):
+        rises = found.series is not None or slope_rises(density, slope)
+        if not ("convexity" in self.economy and rises):
             verify_inequalities(density, slope)
         return density
 

@@ -37,7 +37,7 @@ from .geometry import Geometry
 from .interval import EPS, Interval
 from .panels import Panels
 from .slope import Slope
-from .slope_density import PanelDensity, SlopeDensity
+from .slope_density import PanelDensity, PowerDensity, SlopeDensity
 
 Array = NDArray[np.float64]
 
@@ -91,6 +91,8 @@ def rim(density: SlopeDensity, slope: Slope, side: float) -> Rim:
 
 def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> SlopeDensity:
     """The same density with its contact, and what it knows of the slope, moved by dx + tail."""
+    if isinstance(density, PowerDensity):
+        return density.moved(contact, dx, tail)
     if not isinstance(density, PanelDensity):
         return replace(density, contact=contact)
     old = density.panels

@@ -10,6 +10,16 @@ import sie
 from sie import chebyshev, normal, solution
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
+SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
+X = np.linspace(-0.4, 0.4, 1001)
+# The most transforms: one a step, and one more for each size of a series that is tried.
+SMOOTH = (
+    (SINH, {"normal_load": None, "half_width": 1.5}, 2),
+    (SINH, {"normal_load": 1.0}, 8),
+    (sie.FromFunction(np.sinh), {"normal_load": 1.0}, 8),
+    (sie.FromFunction(np.sinh, domain=(-3.0, 3.0)), {"normal_load": 1.0, "tilt": 0.1}, 8),
+    (sie.FromFunction("x + x**3/5 + 0.1*x**2"), {"normal_load": None, "half_width": 0.7}, 6),
+)
 
 
 @contextmanager
@@ -54,13 +64,12 @@ def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
         assert len(scans) == 1
 
 
-def test_where_symmetry_tells_the_contact_a_function_is_resolved_once():
-    with counted(normal, "refined") as resolutions:
-        assert (
-            sie.solve(scene(sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"), normal_load=None, half_width=1.5)).normal_load
-            > 0.0
-        )
-    assert len(resolutions) == 1
+@pytest.mark.parametrize(("profile", "given", "most"), SMOOTH)
+def test_a_smooth_function_takes_one_transform_a_step_and_no_pieces(profile, given, most):
+    with counted(normal, "refined") as resolutions, counted(chebyshev, "transform") as transforms:
+        _ = sie.solve(scene(profile, **given)).pressure(X)
+    assert not resolutions
+    assert len(transforms) <= most
 
 
 def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():

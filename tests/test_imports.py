@@ -15,11 +15,12 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 
 # From the ground up: a module imports only from those before it.
 ORDER = (
-    "quiet", "errors", "interval", "checks", "files",
+    "quiet", "errors", "interval", "power_law", "checks", "files",
     "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest",
+    "smooth", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
     "solution", "ladder", "path", "history", "fretting", "charts", "workers", "sweep",
     "abscissae", "entries", "scenefile", "compare", "grid",

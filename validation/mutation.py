@@ -168,7 +168,8 @@ REPLACED = (
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
     replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
-             _times(normal, "_series", lambda c: None if c is None else c * (1 + 1e-10 * (np.arange(len(c)) == 1))), SMOOTH),
+             _times(normal, "smooth_contact", lambda s: s._replace(series=s.series * (1 + 1e-10 * (np.arange(len(s.series)) == 1)))),
+             SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)),
              SLIDING_RIM),
 )  # fmt: skip

@@ -1,0 +1,174 @@
+"""|x|^m, upright in closed form and tilted by panels, against integrals in mpmath."""
+
+from contextlib import ExitStack
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_cost import counted
+
+import sie
+from analytic import power
+from sie import normal, slope_density
+from sie.normal import ECONOMY
+
+EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
+EXPONENTS += (31.0, 33.0, 59.99, 60.0)
+NARROW = {"normal_load": None, "half_width": 0.3, "tilt": -0.1}
+NEAR_ONE = (1.0001, 1.01, 1.02, 1.05, 1.1)
+DIGITS = mp.MPContext()
+DIGITS.dps = 40
+
+
+def scene(m, **given):
+    profile = sie.Power(m, 0.75)
+    return sie.Scene(profile=profile, modulus=2.0, poisson=0.3, **{"normal_load": 0.3, **given})
+
+
+def superposed(m, xi):
+    """∫_ξ^1 s^(m-1)/sqrt(s² - ξ²) ds: with s = ξ cosh t and t = T - u, or its limit on the axis."""
+    m, xi = DIGITS.mpf(m), DIGITS.mpf(xi)
+    if xi == 0:
+        return 1 / (m - 1)
+    T = DIGITS.acosh(1 / xi)
+    cuts = [T * k / 16 for k in range(17)]
+    return DIGITS.quad(lambda t: (xi * DIGITS.cosh(t)) ** (m - 1), cuts)
+
+
+def pressure_of_unit_width(m, x):
+    """E* = 2, A = 3/4, b = 1."""
+    wallis = DIGITS.quad(lambda phi: DIGITS.sin(phi) ** m, [0, 1, DIGITS.pi / 2])
+    return 2 * m * 0.75 * wallis * m / DIGITS.pi * superposed(m, abs(x))
+
+
+@pytest.mark.parametrize("m", EXPONENTS)
+def test_the_pressure_keeps_1e_14_of_its_peak(m):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    x = np.array([0.0, 2.0**-40, -1e-3, 0.25, -0.5, 0.7071, 0.70711, 0.75, 0.9, 0.96875])
+    exact = [pressure_of_unit_width(m, v) for v in x.tolist()]
+    errors = [abs(p - truth) for p, truth in zip(pressure(x).tolist(), exact, strict=True)]
+    assert max(errors) <= 1e-14 * max(exact)
+
+
+@pytest.mark.parametrize("m", EXPONENTS)
+def test_the_pressure_keeps_its_relative_accuracy_to_the_edge(m):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    for k in (4, 10, 20, 35, 52):
+        x = 1.0 - 2.0**-k
+        for side in (-1.0, 1.0):
+            assert abs(float(pressure(side * x)) / pressure_of_unit_width(m, x) - 1) <= 1e-14
+
+
+@given(
+    m=st.floats(1.0, 60.0, exclude_min=True),
+    load=st.floats(1e-3, 1e3),
+    dx=st.sampled_from([0.0, 0.5, -3.0]),
+)
+def test_the_half_width_carries_the_load_it_was_found_from(m, load, dx):
+    profile = sie.Power(m, 0.75).shifted(dx)
+    given_load = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=load))
+    b = given_load.half_width
+    given_width = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=b))
+    assert given_width.normal_load == pytest.approx(load, rel=4e-16 * (m + 4.0))
+
+
+@given(m=st.floats(1.05, 60.0), s=st.floats(-1.0, 1.0))
+def test_the_pressure_is_that_of_the_closed_form_package(m, s):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    shape = {"exponent": m, "coefficient": 0.75, "modulus": 2.0, "half_width": 1.0}
+    truth = power.pressure(np.array([s, 0.0, 0.9]), **shape)
+    assert abs(float(pressure(s)) - truth[0]) <= 3e-14 * truth.max()
+
+
+@pytest.mark.parametrize("m", [1.3, 2.5, 7.0, 45.6])
+def test_the_explicit_form_and_the_panels_agree(m):
+    explicit, panels = sie.solve(scene(m)), sie.solve(scene(m), economy=ECONOMY - {"symmetry"})
+    x = np.linspace(*panels.edges, 103)[1:-1]
+    assert explicit.half_width == pytest.approx(panels.half_width, rel=1e-14)
+    p = explicit.pressure(x)
+    assert np.abs(p - panels.pressure(x)).max() <= 3e-14 * p.max()
+
+
+@pytest.mark.parametrize("m", [1.001, 1.5, 2.5, 7.0, 60.0])
+@pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
+def test_an_upright_power_takes_no_search_and_no_panels(m, given):
+    with ExitStack() as stack:
+        parts = (normal, "Search"), (normal, "refined"), (slope_density, "Panels")
+        calls = [stack.enter_context(counted(*part)) for part in parts]
+        _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
+    assert not any(calls)
+
+
+def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
+    profile = sie.Power(2.5, 0.75).shifted(0.5)
+    upright = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=0.3, moment=0.15))
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=0.3, moment=0.0))
+    assert upright.tilt == 0.0
+    assert tilted.tilt > 0.0
+    assert tilted.moment == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_load_that_doubles_cannot_answer_is_refused_with_a_reason():
+    for asked in ({"normal_load": 1e300}, {"normal_load": None, "half_width": 1e-280}):
+        with pytest.raises(sie.LoadError, match="beyond the range of doubles"):
+            _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
+
+
+@pytest.mark.parametrize("m", NEAR_ONE)
+@pytest.mark.parametrize("given", [{"tilt": 0.1}, {"moment": 0.02}, NARROW])
+def test_a_tilted_power_next_to_a_wedge_is_right_on_its_axis(m, given):
+    solution = sie.solve(scene(m, **given))
+    truth = float(on_the_axis(m, *solution.edges))
+    assert float(solution.pressure(0.0)) == pytest.approx(truth, rel=1e-13)
+
+
+CUTS = (0, 0.5, 0.9, 0.99, 1)
+
+
+def on_the_axis(m, x1, x2):
+    """w(0)/π ∫ m A |t|^(m-2)/w dt with E* = 2, by |t| = L v^(1/(m-1)) on each side of length L."""
+    m, x1, x2 = (DIGITS.mpf(v) for v in (m, x1, x2))
+    total = DIGITS.zero
+    for L, side in ((x2, 1), (-x1, -1)):
+        slow = DIGITS.quad(lambda v: 1 / w(side * L * v ** (1 / (m - 1)), x1, x2), CUTS)  # noqa: B023
+        total += L ** (m - 1) * slow
+    return w(DIGITS.zero, x1, x2) / DIGITS.pi * m * DIGITS.mpf(0.75) / (m - 1) * total
+
+
+def w(t, x1, x2):
+    return DIGITS.sqrt((t - x1) * (x2 - t))
+
+
+@pytest.mark.parametrize("m", [1.02, 1.2, 1.7])
+@pytest.mark.parametrize("given", [{"tilt": 0.1}, {"friction": 0.5, "sliding": -1, "dundurs": 0.3}])
+def test_the_pressure_next_to_the_axis_joins_that_of_the_panels(m, given):
+    solution = sie.solve(scene(m, **given))
+    far = slope_density.BESIDE_CUSP * min(map(abs, solution.edges))
+    x = far * np.array([-0.99, -0.5, 0.5, 0.99])
+    panels = 1.0 * solution.pressure._by_pieces(x)  # E*/2 = 1
+    assert np.abs(solution.pressure(x) / panels - 1.0).max() <= 1e-14
+
+
+@pytest.mark.parametrize("dx", [-0.25, -0.2537, 3.0])
+def test_a_tilted_power_next_to_a_wedge_far_from_x_0_is_answered(dx):
+    profile = sie.Power(1.0002, 0.142).shifted(dx)
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.086, tilt=0.136))
+    assert tilted.check().force < 1e-9
+
+
+@pytest.mark.parametrize(("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)])
+def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
+    tilted = sie.solve(sie.Scene(profile=sie.Power(m, A), modulus=1.0, half_width=b, moment=M))
+    assert tilted.moment == pytest.approx(M, rel=1e-12)
+    assert tilted.check().ok
+
+
+@pytest.mark.parametrize("m", [*NEAR_ONE, 51.1, 60.0])
+def test_every_exponent_answers_all_of_a_contact(m):
+    solution = sie.solve(scene(m, friction=0.4, tangential_load=0.05))
+    x = np.linspace(-1.0, 1.0, 41)
+    for answer in (solution.gap, solution.shear, solution.slip, lambda x: solution.stress(x, 0.1).j2):
+        assert np.isfinite(answer(x)).all()
+    assert solution.check().ok
