@@ -15,7 +15,7 @@ import numpy as np
 
 from . import chebyshev
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
-from .edges import Edges, Search
+from .edges import Edges, Found, Search
 from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, Interval
@@ -109,7 +109,7 @@ def contact_under(
         search = Search(profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy)
         contact = search.symmetric_near(load, near)
         if contact is not None:
-            return Normal(search.finished(contact, load, 0.0, (False, False)), True)
+            return Normal(search.finished(Found(contact), load, 0.0), True)
     return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy)
 
 
@@ -147,21 +147,21 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
         symmetric = axis if tilt == 0.0 and epsilon == 0.0 else None
         search = Search(slope.tilted(tilt), G, symmetric, keep_zero, epsilon)
         if scene.half_width is not None:
-            contact, sharp = search.of_half_width(scene.half_width)
-            if all(sharp):
+            found = search.of_half_width(scene.half_width)
+            if all(found.sharp):
                 raise LoadError(
                     f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any load: give normal_load instead of half_width"
                 )
-            return search.finished(contact, None, tilt, sharp)
+            return search.finished(found, None, tilt)
         assert scene.normal_load is not None
         try:
-            contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
+            found = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
         except LoadError:
             widest = None if scene.profile.convex else widest_contact(search, scene.normal_load)
             if widest is None:
                 raise
-            contact, sharp = widest, (False, False)
-        return search.finished(contact, scene.normal_load, tilt, sharp)
+            found = widest
+        return search.finished(found, scene.normal_load, tilt)
 
     if scene.moment is not None and scene.normal_load is not None:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
