@@ -293,6 +293,32 @@ class Search:
             )
         return Found(contact, (left_sharp, False), k)
 
+    # -- a prescribed moment --------------------------------------------------------------------------------------------
+
+    def under_moment(self, load: float, moment: float) -> Edges | None:
+        """The contact and the tilt where both edges are smooth; None if none was found, or an edge is at the end of the indenter."""
+        target, lever = load / self.half_modulus, moment / load
+        lo, hi = self.slope.domain
+
+        def carried(r: float) -> tuple[float, float]:
+            k = self.moments(interval_about(lever, r))
+            return r * k.I1, 0.5 * r * r * (k.JR + k.JL)
+
+        def tilted(contact: Interval, tilt: float) -> Moments:
+            self.evaluations += 1
+            return moments(self.slope.tilted(tilt), contact, keep_zero=self.keep_zero)
+
+        limit = min(lever - lo, hi - lever)
+        try:
+            r = _logarithmic_root(carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load))
+        except LoadError:
+            return None
+        found = self._polish.balanced(interval_about(lever, r), target, lever, tilted)
+        if found is None:
+            return None
+        contact, k, tilt = found
+        return replace(self.finished(Found(contact, moments=k), load, tilt), moment=moment)
+
     # -- a prescribed half-width ----------------------------------------------------------------------------------------
 
     def of_half_width(self, r: float) -> Found:

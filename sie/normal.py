@@ -167,7 +167,11 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str]) -> Normal:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
         return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
-    edges = _tilt_of_moment(edges_at, scene.moment, Search(slope, G, epsilon=epsilon), scene.half_width is not None)
+    search = Search(slope, G, epsilon=epsilon, keep_zero=keep_zero)
+    edges = None
+    if scene.normal_load is not None and epsilon == 0.0 and (axis is None or scene.moment != axis * scene.normal_load):
+        edges = search.under_moment(scene.normal_load, scene.moment)
+    edges = edges or _tilt_of_moment(edges_at, scene.moment, search, scene.half_width is not None)
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
@@ -227,6 +231,8 @@ def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
     if at_fixed_width:
         k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
+        if not k.JR + k.JL > 0.0:
+            return math.nan  # the slope is flat to rounding
         falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / (k.JR + k.JL)
     return falls
 
@@ -266,7 +272,7 @@ def _first_window(scene: Scene) -> tuple[float, float]:
     """
     profile = scene.profile
     lo, hi = profile.domain
-    if scene.half_width is not None and profile.axis is not None and scene.tilt == scene.epsilon == 0.0:
+    if scene.half_width is not None and profile.axis is not None and scene.moment is None and scene.tilt == scene.epsilon == 0.0:
         reach = FITTED * scene.half_width
         return max(lo, profile.axis - reach), min(hi, profile.axis + reach)
     if np.isfinite(lo) and np.isfinite(hi):

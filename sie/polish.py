@@ -41,8 +41,9 @@ from .slope import Slope
 
 Place = tuple[float, float]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
 
-# A residual is rounding below so many units of its terms: each is rounded as a value of H, by its weight, by its angle, in the sum.
-ROUNDINGS = 4.0 * EPS
+# A residual is rounding below so many units of its terms: the roots and the angle of each piece, its sines, its weights, Horner's rule
+# and the sum round it once or twice each.
+ROUNDINGS = 16.0 * EPS
 # r JR may vary like a power of the distance to the next break, or to where the profile touches first.
 VARIES = 4.0
 CLOSE = 0.25  # a step longer than this part of the distance to the next break follows what the break adds
@@ -50,6 +51,7 @@ FARTHEST = 0.5  # of r, a step
 STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
+MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
 
 
@@ -104,10 +106,12 @@ class Polish:
             missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
             if missed <= 1.0:
                 return wanted, k, True
-            sure = left_sharp or abs(over2 - over1) > rounding1 + rounding2
-            if left_sharp or (over2 > 0.0 if k.I0 > 0.0 else over1 < 0.0) or not sure:
+            # Signs within rounding bound nothing; where that of I0 is, both edges are too far out or in
+            askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
+            outside = (over2 if k.I0 > 0.0 else over1) > 0.0
+            if abs(over2) > rounding2 and (not askew or (k.I0 > 0.0) == outside):
                 right.cut((contact.x2, contact.tail2), above=over2 < 0.0)
-            if not left_sharp and ((over2 < 0.0 if k.I0 > 0.0 else over1 > 0.0) or not sure):
+            if abs(over1) > rounding1 and not left_sharp and (not askew or (k.I0 < 0.0) == outside):
                 left.cut((contact.x1, contact.tail1), above=over1 > 0.0)
             slow = missed > 0.5 * earlier[-2]
             earlier.append(missed)
@@ -120,6 +124,41 @@ class Polish:
                 break
             contact = moved
         return contact, k, False
+
+    def balanced(
+        self, contact: Interval, target: float, lever: float, tilted: Callable[[Interval, float], Moments]
+    ) -> tuple[Interval, Moments, float] | None:
+        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its tilt; None if Newton's steps find none.
+
+        Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds p ~ sqrt((x - x1)/(x2 - x)) or the
+        mirror image of it, whose resultants are G r J/2 and act at m -+ r/2: the equations of both edges are apart again.
+        """
+        lo, hi = self.slope.domain
+        tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
+        for _ in range(MAX_BALANCING):
+            k, r = tilted(contact, tilt), contact.r
+            half, turned = 0.5 * (r * k.I1 - target), target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
+            rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
+            if not (rise1 > 0.0 and rise2 > 0.0):
+                return None
+            rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + math.pi * self.noise(contact) * r
+            missed = (abs(half) + abs(turned)) / rounding
+            if missed < before or missed <= 1.0:
+                tilt -= k.I0 / math.pi
+                outwards = self.outwards(contact, LEFT, half + turned, rise1, 0.5), self.outwards(contact, RIGHT, half - turned, rise2, 0.5)
+                # p > 0 puts the load between the edges
+                room = contact.from_left(lever), contact.from_right(lever)
+                steps = (max(outwards[0], -0.5 * room[0]), max(outwards[1], -0.5 * room[1]))
+                before, last, share = missed, contact, 1.0
+            else:
+                share *= 0.5
+            moved = last.moved(-share * steps[0], share * steps[1])
+            if missed <= 1.0:
+                return moved, k._replace(I0=0.0), tilt
+            if moved == contact or not (lo < moved.x1 and moved.x2 < hi):
+                return None
+            contact = moved
+        return None
 
     def symmetric(self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf) -> tuple[Interval, bool]:
         """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that is longer than `reach` r.

@@ -42,6 +42,7 @@ EPS = float(np.finfo(float).eps)
 ULP = 4.0
 
 SCANNED = 60
+CLOSED = 1e-3  # of the slopes in the contact times r: a smaller gap beside it may be none
 BESIDE = (1e-9, 1e-6, 1e-3)  # of r, from every break
 
 
@@ -242,7 +243,7 @@ def _presses(contact: Exact) -> bool:
     if not all(contact.pressure(m + r * float(v), mp.mpf(1)) > 0 for v in s):
         return False
     reach = 2.0 * max(abs(float(b) - m) for b in contact.breaks) + r
-    d = np.geomspace(1e-3 * r, reach, SCANNED)
+    d = np.geomspace(1e-3 * r, reach, 10 * SCANNED)
     return all(bool((_gap(contact, m + side * (r + d)) > 0.0).all()) for side in (-1.0, 1.0))
 
 
@@ -258,9 +259,12 @@ def _gap(contact: Exact, x: np.ndarray) -> np.ndarray:
         total += (0.5 * float(hi - lo) * w * H) @ (1.0 / ((m + r * s)[:, None] - x))
     R = np.sign(x - m) * np.sqrt((x - m - r) * (x - m + r))
     k = np.searchsorted([float(b) for b in contact.breaks], x)
-    H = np.array([float(sum(c * (mp.mpf(v) - contact.rows[j][0]) ** i for i, c in enumerate(contact.rows[j][1]))) for v, j in zip(x, k)])
+    scale = float(contact.integral((0, 1))[0]) / np.pi
+    rows = [[float(c) for c in row] for _, row in contact.rows]
+    H = np.array([np.polynomial.polynomial.polyval(v - float(contact.rows[j][0]), rows[j]) for v, j in zip(x, k, strict=True)])
+    rises = np.append(0.0, H + R / np.pi * total)
     steps = np.diff(x, prepend=m + np.sign(x[0] - m) * r)
-    return np.cumsum((H + R / np.pi * total) * steps)
+    return np.cumsum(0.5 * (rises[1:] + rises[:-1]) * steps) - CLOSED * scale * r * (np.abs(x - m) > 1.5 * r)
 
 
 # -- the truth, next to the answer ----------------------------------------------------------------------------------------
