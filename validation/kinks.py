@@ -346,7 +346,7 @@ def outcome(trial: Trial, spoiled: float = 0.0) -> Outcome:
     # What one ulp of what was given changes is no error: under a load more by dP the pressure is more by dP/(π w), and a slope as large as
     # that of the tilt carries π G r times itself
     w = np.array([float(mp.sqrt((v - exact.x1) * (exact.x2 - v))) for v in map(mp.mpf, x)])
-    given = solution.normal_load + np.pi * float(r * abs(tilt)) * 0.5 * trial.scene.Estar
+    given = solution.normal_load + abs(trial.scene.moment or 0.0) / float(r) + np.pi * float(r * abs(tilt)) * 0.5 * trial.scene.Estar
     ulp = ULP * EPS * given / (np.pi * w)
     off_p = np.maximum(np.abs(solution.pressure(np.array(x)) * (1.0 + spoiled) - true) - ulp, 0.0)
     return Outcome(float(off / r) + spoiled, float(off_p.max() / true.max()), solution.normal.edges.evaluations)
