@@ -8,7 +8,6 @@ rounded rim of a nearly flat punch, b - a = 1e-12 a, has only four digits left i
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
 from typing import Any, NamedTuple
 
@@ -18,7 +17,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-# A tail is kept where rounding the edge to a double would change its distance to the nearest break, or to the other edge, by more than this.
+# A tail is kept where rounding the edge to a double would change its distance to the nearest break, or
+# to the other edge, by more than this.
 TAIL_MATTERS = 4.0 * EPS
 
 

@@ -38,7 +38,7 @@ GROWS = 1.5  # a window so much wider must carry so much more, or no wider one w
 # One Chebyshev series for the whole contact is tried up to this many points before the slope is cut into pieces.
 LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
-MAX_TILTS = 100
+MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
@@ -188,7 +188,8 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, search: S
     low, high, tilt = -math.inf, math.inf, 0.0
     best = edges_at(tilt)
     edges = best
-    for _ in range(MAX_TILTS):
+    left = MAX_TILTS
+    while left > 0:
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
             best = edges
@@ -201,7 +202,8 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, search: S
             new = 0.5 * (low + high) if math.isfinite(low + high) else tilt
         if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
             break
-        tilt, tried = _carried(edges_at, new, best.tilt)
+        tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
+        left -= spent
         if tried is None:
             break
         edges = tried
@@ -215,14 +217,16 @@ def _tilt_of_moment(edges_at: Callable[[float], Edges], moment: float, search: S
     return best
 
 
-def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float) -> tuple[float, Edges | None]:
-    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much."""
-    while abs(tilt - known) > 4.0 * EPS * abs(known):
+def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float, most: int) -> tuple[float, Edges | None, int]:
+    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much; and the tilts tried."""
+    for tried in range(1, most + 1):
+        if abs(tilt - known) <= 4.0 * EPS * abs(known):
+            return tilt, None, tried
         try:
-            return tilt, edges_at(tilt)
+            return tilt, edges_at(tilt), tried
         except ContactError:
             tilt = 0.5 * (tilt + known)
-    return tilt, None
+    return tilt, None, most
 
 
 def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
