@@ -31,7 +31,7 @@ import numpy as np
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval, interval_about, two_sum
 from .moments import Moments, moments
-from .polish import MAX_POLISHING, Polish
+from .polish import MAX_POLISHING, ROUNDINGS, Polish
 from .sliding import sliding_moments
 from .slope import Slope
 from .touch import lowest_points
@@ -302,7 +302,9 @@ class Search:
 
         def carried(r: float) -> tuple[float, float]:
             k = self.moments(interval_about(lever, r))
-            return r * k.I1, 0.5 * r * r * (k.JR + k.JL)
+            rounding = ROUNDINGS * (k.size1 + k.size2)
+            # A straight part of the profile carries nothing
+            return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
 
         def tilted(contact: Interval, tilt: float) -> Moments:
             self.evaluations += 1

@@ -19,11 +19,11 @@ MAX_STEPS = 60
 
 
 def widest_contact(search: Search, load: float) -> Found | None:
-    """The contact, with smooth edges, or None if the profile has no ends or no such contact is found."""
+    """The contact, with smooth edges, or None if no such contact is found."""
     lo, hi = search.slope.domain
     widest = 0.5 * (hi - lo)
     if not math.isfinite(widest):
-        return None
+        widest = _wide_enough(search, load)
     bracket = _bracket(search, load, widest)
     if bracket is None:
         return None
@@ -44,6 +44,18 @@ def widest_contact(search: Search, load: float) -> Found | None:
         return search.polished(search.of_half_width(r).contact, load / search.half_modulus, False)
     except LoadError:
         return None
+
+
+def _wide_enough(search: Search, load: float) -> float:
+    """A half-width, of a profile without an end, whose contact reaches beyond all breaks and carries more than the load; 0 if none."""
+    breaks = search.slope.break_points
+    widest = breaks[-1] - breaks[0] if breaks else 0.0
+    for _ in range(MAX_STEPS):
+        carried = _carried(search, NARROWER * widest) if widest > 0.0 else None
+        if carried is None or carried > load:
+            return widest if carried is not None else 0.0
+        widest *= 2.0
+    return 0.0
 
 
 def _bracket(search: Search, load: float, widest: float) -> tuple[tuple[float, float], tuple[float, float]] | None:
