@@ -24,7 +24,8 @@ jumps: at a distance d behind the break, to leading order,
 There a step leads to the root of this model, on whichever side of the break that is.
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
-their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by.
+their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by. What that leaves
+unknown of the edges is `uncertainty`.
 """
 
 from __future__ import annotations
@@ -77,6 +78,16 @@ class Bracket:
         if not math.isfinite(self.low[0] + self.high[0]):
             return wanted
         return two_sum(self.low[0], 0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1])
+
+
+def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+    """How far either edge moves for an ulp of the load and the rounding of its own equation: what (P, tilt) fix it to.
+
+    Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
+    """
+    r = contact.r
+    off = [EPS * target + ROUNDINGS * (r * size + target) for size in (k.size1, k.size2)]
+    return off[0] / (r * k.JL), off[1] / (r * k.JR)
 
 
 @dataclass
@@ -172,12 +183,14 @@ class Polish:
             over, rise = r * k.I1 - target, r * k.JR
             if not rise > 0.0:
                 break
-            out = self.outwards(contact, RIGHT, over, rise)
+            out = -over / rise
+            missed = abs(over) / self.rounding(contact, k, target)[1]
+            room = min(abs(self.nearest(contact, RIGHT)[1]), (contact.x2 - z) + contact.tail2)
+            if abs(out) > CLOSE * room:
+                out = self.outwards(contact, RIGHT, over, rise)
             if abs(out) > reach * r:
                 break
             wanted = contact.moved(-out, out)
-            missed = abs(over) / self.rounding(contact, k, target)[1]
-            room = min(abs(self.nearest(contact, RIGHT)[1]), (contact.x2 - z) + contact.tail2)
             if missed <= 1.0 or (2.0 * abs(out) <= room and VARIES * missed * abs(out) <= room):
                 return wanted, True
             bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
@@ -214,7 +227,10 @@ class Polish:
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
         """How far right both edges move so that over = r I0 vanishes; the edge next to a break tells."""
-        if abs(self.nearest(contact, RIGHT)[1]) <= abs(self.nearest(contact, LEFT)[1]):
+        to_left, to_right = abs(self.nearest(contact, LEFT)[1]), abs(self.nearest(contact, RIGHT)[1])
+        if abs(over) <= CLOSE * rise * min(to_left, to_right):
+            return -over / rise
+        if to_right <= to_left:
             return self.outwards(contact, RIGHT, over, rise, 0.5)
         return -self.outwards(contact, LEFT, -over, rise, 0.5)
 
@@ -222,11 +238,14 @@ class Polish:
 
     def nearest(self, contact: Interval, side: int) -> tuple[float, float]:
         """The break nearest to an edge, and how far behind the edge it lies: negative if it is ahead."""
-        breaks, x = self.slope.break_points, (contact.x1, contact.x2)[side]
-        k = bisect_left(breaks, x)
-        distance = contact.from_left if side == LEFT else contact.from_right
-        both = [(b, distance(b)) for b in breaks[max(k - 1, 0) : k + 1]]
-        return min(both, key=lambda pair: abs(pair[1]), default=(0.0, math.inf))
+        breaks, x, distance = self.slope.break_points, contact.x2, contact.from_right
+        if side == LEFT:
+            x, distance = contact.x1, contact.from_left
+        k, best, b = bisect_left(breaks, x), math.inf, 0.0
+        for j in (k - 1, k):
+            if 0 <= j < len(breaks) and abs(d := distance(breaks[j])) < abs(best):
+                best, b = d, breaks[j]
+        return b, best
 
     def outwards(self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0) -> float:
         """How far an edge moves outwards so that its residual `over`, which grows by `rise`, vanishes.

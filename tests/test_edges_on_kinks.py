@@ -155,3 +155,16 @@ def test_corners_of_a_slope_are_what_its_pieces_say():
         jump, kink = slope.corner(float(b))
         assert jump == pytest.approx(float(right[0] - left[0] + (right[1] - left[1]) * b), abs=64 * EPS)
         assert kink == pytest.approx(float(right[1] - left[1]), rel=4 * EPS)
+
+
+def test_the_edges_move_with_the_load_as_their_uncertainty_says():
+    """Per relative change of the load, without what rounding adds."""
+    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=2.0, normal_load=0.2, tilt=0.03)
+    light, heavy = (sie.solve(scene).with_(normal_load=0.2 * (1.0 + change)).normal.edges.contact for change in (-1e-5, 1e-5))
+    contact = sie.solve(scene).normal.edges.contact
+    k = Search(scene.profile.pieces.tilted(scene.tilt), 1.0).moments(contact)
+    alone = k._replace(size1=0.0, size2=0.0)
+    moves = [off / (EPS + polish.ROUNDINGS) for off in polish.uncertainty(contact, alone, 0.2)]
+    assert moves[0] == pytest.approx((light.x1 - heavy.x1) / 2e-5, rel=1e-4)
+    assert moves[1] == pytest.approx((heavy.x2 - light.x2) / 2e-5, rel=1e-4)
+    assert min(np.subtract(polish.uncertainty(contact, k, 0.2), polish.uncertainty(contact, alone, 0.2))) > 0.0
