@@ -23,23 +23,22 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval, interval_about, two_sum
 from .moments import Moments, moments
+from .polish import MAX_POLISHING, ROUNDINGS, Polish
 from .sliding import sliding_moments
 from .slope import Slope
 from .touch import lowest_points
 
 # The logarithmic search ends at this relative error of the load, after one more step: Newton squares it then and twice in polishing.
 ROUGH = 1e-2
-# Polishing stops when a step is below this many units of rounding of the distance it corrects.
-POLISHED = 4.0 * EPS
-FARTHEST = 0.5  # of r: a longer step in polishing means that the profile is not convex there
-ASTRAY = 1e-6  # of r: polishing that ends with longer steps may not have found a contact
-SETTLED = 1e-12  # below this fraction of r steps that no longer shrink are rounding
+MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 MAX_STEPS = 200
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
@@ -68,6 +67,14 @@ class Edges:
     evaluations: int
 
 
+class Found(NamedTuple):
+    """A contact, which edges are sharp, and its moments if they are known (but for the rounding of its edges)."""
+
+    contact: Interval
+    sharp: tuple[bool, bool] = (False, False)
+    moments: Moments | None = None
+
+
 @dataclass
 class Search:
     """One profile's slope under one modulus; counts how often the moments were evaluated."""
@@ -89,18 +96,20 @@ class Search:
             return moments(self.slope, contact, keep_zero=self.keep_zero)
         half = moments(self.slope, contact, self.axis, self.keep_zero)  # the symmetry makes the others zero
         J0 = half.JR + half.JL
-        return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0)
+        size = half.size1 + half.size2
+        return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
 
     def load(self, contact: Interval, k: Moments) -> float:
         """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G r K2."""
         return self.half_modulus * contact.r * (k.I1 + abs(k.I0))
 
-    def finished(self, contact: Interval, load: float | None, tilt: float, sharp: tuple[bool, bool]) -> Edges:
+    def finished(self, found: Found, load: float | None, tilt: float) -> Edges:
+        contact, sharp, k = found
         contact = contact.rounded(self.slope.break_points)
         G, r = self.half_modulus, contact.r
         if self.axis is not None and load is not None and not any(sharp):
             return Edges(contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations)
-        k = self.moments(contact)
+        k = k or self.moments(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
         if self.epsilon:
@@ -138,7 +147,7 @@ class Search:
 
     # -- symmetric contact --------------------------------------------------------------------------------------------
 
-    def symmetric(self, load: float) -> tuple[Interval, tuple[bool, bool]]:
+    def symmetric(self, load: float) -> Found:
         axis, z = self.axis, self.touch()[1]
         assert axis is not None
         hi = self.slope.domain[1]
@@ -150,7 +159,7 @@ class Search:
         if math.isfinite(hi):
             whole = interval_about(axis, hi - axis)
             if self.load(whole, self.moments(whole)) <= load:
-                return whole, (True, True)
+                return Found(whole, (True, True))
 
         def excess(distance: float) -> tuple[float, float]:
             contact = at(distance)
@@ -159,30 +168,18 @@ class Search:
 
         target = load / self.half_modulus
         distance = _logarithmic_root(excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load))
-        contact = at(distance)
-        for _ in range(MAX_STEPS):
-            k = self.moments(contact)
-            step = (target - contact.r * k.I1) / (contact.r * k.JR)
-            contact = contact.moved(-step, step)
-            if abs(step) <= POLISHED * (abs(contact.x2 - z) + contact.tail2) or step * step <= EPS * distance * distance:
-                break
-        return contact, (False, False)
+        return Found(self._polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
         """The same by Newton alone, from the contact under a load that is not much different; None if that does not settle at once."""
-        target, z, previous = load / self.half_modulus, self.touch()[1], NEAR
-        for _ in range(NEAR_STEPS):
-            k = self.moments(contact)
-            rise = contact.r * k.JR
-            distance = (contact.x2 - z) + contact.tail2
-            step = (target - contact.r * k.I1) / rise if rise > 0.0 else math.inf
-            if not abs(step) <= previous * distance:
-                return None
-            contact = contact.moved(-step, step)
-            if step * step <= EPS * distance * distance:
-                return contact
-            previous = 0.25 * abs(step) / distance
-        return None
+        z = self.touch()[1]
+        reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
+        contact, settled = self._polish.symmetric(contact, load / self.half_modulus, z, NEAR_STEPS, reach)
+        return contact if settled else None
+
+    @cached_property
+    def _polish(self) -> Polish:
+        return Polish(self.slope, self.moments, self.epsilon)
 
     def _first_guess(self, z: float, hi: float, target: float) -> float:
         if math.isfinite(hi):
@@ -207,21 +204,20 @@ class Search:
 
     # -- general contact ------------------------------------------------------------------------------------------------
 
-    def general(self, load: float) -> tuple[Interval, tuple[bool, bool]]:
+    def general(self, load: float) -> Found:
         """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the indenter."""
         right = self._right_edge(load)
-        if right is None:
-            flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, evaluations=0)
-            left = flipped._right_edge(load)
-            self.evaluations += flipped.evaluations
-            if left is None:
-                return Interval(*self.slope.domain), (True, True)
-            return left[0].mirrored(), (False, left[1])
-        contact, left_sharp = right
-        return contact, (left_sharp, False)
+        if right is not None:
+            return right
+        flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, evaluations=0)
+        left = flipped._right_edge(load)
+        self.evaluations += flipped.evaluations
+        if left is None:
+            return Found(Interval(*self.slope.domain), (True, True))
+        return Found(left.contact.mirrored(), left.sharp[::-1], left.moments.mirrored() if left.moments else None)
 
-    def _right_edge(self, load: float) -> tuple[Interval, bool] | None:
-        """The contact whose right edge is smooth, and whether its left edge is sharp; None if the right edge is sharp too."""
+    def _right_edge(self, load: float) -> Found | None:
+        """The contact whose right edge is smooth, and its left edge may be sharp; None if the right edge is sharp too."""
         z1, z2 = self.touch()
         lo, hi = self.slope.domain
         target = load / self.half_modulus
@@ -251,7 +247,7 @@ class Search:
         contact, _ = contact_at(distance)
         self.evaluations += split.evaluations
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
-        return self.polished(contact, target, left_sharp), left_sharp
+        return self.polished(contact, target, left_sharp)
 
     def _left_edge(self, z: tuple[float, float], right: float, guess: float) -> tuple[Interval, Moments, float]:
         """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there (a sharp edge); and z1 - x1."""
@@ -284,46 +280,50 @@ class Search:
         at = left if left in found else next(reversed(found))
         return *found[at], at
 
-    def polished(self, contact: Interval, target: float, left_sharp: bool) -> Interval:
-        """Newton for both edges at once; the Jacobian is diagonal at the solution."""
-        previous, settled = np.inf, False
-        for _ in range(MAX_STEPS):
-            k = self.moments(contact)
-            r = contact.r
-            rise2 = r * k.JR + ((0.5 - self.epsilon) * k.I0 if left_sharp else 0.0)
-            rise1 = r * k.JL
-            if rise2 <= 0.0 or (rise1 <= 0.0 and not left_sharp):
-                break  # not convex here: the inequalities will tell
-            step2 = (target - r * (k.I1 + k.I0)) / rise2
-            step1 = 0.0 if left_sharp else (r * (k.I1 - k.I0) - target) / rise1
-            size = max(abs(step1), abs(step2)) / r
-            if size > FARTHEST:
-                break
-            contact = contact.moved(step1, step2)
-            # Rim by rim the steps end at rounding of the moments, not of r: stop when they no longer shrink
-            settled = size <= ASTRAY
-            if size >= 0.25 * previous or size == 0.0:
-                break
-            previous = size
-        if not settled:
-            self._refuse_astray(contact, target, left_sharp)
-        return contact
-
-    def _refuse_astray(self, contact: Interval, target: float, left_sharp: bool) -> None:
-        """Raises LoadError unless the contact carries the load: of a profile with several bumps the search may end between two of them."""
-        k = self.moments(contact)
+    def polished(self, contact: Interval, target: float, left_sharp: bool) -> Found:
+        """Both edges at once, to rounding. Raises LoadError if that ends where the load is not carried: between two bumps of a profile."""
+        contact, k, settled = self._polish.both(contact, target, left_sharp)
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
-        if abs(carried - target) + askew > ASTRAY * target:
+        if not settled and not abs(carried - target) + askew <= MISSED * target:
             raise LoadError(
                 f"no single patch of contact was found that carries the load {target * self.half_modulus:.6g}: "
                 f"the search ended at [{contact.x1:.6g}, {contact.x2:.6g}] with {carried * self.half_modulus:.6g}; "
                 "the profile has several bumps, raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
+        return Found(contact, (left_sharp, False), k)
+
+    # -- a prescribed moment --------------------------------------------------------------------------------------------
+
+    def under_moment(self, load: float, moment: float) -> Edges | None:
+        """The contact and the tilt where both edges are smooth; None if none was found, or an edge is at the end of the indenter."""
+        target, lever = load / self.half_modulus, moment / load
+        lo, hi = self.slope.domain
+
+        def carried(r: float) -> tuple[float, float]:
+            k = self.moments(interval_about(lever, r))
+            rounding = ROUNDINGS * (k.size1 + k.size2)
+            # A straight part of the profile carries nothing
+            return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
+
+        def tilted(contact: Interval, tilt: float) -> Moments:
+            self.evaluations += 1
+            return moments(self.slope.tilted(tilt), contact, keep_zero=self.keep_zero)
+
+        limit = min(lever - lo, hi - lever)
+        try:
+            r = _logarithmic_root(carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load))
+        except LoadError:
+            return None
+        found = self._polish.balanced(interval_about(lever, r), target, lever, tilted)
+        if found is None:
+            return None
+        contact, k, tilt = found
+        return replace(self.finished(Found(contact, moments=k), load, tilt), moment=moment)
 
     # -- a prescribed half-width ----------------------------------------------------------------------------------------
 
-    def of_half_width(self, r: float) -> tuple[Interval, tuple[bool, bool]]:
+    def of_half_width(self, r: float) -> Found:
         lo, hi = self.slope.domain
         if 2.0 * r > (hi - lo) * (1.0 + 4.0 * EPS):
             raise LoadError(
@@ -336,7 +336,7 @@ class Search:
                 "which touches as a whole under any load: give a larger half_width, or a normal_load"
             )
         if self.axis is not None:
-            return interval_about(self.axis, r), (False, False)
+            return Found(interval_about(self.axis, r))
         low, high = max(lo + r, z1 - r), min(hi - r, z2 + r)
         for m, side in ((high, 1), (low, 0)):
             # At the end of the indenter one edge is sharp if the other wants to be there
@@ -344,29 +344,11 @@ class Search:
                 contact = Interval(hi - 2.0 * r, hi) if side else Interval(lo, lo + 2.0 * r)
                 k = self.moments(contact)
                 if k.I0 == 0.0:
-                    return contact, (False, False)
+                    return Found(contact, moments=k)
                 if (k.I0 < 0.0) == bool(side):
-                    return contact, (not side, bool(side))
-        return self._centred(r, low, high), (False, False)
-
-    def _centred(self, r: float, low: float, high: float) -> Interval:
-        """The contact of half-width r whose centre, between low and high, balances the slope: I0 = 0."""
-        m, tail = 0.5 * (low + high), 0.0
-        steps, widths = [np.inf], [np.inf, np.inf]
-        for _ in range(MAX_STEPS):
-            contact = interval_about(m, r).moved(tail, tail)
-            k = self.moments(contact)
-            low, high = (m, high) if k.I0 < 0.0 else (low, m)
-            J0 = 0.5 * (k.JR + k.JL)
-            step = -k.I0 / J0 if J0 > 0.0 else np.inf
-            if not low <= m + step <= high or (high - low > 0.5 * widths[-2] and abs(step) > 0.5 * steps[-1]):
-                step = 0.5 * (low + high) - m  # Newton creeps where a jump of the slope lies next to an edge
-            widths.append(high - low)
-            m, tail = two_sum(m, step + tail)
-            if abs(step) <= POLISHED * r or (abs(step) >= 0.25 * steps[-1] and abs(step) < SETTLED * r):
-                break
-            steps.append(abs(step))
-        return interval_about(m, r).moved(tail, tail)
+                    return Found(contact, (not side, bool(side)), k)
+        contact, k = self._polish.centred(interval_about(0.5 * (low + high), r), low, high)
+        return Found(contact, moments=k)
 
 
 def _logarithmic_root(

@@ -8,7 +8,6 @@ rounded rim of a nearly flat punch, b - a = 1e-12 a, has only four digits left i
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
 from typing import Any, NamedTuple
 
@@ -18,8 +17,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-# A tail is kept where rounding the edge to a double would change its distance to the nearest break by more than this.
-TAIL_MATTERS = 64.0 * EPS
+# A tail is kept where rounding the edge to a double would change its distance to the nearest break, or
+# to the other edge, by more than this.
+TAIL_MATTERS = 4.0 * EPS
 
 
 def two_sum(a: float, b: float) -> tuple[float, float]:
@@ -86,7 +86,7 @@ class Interval(NamedTuple):
         tails = [0.0, 0.0]
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
             k = bisect_left(breaks, x)
-            nearest = min((abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1]), default=math.inf)
+            nearest = min([self.x2 - self.x1, *(abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1])])
             if abs(tail) > TAIL_MATTERS * nearest:
                 tails[i] = tail
         return Interval(float(self.x1), float(self.x2), float(tails[0]), float(tails[1]))

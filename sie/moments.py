@@ -30,6 +30,8 @@ class Moments(NamedTuple):
     """I0 = ∫H dφ = positive - negative, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, JR = ∫H' (1 + sin φ) dφ, JL = ∫H' (1 - sin φ) dφ.
 
     JR and JL apart, because where a contact is lopsided one of them is a tiny part of ∫H' dφ.
+    size1 and size2 bound ∫Σ|c_j y^j| (1 -+ sin φ) dφ, every term of H taken positively: rounding of K1 = I1 - I0 and of K2 = I1 + I0 is
+    relative to them.
     """
 
     I0: float
@@ -39,6 +41,15 @@ class Moments(NamedTuple):
     JL: float
     positive: float
     negative: float
+    size1: float
+    size2: float
+
+    def mirrored(self) -> Moments:
+        """Those of h(-x) on the mirrored contact."""
+        return Moments(-self.I0, self.I1, -self.C2, self.JL, self.JR, self.negative, self.positive, self.size2, self.size1)
+
+
+NOTHING = Moments(*(0.0,) * 9)
 
 
 def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
@@ -53,13 +64,13 @@ def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_ze
 
 def _of_many(g: Geometry) -> Moments:
     if not len(g.k):
-        return Moments(*(0.0,) * 7)
+        return NOTHING
     with np.errstate(over="ignore", invalid="ignore"):  # a search may try a contact of 1e-300: what overflows is not rising
         order = quadrature_order(g.slope.degree)
         narrow = g.angles[2][:, 0] <= NARROW_ANGLE
         if g.slope.functions or np.count_nonzero(narrow) < MANY:
             return _summed(g, order)
-        wide = Moments(*(0.0,) * 7) if narrow.all() else _summed(g.part(~narrow), order)
+        wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
         return Moments(*map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree))))
 
 
@@ -83,7 +94,21 @@ def _summed(g: Geometry, order: int) -> Moments:
         jump = _jumps(g, H)
         JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
     I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
-    return Moments(_sum(WH), I1, C2, JR, JL, _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0)))
+    return Moments(_sum(WH), I1, C2, JR, JL, _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0)), *sizes(g, weight, H))
+
+
+def sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
+    """size1 and size2: of each piece its largest Σ|c_j y^j| and 1 -+ sin φ, times its angle."""
+    slope = g.slope
+    start = (g.ends[0] - slope.origins[g.k]) + g.tails[0]
+    farthest = np.maximum(np.abs(start), np.abs(start + g.length))
+    size = np.zeros(len(g.k))
+    for c in np.abs(slope.coefficients[g.k]).T[::-1]:
+        size = size * farthest + c
+    if slope.functions:
+        size += np.abs(H).max(axis=1)
+    size *= weight.sum(axis=1)
+    return 2.0 * float(size @ g.right[0]), 2.0 * float(size @ g.left[1])
 
 
 def _weighted_derivative(values: Array) -> Array:
@@ -132,7 +157,7 @@ class _Cut(NamedTuple):
 
 
 def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
-    total: tuple[float, ...] = (0.0,) * 7
+    total: tuple[float, ...] = NOTHING
     for row in slope.rows:
         cut = _cut(row, contact, lower)
         if cut is None:
@@ -169,6 +194,10 @@ def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
     I0 = I1 = C2 = JR = JL = positive = negative = 0.0
     base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
+    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
+    for v in c:
+        size = size * farthest + abs(v)
+    size *= 2.0 * angle
     sin = math.sin
     for g, w in _rule(quadrature_order(degree) if angle > NARROW else 5 + degree + int(4.0 * angle)):
         half_step = 0.5 * angle * g
@@ -191,7 +220,8 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             positive += wH
         else:
             negative -= wH
-    return I0, I1, C2, JR, JL, positive, negative
+    _, right_of_lo, left_of_hi, _ = cut.roots
+    return I0, I1, C2, JR, JL, positive, negative, size * right_of_lo * right_of_lo, size * left_of_hi * left_of_hi
 
 
 def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:

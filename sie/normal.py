@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
-from .edges import Edges, Search
+from .edges import Edges, Found, Search
 from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, Interval, interval_about
@@ -43,7 +43,7 @@ GROWS = 1.5  # a window so much wider must carry so much more, or no wider one w
 # One Chebyshev series for the whole contact is tried up to this many points before the slope is cut into pieces.
 LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
-MAX_TILTS = 100
+MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
@@ -176,7 +176,7 @@ def contact_under(
         search = Search(profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy)
         contact = search.symmetric_near(load, near)
         if contact is not None:
-            return Normal(search.finished(contact, load, 0.0, (False, False)), True)
+            return Normal(search.finished(Found(contact), load, 0.0), True)
     return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy)
 
 
@@ -219,28 +219,31 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         symmetric = axis if tilt == 0.0 and epsilon == 0.0 else None
         search = Search(slope.tilted(tilt), G, symmetric, keep_zero, epsilon)
         if scene.half_width is not None:
-            contact, sharp = search.of_half_width(scene.half_width)
-            if all(sharp):
+            found = search.of_half_width(scene.half_width)
+            if all(found.sharp):
                 raise LoadError(
                     f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any load: give normal_load instead of half_width"
                 )
-            return search.finished(contact, None, tilt, sharp)
+            return search.finished(found, None, tilt)
         assert scene.normal_load is not None
         try:
-            contact, sharp = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
+            found = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
         except LoadError:
             widest = None if scene.profile.convex else widest_contact(search, scene.normal_load)
             if widest is None:
                 raise
-            contact, sharp = widest, (False, False)
-        return search.finished(contact, scene.normal_load, tilt, sharp)
+            found = widest
+        return search.finished(found, scene.normal_load, tilt)
 
     if scene.moment is not None and scene.normal_load is not None:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain)
     if scene.moment is None:
         return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
-    search, at_fixed_width = Search(slope, G, epsilon=epsilon), scene.half_width is not None
-    edges = _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
+    search, at_fixed_width = Search(slope, G, epsilon=epsilon, keep_zero=keep_zero), scene.half_width is not None
+    edges = None
+    if scene.normal_load is not None and epsilon == 0.0 and (axis is None or scene.moment != axis * scene.normal_load):
+        edges = search.under_moment(scene.normal_load, scene.moment)
+    edges = edges or _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
@@ -263,7 +266,8 @@ def _tilt_of_moment(
     low, high = -math.inf, math.inf
     best = edges_at(tilt)
     edges = best
-    for _ in range(MAX_TILTS):
+    left = MAX_TILTS
+    while left > 0:
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
             best = edges
@@ -276,7 +280,8 @@ def _tilt_of_moment(
             new = 0.5 * (low + high) if math.isfinite(low + high) else tilt
         if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
             break
-        tilt, tried = _carried(edges_at, new, best.tilt)
+        tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
+        left -= spent
         if tried is None:
             break
         edges = tried
@@ -290,14 +295,16 @@ def _tilt_of_moment(
     return best
 
 
-def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float) -> tuple[float, Edges | None]:
-    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much."""
-    while abs(tilt - known) > 4.0 * EPS * abs(known):
+def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float, most: int) -> tuple[float, Edges | None, int]:
+    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much; and the tilts tried."""
+    for tried in range(1, most + 1):
+        if abs(tilt - known) <= 4.0 * EPS * abs(known):
+            return tilt, None, tried
         try:
-            return tilt, edges_at(tilt)
+            return tilt, edges_at(tilt), tried
         except ContactError:
             tilt = 0.5 * (tilt + known)
-    return tilt, None
+    return tilt, None, most
 
 
 def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:

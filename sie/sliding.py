@@ -27,7 +27,7 @@ from . import chebyshev, lerch
 from .batched_plane import Points
 from .geometry import Geometry, quadrature_order
 from .interval import EPS, Interval
-from .moments import Moments, rises
+from .moments import NOTHING, Moments, rises, sizes
 from .panels import Panels
 from .potential import Plane
 from .power_law import PowerLaw, PowerSlope
@@ -103,7 +103,7 @@ def sliding_moments(slope: Slope, contact: Interval, epsilon: float, keep_zero: 
     """`moments` with dt/w for dφ, and C2 = ∫ H (1/2 - 2ε² - 2ε s - s²) dt/w, s = (t - m)/r."""
     g = SlidingGeometry(slope, contact, epsilon, keep_zero)
     if not len(g.k):
-        return Moments(*(0.0,) * 7)
+        return NOTHING
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         return _summed(g)
 
@@ -123,7 +123,7 @@ def _summed(g: SlidingGeometry) -> Moments:
     e = g.epsilon
     C2 = float(np.vdot(WH, 0.5 - 2.0 * e * e - 2.0 * e * s - s * s))
     positive, negative = np.maximum(WH, 0.0).sum(), -np.minimum(WH, 0.0).sum()
-    return Moments(float(WH.sum()), float(np.vdot(WH, s)), C2, JR, JL, float(positive), float(negative))
+    return Moments(float(WH.sum()), float(np.vdot(WH, s)), C2, JR, JL, float(positive), float(negative), *sizes(g, weight, H))
 
 
 def _derivative(g: SlidingGeometry, offset: Array) -> Array:

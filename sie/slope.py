@@ -195,6 +195,18 @@ class Slope:
         found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
         return tuple((b, above - below) for b, below, above in found if abs(above - below) > JUMP * max(abs(below), abs(above)))
 
+    def corner(self, x: float) -> tuple[float, float]:
+        """What H and H' jump by at a break x; of functions H alone, one ulp beside it."""
+        j = int(np.searchsorted(self.breaks, x))
+        if not 0 < j < len(self.origins):
+            return 0.0, 0.0
+        k, start, ulp = np.array([j - 1, j]), np.array([x, x]), np.spacing(abs(x)) if self.functions else 0.0
+        (below,), (above,) = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))
+        curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
+        kink = float(curvature[1, 0] - curvature[0, 0]) if isinstance(curvature, np.ndarray) else 0.0
+        rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
+        return (float(above - below) if abs(above - below) > rounding else 0.0), kink
+
     def after(self, x: float) -> float:
         """H just right of x, of few pieces."""
         return next((row.at(x) for row in self.rows if row.lo <= x < row.hi), 0.0)

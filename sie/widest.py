@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-from .edges import Search
+from .edges import Found, Search
 from .errors import LoadError
-from .interval import Interval
 
 NARROWER = 0.8  # each half-width tried is this part of the one before ...
 NARROWEST = 1e-3  # ... down to this part of the widest
@@ -19,12 +18,12 @@ CLOSE = 1e-4  # of the load: from there Newton's steps for both edges
 MAX_STEPS = 60
 
 
-def widest_contact(search: Search, load: float) -> Interval | None:
-    """The contact, with smooth edges, or None if the profile has no ends or no such contact is found."""
+def widest_contact(search: Search, load: float) -> Found | None:
+    """The contact, with smooth edges, or None if no such contact is found."""
     lo, hi = search.slope.domain
     widest = 0.5 * (hi - lo)
     if not math.isfinite(widest):
-        return None
+        widest = _wide_enough(search, load)
     bracket = _bracket(search, load, widest)
     if bracket is None:
         return None
@@ -42,9 +41,21 @@ def widest_contact(search: Search, load: float) -> Interval | None:
         else:
             wide, more = r, carried
     try:
-        return search.polished(search.of_half_width(r)[0], load / search.half_modulus, False)
+        return search.polished(search.of_half_width(r).contact, load / search.half_modulus, False)
     except LoadError:
         return None
+
+
+def _wide_enough(search: Search, load: float) -> float:
+    """A half-width, of a profile without an end, whose contact reaches beyond all breaks and carries more than the load; 0 if none."""
+    breaks = search.slope.break_points
+    widest = breaks[-1] - breaks[0] if breaks else 0.0
+    for _ in range(MAX_STEPS):
+        carried = _carried(search, NARROWER * widest) if widest > 0.0 else None
+        if carried is None or carried > load:
+            return widest if carried is not None else 0.0
+        widest *= 2.0
+    return 0.0
 
 
 def _bracket(search: Search, load: float, widest: float) -> tuple[tuple[float, float], tuple[float, float]] | None:
@@ -62,7 +73,7 @@ def _bracket(search: Search, load: float, widest: float) -> tuple[tuple[float, f
 def _carried(search: Search, r: float) -> float | None:
     """The load of the contact of half-width r; None if it ends at a corner."""
     try:
-        contact, sharp = search.of_half_width(r)
+        found = search.of_half_width(r)
     except LoadError:
         return None
-    return None if any(sharp) else search.load(contact, search.moments(contact))
+    return None if any(found.sharp) else search.load(found.contact, found.moments or search.moments(found.contact))

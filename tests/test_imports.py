@@ -19,7 +19,7 @@ ORDER = (
     "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "polish", "edges", "widest",
     "smooth", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
     "solution", "ladder", "path", "history", "fretting", "charts", "workers", "sweep",

@@ -295,3 +295,23 @@ def test_full_stick_is_for_flat_punches():
 def test_senseless_sliding_is_refused(given, words):
     with pytest.raises(ValueError, match=words):
         sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1, **given)
+
+
+@pytest.mark.parametrize("coupling", COUPLINGS)
+@pytest.mark.parametrize("tilt", [0.05, -0.12])
+def test_a_tilted_flat_that_slides_on_both_its_edges_carries_its_load(coupling, tilt):
+    """p times the roots of its singular ends is a straight line c0 + c1 s of s = x/b.
+
+    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are 2ε and 1/2 + 2ε² (a beta distribution).
+    """
+    b, P, e = 1.5, 2.0, shift(coupling)
+    solution = slid(sie.Flat(b), coupling, normal_load=P, tilt=tilt)
+    assert solution.sharp == (True, True)
+    s = np.array([-0.8, 0.1, 0.9])
+    line = solution.pressure(b * s) * (1.0 - s) ** (0.5 + e) * (1.0 + s) ** (0.5 - e)
+    c1 = (line[2] - line[0]) / (s[2] - s[0])
+    c0 = line[0] - c1 * s[0]
+    assert line[1] == pytest.approx(c0 + c1 * s[1], rel=1e-12)
+    whole = np.pi / np.cos(np.pi * e)
+    assert b * whole * (c0 + 2.0 * e * c1) == pytest.approx(P, rel=1e-12)
+    assert b * b * whole * (2.0 * e * c0 + (0.5 + 2.0 * e * e) * c1) == pytest.approx(solution.moment, rel=1e-11, abs=1e-12 * P * b)

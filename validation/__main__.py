@@ -22,7 +22,7 @@ from .running import run
 # Modules of this package, in the order of the page.
 TOPICS = (
     "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth",
-    "stability", "certificate", "economy", "mutation",
+    "stability", "kinks", "certificate", "economy", "mutation",
 )  # fmt: skip
 NOT_WRITTEN = 2
 INTERRUPTED = 130  # the exit status by which shells know it
