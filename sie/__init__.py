@@ -39,6 +39,7 @@ from .material import RIGID, Elastic
 from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
+from .remedy import least_smoothing
 from .sampled import Sampled
 from .scene import Scene
 from .solution import Solution, solve
@@ -80,6 +81,7 @@ __all__ = [
     "Wedge",
     "YieldPoint",
     "follow",
+    "least_smoothing",
     "plan",
     "scaled",
     "solve",

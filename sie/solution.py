@@ -22,7 +22,7 @@ from .gap import gap
 from .jacobi_density import JacobiDensity
 from .material import Elastic
 from .normal import ECONOMY, Normal, normal_contact, pressure
-from .remedy import with_smoothing
+from .sampled import explained, traces_in
 from .scene import Scene
 from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
@@ -73,8 +73,7 @@ class Solution:
         try:
             return self._one_patch()
         except ContactError as error:
-            attempt = lambda scene: Solution(scene, self.tol, self.economy)._one_patch()  # noqa: E731
-            raise with_smoothing(error, self.scene, attempt, self._verified) from None
+            raise explained(error, self.scene.profile) from None
 
     def _one_patch(self) -> Normal:
         try:
@@ -110,8 +109,11 @@ class Solution:
         return density
 
     def _look_for_a_second_patch(self) -> None:
-        """Where no single patch carries the load, a lighter one may show why: raises InequalityError if it does."""
-        if not self._may_not_be_convex or self.scene.normal_load is None:
+        """Where no single patch carries the load, a lighter one may show why: raises InequalityError if it does.
+
+        Of a trace the reason is known, and a rough one is expensive to search.
+        """
+        if not self._may_not_be_convex or self.scene.normal_load is None or any(traces_in(self.scene.profile)):
             return
         for fraction in LIGHTER:
             scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
