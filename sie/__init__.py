@@ -36,6 +36,7 @@ from .fretting import Cycle
 from .history import History, follow
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
+from .noise import TraceReport
 from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
@@ -78,6 +79,7 @@ __all__ = [
     "Scene",
     "Solution",
     "Stress",
+    "TraceReport",
     "Wedge",
     "YieldPoint",
     "follow",

@@ -21,6 +21,7 @@ from .field import Stress, Tractions
 from .gap import gap
 from .jacobi_density import JacobiDensity
 from .material import Elastic
+from .noise import TraceReport, trace_reports
 from .normal import ECONOMY, Normal, normal_contact, pressure
 from .sampled import explained, traces_in
 from .scene import Scene
@@ -52,7 +53,7 @@ class Solution:
     gap(x)       the gap between the deformed bodies, 0 in contact
     stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
-    check()      Certificate
+    check()      Certificate;  trace_reports(): a TraceReport for each measured trace, with the error that its noise implies
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -296,6 +297,14 @@ class Solution:
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""
         return self.certificate
+
+    def trace_reports(self) -> tuple[TraceReport, ...]:
+        """What each measured trace in the profile is, what was done with it, and the error of the pressure that its noise implies.
+
+        That error is estimated from the misfit of the spline. The certificate is another thing: it says how well the equations are solved
+        for the spline as it is. () if the profile has no trace. Costs smoothing by cross validation, and no further contact.
+        """
+        return () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
