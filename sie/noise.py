@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fits import Gap
-from .interval import Interval
+from .interval import EPS, Interval
 from .normal import Normal
 from .sampled import Mended, Placed, Sampled, traces_in
 from .scene import Scene
@@ -176,6 +176,7 @@ def _errors(placed: Placed, reference: Sampled, scene: Scene, normal: Normal, de
     place = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     p = density(contact.m + contact.r * np.cos(place))
     near = density(contact.m + contact.r * np.cos([np.pi - NEAR_EDGE, NEAR_EDGE])) / NEAR_EDGE
+    near = np.maximum(near, EPS * p.max())
     kappa = np.where(sharp, np.inf, near)  # a corner does not move
     angle = _angles(placed, contact)
     regular, moved = _operator(angle, place, contact, kappa, scene)
@@ -189,7 +190,7 @@ def _errors(placed: Placed, reference: Sampled, scene: Scene, normal: Normal, de
     bound = _bound(placed, reference, contact.m + contact.r * np.cos(angle), weights)
     first_order, others, at_edges = np.split(density.half_modulus * bound, (PLACES, 2 * PLACES))
 
-    largest = np.where(sharp, np.inf, np.sqrt(2.0 * at_edges * near))
+    largest = np.where(sharp, np.inf, np.sqrt(2.0 * at_edges) * np.sqrt(near))
     capped = others + np.minimum(own * at_edges[nearer], largest[nearer])
     error = np.minimum(first_order, capped) / p.max()
     x1, x2 = (contact.r * at_edges / kappa).tolist()

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import sie
-from sie import export, scenefile, summary
+from sie import export, noise, scenefile, summary
 
 X = np.linspace(-1.0, 1.0, 401)
 
 
-def noise(seed, size=401):
+def white(seed, size=401):
     return np.random.default_rng(seed).standard_normal(size)
 
 
@@ -36,6 +36,34 @@ def largest_error(found, exact):
     return np.abs(found.pressure(x) - p).max() / p.max()
 
 
+@pytest.mark.parametrize("moment", [None, 0.03])
+@pytest.mark.parametrize("size", [{"normal_load": 0.4}, {"half_width": 0.7}])
+def test_the_operator_is_the_derivative_of_pressure_and_edges(size, moment):
+    """Central differences of contacts that were solved, about one that is not symmetric."""
+
+    def contact(step):
+        h = np.array([0.0, 0.1, 0.5, 0.07]) + step * np.array([0.0, 0.3, -0.2, 0.5])
+        scene = sie.Scene(profile=sie.Polynomial((*h, 0.1)), modulus=2.0, moment=moment, **size)
+        return sie.solve(scene)
+
+    middle, step = contact(0.0), 1e-5
+    lower, upper = contact(-step), contact(step)
+    interval = middle.normal.edges.contact
+    place = np.linspace(0.5, 2.5, 9)
+    x = interval.m + interval.r * np.cos(place)
+    angle = np.pi * (np.arange(16) + 0.5) / 16
+    t = interval.m + interval.r * np.cos(angle)
+    slope = 0.3 - 0.4 * t + 1.5 * t * t
+    ends = interval.m + interval.r * np.cos([np.pi - 1e-5, 1e-5])
+    kappa = middle.pressure(ends) / 1e-5
+    regular, moved = noise._operator(angle, place, interval, kappa, middle.scene)
+    turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
+    difference = (upper.pressure(x) - lower.pressure(x)) / (2.0 * step)
+    assert (regular + turned @ moved) @ slope == pytest.approx(difference, abs=1e-7)
+    shifts = np.subtract(upper.edges, lower.edges) / (2.0 * step)
+    assert interval.r / kappa * (moved @ slope) == pytest.approx(shifts * [-1.0, 1.0], abs=1e-6)
+
+
 PROFILES = {
     "parabola": (0.5 * X**2, sie.Parabola(1.0)),
     "cosh": (0.25 * np.cosh(2.0 * X), sie.FromFunction("sinh(2*x)/2", domain=(-1.0, 1.0))),
@@ -52,7 +80,7 @@ def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, 
     exact = solved(shape, **ASKED[asked])
     stated, true, edges, moved = [], [], [], []
     for seed in range(20):
-        found = solved(sie.Sampled(X, h + 1e-4 * np.ptp(h) * noise(seed), "gcv"), **ASKED[asked])
+        found = solved(sie.Sampled(X, h + 1e-4 * np.ptp(h) * white(seed), "gcv"), **ASKED[asked])
         (report,) = found.trace_reports()
         stated.append(report.pressure_error)
         true.append(largest_error(found, exact))
@@ -71,7 +99,7 @@ def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(po
     x = np.linspace(-1.0, 1.0, points)
     exact, ratio = solved(sie.Parabola(1.0)), []
     for seed in range(20):
-        found = solved(sie.Sampled(x, 0.5 * (x**2 + size * noise(seed, points)), smoothing))
+        found = solved(sie.Sampled(x, 0.5 * (x**2 + size * white(seed, points)), smoothing))
         ratio.append(found.trace_reports()[0].pressure_error / largest_error(found, exact))
     assert np.count_nonzero(np.array(ratio) >= 1.0) >= 18
     assert np.median(ratio) <= 10.0
@@ -79,7 +107,7 @@ def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(po
 
 def test_what_is_smoothed_away_beyond_cross_validation_counts_as_an_error():
     h, shape = PROFILES["rounded"]
-    found = solved(sie.Sampled(X, h + 1e-5 * noise(0), 0.1))
+    found = solved(sie.Sampled(X, h + 1e-5 * white(0), 0.1))
     true = largest_error(found, solved(shape))
     assert true > 0.1
     assert true <= found.trace_reports()[0].pressure_error <= 2.0 * true
@@ -96,7 +124,7 @@ def test_a_trace_without_noise_is_told_from_a_noisy_one(smoothing):
     ids=["mirrored", "shifted and mirrored", "sum"],
 )
 def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
-    trace = sie.Sampled(X, 0.5 * (X**2 + 1e-4 * noise(3)) + 0.01 * X**3, "gcv")
+    trace = sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(3)) + 0.01 * X**3, "gcv")
     alone, within = reported(trace), reported(made(trace))
     assert within.pressure_error == pytest.approx(alone.pressure_error, rel=1e-6)
     assert sorted(within.edge_errors) == pytest.approx(sorted(alone.edge_errors), rel=1e-6)
@@ -104,13 +132,13 @@ def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
 
 
 def test_a_corner_does_not_move():
-    punch = sie.Flat(0.3) + sie.Sampled(X, 0.1 * X**2 + 1e-5 * noise(0), "gcv")
+    punch = sie.Flat(0.3) + sie.Sampled(X, 0.1 * X**2 + 1e-5 * white(0), "gcv")
     assert reported(punch).edge_errors == (0.0, 0.0)
     assert 0.0 < reported(punch).pressure_error < 0.1
 
 
 def test_the_error_does_not_depend_on_the_units():
-    h = 0.5 * (X**2 + 1e-4 * noise(5))
+    h = 0.5 * (X**2 + 1e-4 * white(5))
     one = reported(sie.Sampled(X, h, "gcv"))
     other = reported(sie.Sampled(1e-3 * X, 1e-3 * h, "gcv"), normal_load=1e-4)
     assert other.pressure_error == pytest.approx(one.pressure_error, rel=1e-6)
@@ -118,7 +146,7 @@ def test_the_error_does_not_depend_on_the_units():
 
 
 def test_a_report_solves_no_contact(monkeypatch):
-    solution = solved(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * noise(5)), "gcv"))
+    solution = solved(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(5)), "gcv"))
     before = solution.edges
     monkeypatch.setattr("sie.solution.normal_contact", None)
     monkeypatch.setattr("sie.solution.pressure", None)
@@ -137,7 +165,7 @@ def test_a_profile_that_is_no_trace_has_no_report():
 @pytest.mark.parametrize("smoothing", [0.0, 1e-4, "gcv"])
 @pytest.mark.parametrize("size", [1e-4, 1e-8])
 def test_outliers_are_found_and_stay(smoothing, size):
-    h = 0.5 * X**2 + size * noise(8)
+    h = 0.5 * X**2 + size * white(8)
     bad = [5, 120, 121, 260, 263, 395]
     h[bad] += size * np.array([40.0, -60.0, -40.0, 200.0, 50.0, 40.0])
     trace = sie.Sampled(X, h, smoothing)
@@ -149,7 +177,7 @@ def test_outliers_are_found_and_stay(smoothing, size):
 @pytest.mark.parametrize("profile", PROFILES)
 def test_noise_alone_and_the_kinks_of_a_pad_are_no_outliers(profile, seed):
     h = PROFILES[profile][0]
-    assert sie.Sampled(X, h + 1e-4 * noise(seed)).outliers == ()
+    assert sie.Sampled(X, h + 1e-4 * white(seed)).outliers == ()
     assert sie.Sampled(X + 1e-3 * seed, h).outliers == ()
 
 
@@ -171,7 +199,7 @@ def test_missing_points_are_counted_where_they_are():
 
 @pytest.mark.parametrize(
     "x",
-    [X, np.sinh(3.0 * X), np.sort(np.random.default_rng(0).uniform(-1.0, 1.0, 401)), X + 1e-4 * noise(0)],
+    [X, np.sinh(3.0 * X), np.sort(np.random.default_rng(0).uniform(-1.0, 1.0, 401)), X + 1e-4 * white(0)],
     ids=["even", "graded", "at random", "jittered"],
 )
 def test_uneven_points_are_no_gaps(x):
@@ -215,7 +243,7 @@ def test_a_pad_that_was_not_levelled_says_so_and_one_that_was_does_not(sign):
 
 
 def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
-    h = 0.5 * (X**2 + 1e-4 * noise(1))
+    h = 0.5 * (X**2 + 1e-4 * white(1))
     h[40] += 0.01
     h[200:220] = np.nan
     solution = solved(sie.Sampled(X, h, "gcv", mend=True))
