@@ -1,4 +1,4 @@
-"""What a trace is like: its gaps, its outliers, the straight line through it, and the rounded flat that comes nearest.
+"""What a trace is like: its gaps, its outliers, the line through it, and the nearest rounded flat.
 
     h = c + t x + (|x - x0| - a)_+² / (2R)          a flat base of half-length a, arcs of radius R, centre x0, tilt t
 
@@ -18,8 +18,8 @@ from .interval import EPS
 
 Array = NDArray[np.float64]
 
-FENCE = 6.0  # interquartile ranges: a step so far above the upper quartile, and half a median more, is a gap
-DEVIANT = 5.0  # standard deviations: of 1e5 points with Gaussian noise one in 20 traces has such a point
+FENCE = 6.0  # interquartile ranges above the upper quartile, and half a median more: a gap
+DEVIANT = 5.0  # standard deviations: with Gaussian noise 1 of 20 traces of 1e5 points has one
 GAUSSIAN = 1.4826  # standard deviations in the median of the absolute value
 CONFIRMED = 2.0  # standard deviations
 ROUNDS = 4
@@ -29,7 +29,7 @@ FEWEST_NEIGHBOURS = 4
 LOOKED_AT = 30  # points on one side, among which these are found
 MOST_EXAMINED = 1000  # points
 STRAIGHT = 64.0 * EPS  # of the largest height: a trace that leaves its line by less is the line
-ARCHED = 0.5  # part of the variance about the line that a downward parabola explains, if the trace is upside down
+ARCHED = 0.5  # of the variance is explained by a downward parabola: the trace is upside down
 
 SCAN = 24  # values of x0 and of a in the scan
 MOST_SCANNED = 2000  # points of the trace
@@ -44,20 +44,21 @@ class Gap(NamedTuple):
 
 
 def gaps(x: Array) -> tuple[Gap, ...]:
-    """Steps much longer than the others (Tukey's fence), so that irregular or graded points alone are no gaps."""
+    """Steps much longer than the others (Tukey's fence): irregular or graded points are no gaps."""
     step = np.diff(x)
     lower, middle, upper = np.quantile(step, (0.25, 0.5, 0.75)).tolist()
     wide = np.flatnonzero(step > upper + 0.5 * middle + FENCE * (upper - lower))
-    return tuple(Gap(float(x[k]), float(x[k + 1]), max(round(float(step[k]) / middle) - 1, 1)) for k in wide.tolist())
+    missing = np.maximum(np.round(step[wide] / middle) - 1.0, 1.0).astype(int)
+    return tuple(map(Gap, x[wide].tolist(), x[wide + 1].tolist(), missing.tolist()))
 
 
 def outliers(x: Array, h: Array) -> tuple[int, ...]:
-    """Which points stand out of the noise, ascending; found again when those are left out, a few times.
+    """Which points stand out of the noise, ascending; searched again without those, a few times.
 
-    A point is judged by a cubic through the next points on both sides: it is off if it misses that by
-    many times the median. A corner or a kink of a trace without noise does so too. So the point must
-    also lie off both parabolas through its neighbours, on its left and on its right, to the same side.
-    The points next to an end are not judged.
+    A point is judged by a cubic through the next points on both sides: it is off if it misses that
+    by many times the median. A corner or a kink of a trace without noise does so too. So the point
+    must also lie off both parabolas through its neighbours, left and right, to the same side. The
+    points next to an end are not judged.
     """
     kept = np.arange(len(x))
     for _ in range(ROUNDS):
@@ -102,7 +103,7 @@ def _sides(k: int, size: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, float]:
-    """How far point k is off the parabola through the points on one side, and how uncertain that is for noise of 1."""
+    """How far point k is off the parabola through some points, and what noise of 1 does to that."""
     if len(side) < FEWEST_NEIGHBOURS:
         return 0.0, 1.0
     weights = _extrapolation(x[None, side], x[k : k + 1], 2)[0]
@@ -110,7 +111,7 @@ def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, fl
 
 
 def _extrapolation(x: Array, at: Array, degree: int) -> Array:
-    """Weights (n, m) of heights at x (n, m) in the value at `at` (n,) of the polynomial of least squares."""
+    """Weights (n, m) of heights at x (n, m) in the value at `at` (n,) of a least-squares polynomial."""
     u = (x - at[:, None]) / np.ptp(x, axis=1)[:, None]
     weights: Array = np.linalg.pinv(u[..., None] ** np.arange(degree + 1))[:, 0]
     return weights
@@ -154,7 +155,7 @@ def line(x: Array, h: Array) -> tuple[float, float]:
 
 
 def reason_at_an_end(x: Array, h: Array) -> str:
-    """Why a contact with the trace may reach its end, and what helps; "" if nothing is strange about it."""
+    """Why a contact with the trace may reach its end, and what helps; "" if there is no reason."""
     offset, slope = line(x, h)
     left = h - (offset + slope * x)
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():

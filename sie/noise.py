@@ -117,10 +117,10 @@ class TraceReport:
         x1, x2 = self.edge_errors
         inner = f"{self.inner_error:.1e} away from the edges"
         rows += [
-            ("noise, estimated", f"p to {self.pressure_error:.1e} of its peak, {inner}"),
+            ("noise estimate", f"p to {self.pressure_error:.1e} of its peak, {inner}"),
             ("", f"x1 to {x1:.1e}, x2 to {x2:.1e}; the certificate is of the equations alone"),
         ]
-        return "\n".join(f"{name:<16} {text}" for name, text in rows)
+        return "\n".join(f"{name:<15} {text}" for name, text in rows)
 
 
 def _listed(shown: Iterable[str], count: int, after: str = "") -> str:

@@ -30,7 +30,12 @@ SHORTEST, LONGEST = 1e-100, 1e100  # of lengths and heights: beyond, their power
 
 
 class Mended(NamedTuple):
-    """What `mend` did: how many points without a value it left out, how many points of equal x it averaged, and whether it sorted x."""
+    """What `mend` did to a trace.
+
+    left_out    points without a value
+    averaged    points that were averaged with others of the same x, to rounding
+    sorted      whether x did not ascend
+    """
 
     left_out: int = 0
     averaged: int = 0
@@ -45,7 +50,7 @@ class Sampled(Profile):
     smoothing   0: the interpolating cubic spline, not-a-knot at the ends (SciPy's CubicSpline): for traces without noise
                 λ > 0: the smoothing spline that minimises Σ(h - f(x))² + λ∫f''² (SciPy's make_smoothing_spline), λ in length³
                 "gcv": the same, λ chosen by generalised cross validation
-    mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it
+    mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it; `mended` tells what it did
 
     The slope is a quadratic polynomial on each piece. Beyond the trace's ends nothing is known: a contact that would reach an end is
     refused (the end of a trace is not a corner of the indenter). Raises ValueError for anything that is not a trace.
@@ -163,7 +168,7 @@ class Sampled(Profile):
     def ends_are_corners(self) -> tuple[bool, bool]:
         return False, False
 
-    # -- what is known of the measurement -------------------------------------------------------------------------------
+    # -- what is known of the measurement -----------------------------------------------------------
 
     @property
     def misfit(self) -> float:
@@ -172,12 +177,12 @@ class Sampled(Profile):
 
     @property
     def gaps(self) -> tuple[fits.Gap, ...]:
-        """Where points are missing: intervals much longer than the other steps of x, which the spline bridges."""
+        """Where points are missing: intervals much longer than the other steps of x; the spline bridges them."""
         return fits.gaps(self.points)
 
     @cached_property
     def outliers(self) -> tuple[int, ...]:
-        """The indices of points that stand out of the noise; they are found for the report, and stay in the trace."""
+        """The indices of points that stand out of the noise. They stay in the trace."""
         return fits.outliers(self.points, self.heights)
 
     @cached_property
@@ -187,9 +192,9 @@ class Sampled(Profile):
         return Sampled(self.points[kept], self.heights[kept], "gcv")
 
     def reference(self, between: tuple[float, float]) -> Sampled:
-        """The best guess of the surface without noise: the trace less its outliers, smoothed by cross validation.
+        """The best guess of the surface without noise: less its outliers, by cross validation.
 
-        Where its own smoothing is stronger, and the misfit between two x does not speak against it, with that.
+        Where its own smoothing is stronger, and the misfit between two x agrees with it: by that.
         """
         clean = self if self.smoothing == "gcv" and not self.outliers else self._cleaned
         as_good = self.lam > clean.lam and explains(clean.points, clean.heights, self.lam, clean.lam, between)
@@ -197,7 +202,7 @@ class Sampled(Profile):
 
     @property
     def line(self) -> tuple[float, float]:
-        """(height at x = 0, slope) of the least-squares line through the trace, which `levelled` takes out."""
+        """(height at x = 0, slope) of the least-squares line, which `levelled` takes out."""
         return fits.line(self.points, self.heights)
 
     # -- other traces made of this one ----------------------------------------------------------------------------------
@@ -225,11 +230,11 @@ class Sampled(Profile):
         return made
 
 
-# -- traces in other profiles --------------------------------------------------------------------------------------------
+# -- traces in other profiles ----------------------------------------------------------------------
 
 
 class Placed(NamedTuple):
-    """A trace in a profile: its x is direction x + origin, and its slope counts times direction, + tilt."""
+    """A trace in a profile: its x is direction x + origin, its slope counts times direction, + tilt."""
 
     trace: Sampled
     direction: float = 1.0
@@ -256,7 +261,7 @@ def traces_in(profile: Any) -> Iterator[Placed]:
 
 
 def explained(error: ContactError, profile: Profile) -> ContactError:
-    """The refusal of a trace's contact, with the reason and the remedy that the trace has; nothing is solved for it."""
+    """The refusal of a contact, with the reason and the remedy that a trace has. Nothing is solved."""
     trace = next((placed.trace for placed in traces_in(profile)), None)
     if trace is None or not error.reached:
         return error
@@ -268,8 +273,10 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
 
 
 def _parts(profile: Any) -> Iterator[Profile]:
-    for value in (getattr(profile, f.name) for f in fields(profile)) if is_dataclass(profile) else ():
-        yield from (part for part in (value if isinstance(value, tuple) else (value,)) if isinstance(part, Profile))
+    for field in fields(profile) if is_dataclass(profile) else ():
+        value = getattr(profile, field.name)
+        parts = value if isinstance(value, tuple) else (value,)
+        yield from (part for part in parts if isinstance(part, Profile))
 
 
 # -- what is not a trace -------------------------------------------------------------------------------------------------
@@ -307,7 +314,7 @@ def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array, Mended
 
 
 def _ascending(x: Array, h: Array) -> tuple[Array, Array, int, bool]:
-    """x sorted, the heights where it is the same to rounding averaged, how many fewer, x sorted or not."""
+    """x sorted, heights of the same x (to rounding) averaged, how many fewer, x in disorder or not."""
     order = np.argsort(x, kind="stable")
     x, h, in_disorder = x[order], h[order], bool((np.diff(order) < 0).any())
     closest = SMALLEST_STEP * (0.5 * x[-1:] - 0.5 * x[:1])
@@ -319,7 +326,8 @@ def _ascending(x: Array, h: Array) -> tuple[Array, Array, int, bool]:
 
 def _refuse_out_of_range(points: Array, heights: Array) -> None:
     length = 0.5 * points[-1] - 0.5 * points[0]
-    size, least = max(float(np.abs(points).max()), float(np.abs(heights).max())), float(np.diff(points).min())
+    size = max(float(np.abs(points).max()), float(np.abs(heights).max()))
+    least = float(np.diff(points).min())
     if size > LONGEST or length < SHORTEST:
         what = f"reaches {size:.3g}" if size > LONGEST else f"is {2.0 * length:.3g} long"
         raise ValueError(f"the trace {what}: choose a unit in which its length and its heights are between {SHORTEST:g} and {LONGEST:g}")

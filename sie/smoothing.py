@@ -18,13 +18,15 @@ With few points in that length (few enough for a knot at each) the second deriva
 f(x).
 Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
 
-What noise leaves in the spline: if h = f + noise, independent from point to point and of variance s², then f given h has the mean of the
-smoothing spline and the covariance s² (B'B + λE)^-1 of its coefficients (Wahba 1983). This covers, on the average over x, what smoothing
-itself takes from f (Nychka 1988).
+What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
+s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance
+s² (B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+(Nychka 1988).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -85,17 +87,21 @@ def cross_validated(x: Array, h: Array) -> float:
 
 
 def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
-    """Whether the misfit of λ = lam there exceeds that of a smaller λ by no more than noise does (an F-test)."""
+    """Whether the misfit there exceeds that of a smaller λ by no more than noise does (an F-test)."""
     problem = _Problem(x, h)
-    (rss, left), (least_rss, least_left) = (problem.misfit(value / problem.length**3, _local(x, *between)) for value in (lam, least))
+    part, unit = _local(x, *between), problem.length**3
+    rss, left = problem.misfit(lam / unit, part)
+    least_rss, least_left = problem.misfit(least / unit, part)
     freed = max(left - least_left, 0.0)
-    return (rss - least_rss) * least_left <= (freed + SIGNIFICANT * np.sqrt(2.0 * freed)) * least_rss
+    expected = freed + SIGNIFICANT * math.sqrt(2.0 * freed)
+    return (rss - least_rss) * least_left <= expected * least_rss
 
 
 def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
-    """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]), weights (m, K), points (K,) in the trace.
+    """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
 
-    Noise is measured by the misfit about them: what it leaves of a surface without bias has the expectation s² tr (I - A)².
+    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points: without
+    bias its sum of squares has the expectation s² tr (I - A)².
     """
     from scipy.interpolate import BSpline  # noqa: PLC0415
 
@@ -103,7 +109,8 @@ def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Arr
     lam /= problem.length**3
     basis = problem.basis(lam)
     rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
-    design = BSpline.design_matrix((points - x[0]) / problem.length, basis.knots[1:-1], 2) @ basis.first_difference
+    at = (points - x[0]) / problem.length
+    design = BSpline.design_matrix(at, basis.knots[1:-1], 2) @ basis.first_difference
     functional = design.T @ weights.T
     variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
     return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
@@ -219,7 +226,7 @@ class _Basis:
 
     @property
     def first_difference(self) -> Any:
-        """From the coefficients of f to those of f' in quadratic B-splines on the same knots, less one at either end."""
+        """From the coefficients of f to those of f' in quadratic B-splines, on all knots but the outermost."""
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(self.chosen)

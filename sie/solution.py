@@ -53,7 +53,8 @@ class Solution:
     gap(x)       the gap between the deformed bodies, 0 in contact
     stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
-    check()      Certificate;  trace_reports(): a TraceReport for each measured trace, with the error that its noise implies
+    check()      Certificate
+    trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -110,7 +111,7 @@ class Solution:
         return density
 
     def _look_for_a_second_patch(self) -> None:
-        """Where no single patch carries the load, a lighter one may show why: raises InequalityError if it does.
+        """Where no patch carries the load, a lighter load may show why: InequalityError if it does.
 
         Of a trace the reason is known, and a rough one is expensive to search.
         """
@@ -299,10 +300,16 @@ class Solution:
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
-        """What each measured trace in the profile is, what was done with it, and the error of the pressure that its noise implies.
+        """The measured traces in the profile: what was done with them, and what their noise implies.
 
-        That error is estimated from the misfit of the spline. The certificate is another thing: it says how well the equations are solved
-        for the spline as it is. () if the profile has no trace. Costs smoothing by cross validation, and no further contact.
+        The error of the pressure that a report states is estimated from the misfit of the spline.
+        The certificate is another thing: it says how well the equations are solved for the spline
+        as it is. The cost is a smoothing by cross validation; no contact is solved again.
+
+        Returns
+        -------
+        tuple of TraceReport
+            One for each trace, () if the profile has none.
         """
         return () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
 

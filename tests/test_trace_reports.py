@@ -1,4 +1,4 @@
-"""Reports of traces: what was measured, what was mended, and the error of the pressure that noise implies."""
+"""Reports of traces: what was measured and mended, and the error that noise implies."""
 
 import json
 
@@ -249,7 +249,7 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     solution = solved(sie.Sampled(X, h, "gcv", mend=True))
     file = scenefile.SceneFile(solution.scene, "", scenefile.Units(), ("check",), ())
     text, parsed = summary.summary(solution, file), json.loads(export.json_text(solution, file))
-    for row in ("estimated relative error of the pressure", "noise, estimated", "20 points without a value"):
+    for row in ("estimated relative error of the pressure", "noise estimate", "20 points without a value"):
         assert text.count(row) == 1
     (trace,) = parsed["traces"]
     assert trace["pressure_error"] > 1e-3 > 1e9 * parsed["check"]["error"]
