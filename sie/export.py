@@ -12,7 +12,7 @@
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
            check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, tension, overlap, error, ok} if wanted
-           traces [{points, smoothing, averaged, misfit, outliers [[x, off], ..],
+           traces [{points, smoothing, averaged, separated, misfit, outliers [[x, off], ..],
                   gaps [{lo, hi, missing}, ..], mended {left_out, averaged, sorted}, tilt, aside,
                   pressure_error, inner_error, edge_errors [x1, x2]}, ..]          if check is wanted, of measured traces
            stress {x, xx, yy, xy: [..]} on the surface                                                               if wanted

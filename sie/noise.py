@@ -65,6 +65,8 @@ class TraceReport:
     smoothing           λ of the spline in use, length³; 0 if it interpolates
     averaged            over how many points it averages, (λ/Δ³)^(1/4), Δ their mean distance;
                         below about 1 it follows the noise too
+    separated           whether cross validation averages over more than a point; where it does not,
+                        noise that is correlated from point to point is not in the errors below
     misfit              what the spline leaves of the heights, root of the mean square
     outliers            (x, height over the reference) of points that stand out of the noise;
                         they were not removed
@@ -82,6 +84,7 @@ class TraceReport:
     points: int
     smoothing: float
     averaged: float
+    separated: bool
     misfit: float
     outliers: tuple[tuple[float, float], ...]
     gaps: tuple[Gap, ...]
@@ -120,6 +123,8 @@ class TraceReport:
             ("noise estimate", f"p to {self.pressure_error:.1e} of its peak, {inner}"),
             ("", f"x1 to {x1:.1e}, x2 to {x2:.1e}; the certificate is of the equations alone"),
         ]
+        taken = "correlated noise is taken for the shape and not counted: smooth further, if there is any"
+        rows += [] if self.separated else [("", taken)]
         return "\n".join(f"{name:<15} {text}" for name, text in rows)
 
 
@@ -145,7 +150,8 @@ def _report(placed: Placed, scene: Scene, normal: Normal, density: SlopeDensity)
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
-        averaged=float((trace.lam * ((len(x) - 1) / np.ptp(trace.points)) ** 3) ** 0.25),
+        averaged=_averaged(trace),
+        separated=_averaged(reference) > 1.0,
         misfit=trace.misfit,
         outliers=tuple((float(x[k]), float(over[k])) for k in trace.outliers),
         gaps=tuple(_gap(placed, gap) for gap in trace.gaps),
@@ -156,6 +162,11 @@ def _report(placed: Placed, scene: Scene, normal: Normal, density: SlopeDensity)
         inner_error=errors.inner,
         edge_errors=errors.edges,
     )
+
+
+def _averaged(trace: Sampled) -> float:
+    x = trace.points
+    return float((trace.lam * ((len(x) - 1) / np.ptp(x)) ** 3) ** 0.25)
 
 
 def _gap(placed: Placed, gap: Gap) -> Gap:

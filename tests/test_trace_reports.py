@@ -113,6 +113,15 @@ def test_what_is_smoothed_away_beyond_cross_validation_counts_as_an_error():
     assert true <= found.trace_reports()[0].pressure_error <= 2.0 * true
 
 
+def test_noise_that_is_correlated_is_said_to_be_taken_for_the_shape():
+    for seed in range(5):
+        correlated = np.convolve(white(seed, 404), np.full(4, 0.5), "valid")
+        report = reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * correlated), "gcv"))
+        assert not report.separated
+        assert "correlated noise is taken for the shape" in str(report)
+        assert reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(seed)), "gcv")).separated
+
+
 @pytest.mark.parametrize("smoothing", [0.0, "gcv"])
 def test_a_trace_without_noise_is_told_from_a_noisy_one(smoothing):
     assert reported(sie.Sampled(X, 0.25 * np.cosh(2.0 * X), smoothing)).pressure_error <= 1e-3
