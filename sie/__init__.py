@@ -37,9 +37,11 @@ from .fretting import Cycle
 from .history import History, follow
 from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
 from .material import RIGID, Elastic
+from .noise import TraceReport
 from .path import Path
 from .plan import Plan, plan
 from .profile import Profile
+from .remedy import least_smoothing
 from .sampled import Sampled
 from .scene import Scene
 from .solution import Solution, solve
@@ -78,9 +80,11 @@ __all__ = [
     "Scene",
     "Solution",
     "Stress",
+    "TraceReport",
     "Wedge",
     "YieldPoint",
     "follow",
+    "least_smoothing",
     "plan",
     "scaled",
     "solve",

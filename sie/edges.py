@@ -84,6 +84,7 @@ class Search:
     axis: float | None = None  # of a symmetric profile: half the unknowns and half the pieces
     keep_zero: bool = False
     epsilon: float = 0.0  # of the edges' exponents in full sliding (`sliding`); half_modulus is then E*/2 cos πε
+    mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
 
     # -- evaluation ---------------------------------------------------------------------------------------------------
@@ -209,7 +210,8 @@ class Search:
         right = self._right_edge(load)
         if right is not None:
             return right
-        flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, evaluations=0)
+        mirrored = not self.mirrored
+        flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, mirrored=mirrored, evaluations=0)
         left = flipped._right_edge(load)
         self.evaluations += flipped.evaluations
         if left is None:
@@ -271,9 +273,11 @@ class Search:
             return min(k.negative / k.positive, HUGE), min(0.5 * left * k.JL / k.positive, HUGE)
 
         def error(distance: float, reached: float) -> ContactError:
+            one, other = (f"begins at x1 = {-x2:.6g}", "right") if self.mirrored else (f"ends at x2 = {x2:.6g}", "left")
             return LoadError(
-                f"a contact that ends at x2 = {x2:.6g} finds no left edge: the profile does not rise enough to the left; "
-                "prescribe less tilt or load, or a profile that rises on both sides"
+                f"a contact that {one} finds no {other} edge: the profile does not rise enough to the {other}; "
+                "prescribe less tilt or load, or a profile that rises on both sides",
+                edge=-x2 if self.mirrored else x2,
             )
 
         left = _logarithmic_root(balance, 1.0, min(guess, z[0] - lo), z[0] - lo, error, rough=0.1 * ROUGH)
@@ -285,9 +289,10 @@ class Search:
         contact, k, settled = self._polish.both(contact, target, left_sharp)
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
+            seen = contact.mirrored() if self.mirrored else contact
             raise LoadError(
                 f"no single patch of contact was found that carries the load {target * self.half_modulus:.6g}: "
-                f"the search ended at [{contact.x1:.6g}, {contact.x2:.6g}] with {carried * self.half_modulus:.6g}; "
+                f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with {carried * self.half_modulus:.6g}; "
                 "the profile has several bumps, raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )

@@ -12,6 +12,9 @@
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
            check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, tension, overlap, error, ok} if wanted
+           traces [{points, smoothing, averaged, separated, misfit, outliers [[x, off], ..],
+                  gaps [{lo, hi, missing}, ..], mended {left_out, averaged, sorted}, tilt, aside,
+                  pressure_error, inner_error, edge_errors [x1, x2]}, ..]          if check is wanted, of measured traces
            stress {x, xx, yy, xy: [..]} on the surface                                                               if wanted
            yield {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion};  tension {value, x}              if wanted
 
@@ -95,6 +98,8 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if isinstance(solution, Followed):
         out["path"] = turning_points(solution)
+    if "check" in wanted(file) and (reports := solution.trace_reports()):
+        out["traces"] = [report.as_dict() for report in reports]
     return out | {name: section(solution, points) for name, section in sections.items() if name in wanted(file)}
 
 

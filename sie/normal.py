@@ -67,7 +67,7 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
             f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is like beyond is not known: "
-            "lower the load or the tilt, or measure further out (a trace of the surface's height instead of the gap has the wrong sign)",
+            "lower the load or the tilt, or measure further out",
             end=end,
         )
     return found

@@ -1,70 +1,88 @@
-"""What would make a rough trace touch in one patch: the least smoothing that does, found by trying."""
+"""How much a rough trace must be smoothed to touch in one patch, found by trying."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, replace
 from typing import Any
 
-from .errors import ContactError, InequalityError, LoadError
-from .normal import Normal
+from .errors import ContactError
 from .profile import Profile
-from .sampled import Sampled
+from .sampled import Sampled, traces_in
 from .scene import Scene
 from .smoothing import longest_lambda
+from .solution import solve
 
 COARSE = 10.0  # λ is multiplied by this until there is one patch ...
 HALVINGS = 2  # ... and then that step is halved in the logarithm so often
 DIGITS = 2
 
 
-def with_smoothing(
-    error: ContactError, scene: Scene, attempt: Callable[[Scene], Normal], verify: Callable[[Scene, Normal], object]
-) -> ContactError:
-    """The error with the smoothing that makes it one patch in its message and in `reached["smoothing"]`; itself, if there is none.
+def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
+    """The least smoothing λ of a trace that makes its contact one patch.
 
-    `attempt` finds the contact of a scene or raises ContactError; `verify` raises InequalityError, with the intervals of tension and
-    overlap, if a scene cannot touch there. So a load that found no contact at all is told where the smoothed trace's would lift off.
+    Parameters
+    ----------
+    scene : Scene
+        A contact whose profile is a `Sampled` trace, or is made of one. `solve` may refuse it.
+    tol : float
+        As in `solve`.
+
+    Returns
+    -------
+    float
+        λ in length³, for `Sampled(..., smoothing=λ)`. The trace's own if the scene has an answer
+        already, else at least that of cross validation; the least within a factor of about 2,
+        rounded up to two digits. The contact is solved for each λ that is tried, about ten times.
+
+    Raises
+    ------
+    ValueError
+        The profile has no trace.
+    ContactError
+        No smoothing makes it one patch.
+
+    Notes
+    -----
+    What so much smoothing takes from the heights is a part of the surface that is not pressed.
+    `Sampled.misfit` tells how high it is, `Solution.trace_reports` what it means for the pressure.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import sie
+    >>> x = np.linspace(-2.0, 2.0, 201)
+    >>> wavy = sie.Sampled(x, x**2 / 2.0 + 0.1 * np.cos(12.0 * x))
+    >>> scene = sie.Scene(profile=wavy, modulus=1.0, normal_load=0.3)
+    >>> smooth = wavy.smoothed(sie.least_smoothing(scene))
+    >>> sie.solve(sie.Scene(profile=smooth, modulus=1.0, normal_load=0.3)).check().ok
+    True
     """
-    trace = _trace(scene.profile)
-    if trace is None or "end" in error.reached:
-        return error
-    least = trace.smoothed("gcv").lam
-    lam = _least(max(least, COARSE * trace.lam), trace, scene, attempt)
-    if lam is None:
-        advice = "no smoothing makes it one patch under this load"
-    else:
-        if isinstance(error, LoadError):
-            try:
-                verify(scene, attempt(replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))))
-            except InequalityError as found:
-                error = found
-        advice = (
-            f"smoothing = {lam:g} makes it one patch (and leaves {trace.smoothed(lam).misfit:.3g} rms of the heights, "
-            f"where cross validation, with {least:.2g}, leaves {trace.smoothed(least).misfit:.3g})"
-        )
-    reached = error.reached if lam is None else error.reached | {"smoothing": lam}
-    return type(error)(f"{error.args[0]}; {advice}", **reached)
+    trace = next((placed.trace for placed in traces_in(scene.profile)), None)
+    if trace is None:
+        raise ValueError(f"{scene.profile!r} is no trace: only a sampled profile is smoothed")
 
-
-def _least(start: float, trace: Sampled, scene: Scene, attempt: Callable[[Scene], object]) -> float | None:
     def one_patch(lam: float) -> bool:
+        smooth = replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))
         try:
-            attempt(replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam))))
+            _ = solve(smooth, tol).normal
         except ContactError:
             return False
         return True
 
-    lam, longest = _rounded_up(start), longest_lambda(trace.points)
+    if one_patch(trace.lam):
+        return trace.lam
+    start = _rounded_up(max(trace.smoothed("gcv").lam, COARSE * trace.lam))
+    lam, longest = start, longest_lambda(trace.points)
     while lam < longest and not one_patch(lam):
         lam = _rounded_up(COARSE * lam)
     if lam >= longest:
-        return None
-    if lam == _rounded_up(start):
-        return lam
+        raise ContactError(
+            f"no smoothing of the trace makes its contact one patch, up to {longest:.3g}, "
+            "which leaves a straight line: raise the load or lower it"
+        )
     step = COARSE
-    for _ in range(HALVINGS):
+    for _ in range(HALVINGS if lam > start else 0):  # below the start noise would be pressed
         step = math.sqrt(step)
         less = _rounded_up(lam / step)
         lam = less if one_patch(less) else lam
@@ -76,17 +94,14 @@ def _rounded_up(lam: float) -> float:
     return float(f"{math.ceil(lam / digit) * digit:.{DIGITS - 1}e}")
 
 
-def _trace(profile: Any) -> Sampled | None:
-    """The trace in a profile that is made of others."""
-    if isinstance(profile, Sampled):
-        return profile
-    parts = (getattr(profile, f.name) for f in fields(profile)) if is_dataclass(profile) else ()
-    return next((found for part in parts if isinstance(part, Profile) and (found := _trace(part)) is not None), None)
-
-
 def _replaced(profile: Any, old: Sampled, new: Sampled) -> Any:
+    """The profile with another trace in the place of one."""
     if profile is old:
         return new
-    parts = {f.name: getattr(profile, f.name) for f in fields(profile)} if is_dataclass(profile) else {}
-    changes = {name: _replaced(part, old, new) for name, part in parts.items() if isinstance(part, Profile) and _trace(part) is old}
-    return replace(profile, **changes) if changes else profile
+    if isinstance(profile, tuple):
+        return tuple(_replaced(part, old, new) for part in profile)
+    if not any(placed.trace is old for placed in traces_in(profile)):
+        return profile
+    parts = {f.name: getattr(profile, f.name) for f in fields(profile)}
+    parts = {name: part for name, part in parts.items() if isinstance(part, (tuple, Profile))}
+    return replace(profile, **{name: _replaced(part, old, new) for name, part in parts.items()})

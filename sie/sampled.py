@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from numbers import Integral
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks, fits
-from .profile import Profile
+from .errors import ContactError
+from .profile import Mirrored, Profile, Shifted, Tilted
 from .slope import Slope
-from .smoothing import cross_validated, interpolating_spline, longest_lambda, smoothing_spline
+from .smoothing import cross_validated, explains, interpolating_spline, longest_lambda, smoothing_spline
 from .traces import Column, is_text, read_columns, read_topography
 
 Array = NDArray[np.float64]
@@ -24,6 +25,21 @@ INF = float("inf")
 
 FEWEST = 4  # points of a cubic
 SHOWN = 60  # points that are printed; a longer trace is summed up
+SMALLEST_STEP = 1e-12  # of the trace's length
+SHORTEST, LONGEST = 1e-100, 1e100  # of lengths and heights: beyond, their powers are no doubles
+
+
+class Mended(NamedTuple):
+    """What `mend` did to a trace.
+
+    left_out    points without a value
+    averaged    points that were averaged with others of the same x, to rounding
+    sorted      whether x did not ascend
+    """
+
+    left_out: int = 0
+    averaged: int = 0
+    sorted: bool = False
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
@@ -34,7 +50,7 @@ class Sampled(Profile):
     smoothing   0: the interpolating cubic spline, not-a-knot at the ends (SciPy's CubicSpline): for traces without noise
                 λ > 0: the smoothing spline that minimises Σ(h - f(x))² + λ∫f''² (SciPy's make_smoothing_spline), λ in length³
                 "gcv": the same, λ chosen by generalised cross validation
-    mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it
+    mend        sort x, average the heights of equal x and leave out what is nan, instead of refusing it; `mended` tells what it did
 
     The slope is a quadratic polynomial on each piece. Beyond the trace's ends nothing is known: a contact that would reach an end is
     refused (the end of a trace is not a corner of the indenter). Raises ValueError for anything that is not a trace.
@@ -50,15 +66,17 @@ class Sampled(Profile):
     points: Array
     heights: Array
     smoothing: Smoothing
+    mended: Mended
     source: str
 
     def __init__(self, x: ArrayLike, h: ArrayLike, smoothing: Smoothing = 0.0, mend: bool = False) -> None:
-        points, heights = _trace(x, h, mend)
+        points, heights, mended = _trace(x, h, mend)
         for array in (points, heights):
             array.flags.writeable = False
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "smoothing", _smoothing(smoothing, points))
+        object.__setattr__(self, "mended", mended)
         object.__setattr__(self, "source", "")
 
     @classmethod
@@ -87,7 +105,7 @@ class Sampled(Profile):
                 raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
             if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
                 raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
-            x, h = read_columns(path, tuple(columns), int(skip), drop_missing=mend)
+            x, h = read_columns(path, tuple(columns), int(skip), keep_missing=mend)
         else:
             x, h = read_topography(path)
         made = cls(factors[0] * x, factors[1] * h, smoothing, mend)
@@ -150,16 +168,48 @@ class Sampled(Profile):
     def ends_are_corners(self) -> tuple[bool, bool]:
         return False, False
 
+    # -- what is known of the measurement -----------------------------------------------------------
+
     @property
     def misfit(self) -> float:
         """What the spline leaves of the heights, as the root of the mean square."""
         return float(np.sqrt(np.mean((self.heights - self.height(self.points)) ** 2)))
 
+    @property
+    def gaps(self) -> tuple[fits.Gap, ...]:
+        """Where points are missing: intervals much longer than the other steps of x; the spline bridges them."""
+        return fits.gaps(self.points)
+
+    @cached_property
+    def outliers(self) -> tuple[int, ...]:
+        """The indices of points that stand out of the noise. They stay in the trace."""
+        return fits.outliers(self.points, self.heights)
+
+    @cached_property
+    def _cleaned(self) -> Sampled:
+        """The trace less its outliers, smoothed by cross validation."""
+        kept = np.delete(np.arange(len(self.points)), self.outliers)
+        return Sampled(self.points[kept], self.heights[kept], "gcv")
+
+    def reference(self, between: tuple[float, float]) -> Sampled:
+        """The best guess of the surface without noise: less its outliers, by cross validation.
+
+        Where its own smoothing is stronger, and the misfit between two x agrees with it: by that.
+        """
+        clean = self if self.smoothing == "gcv" and not self.outliers else self._cleaned
+        as_good = self.lam > clean.lam and explains(clean.points, clean.heights, self.lam, clean.lam, between)
+        return clean.smoothed(self.lam) if as_good else clean
+
+    @property
+    def line(self) -> tuple[float, float]:
+        """(height at x = 0, slope) of the least-squares line, which `levelled` takes out."""
+        return fits.line(self.points, self.heights)
+
     # -- other traces made of this one ----------------------------------------------------------------------------------
 
     def smoothed(self, smoothing: Smoothing = "gcv") -> Sampled:
         """The same trace with another smoothing."""
-        return Sampled(self.points, self.heights, smoothing)
+        return self._remade(self.heights, smoothing)
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less the least-squares line through it, or through its part between two x (a flat base, or what is beside a pad)."""
@@ -168,21 +218,76 @@ class Sampled(Profile):
         if np.count_nonzero(part) < 2:
             raise ValueError(f"between = ({lo:g}, {hi:g}) holds {np.count_nonzero(part)} points of the trace: a line needs at least 2")
         offset, slope = fits.line(self.points[part], self.heights[part])
-        return Sampled(self.points, self.heights - (offset + slope * self.points), self.smoothing)
+        return self._remade(self.heights - (offset + slope * self.points), self.smoothing)
 
     def fit_rounded_flat(self) -> fits.RoundedFlatFit:
         """Half-flat a, radius R, centre and tilt of the rounded flat nearest to the measured points, with what it leaves of them."""
         return fits.rounded_flat(self.points, self.heights)
 
+    def _remade(self, heights: Array, smoothing: Smoothing) -> Sampled:
+        made = Sampled(self.points, heights, smoothing)
+        object.__setattr__(made, "mended", self.mended)
+        return made
+
+
+# -- traces in other profiles ----------------------------------------------------------------------
+
+
+class Placed(NamedTuple):
+    """A trace in a profile: its x is direction x + origin, its slope counts times direction, + tilt."""
+
+    trace: Sampled
+    direction: float = 1.0
+    origin: float = 0.0
+    tilt: float = 0.0
+
+    def x(self, points: Array) -> Array:
+        """Where points of the trace are in the profile."""
+        return self.direction * (points - self.origin)
+
+
+def traces_in(profile: Any) -> Iterator[Placed]:
+    """The traces that a profile is made of, tilted, shifted, mirrored and added as it may be."""
+    if isinstance(profile, Sampled):
+        yield Placed(profile)
+        return
+    for placed in (placed for part in _parts(profile) for placed in traces_in(part)):
+        if isinstance(profile, Mirrored):
+            yield placed._replace(direction=-placed.direction, tilt=-placed.tilt)
+        elif isinstance(profile, Shifted):
+            yield placed._replace(origin=placed.origin - placed.direction * profile.dx)
+        else:
+            yield placed._replace(tilt=placed.tilt + profile.tilt) if isinstance(profile, Tilted) else placed
+
+
+def explained(error: ContactError, profile: Profile) -> ContactError:
+    """The refusal of a contact, with the reason and the remedy that a trace has. Nothing is solved."""
+    trace = next((placed.trace for placed in traces_in(profile)), None)
+    if trace is None or not error.reached:
+        return error
+    if "end" in error.reached:
+        advice = fits.reason_at_an_end(trace.points, trace.heights)
+    else:
+        advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
+    return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error
+
+
+def _parts(profile: Any) -> Iterator[Profile]:
+    for field in fields(profile) if is_dataclass(profile) else ():
+        value = getattr(profile, field.name)
+        parts = value if isinstance(value, tuple) else (value,)
+        yield from (part for part in parts if isinstance(part, Profile))
+
 
 # -- what is not a trace -------------------------------------------------------------------------------------------------
 
 
-def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array]:
+def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array, Mended]:
     points, heights = (_numbers(name, values) for name, values in (("x", x), ("h", h)))
     if len(points) != len(heights):
         raise ValueError(f"{len(points)} values of x and {len(heights)} of h: give a height for each point")
     missing = ~(np.isfinite(points) & np.isfinite(heights))
+    mended = Mended()
     if missing.any():
         if not mend:
             k = int(np.argmax(missing))
@@ -191,27 +296,57 @@ def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array]:
                 f"h[{k}] = {heights[k]:g}: leave them out, or give mend = True"
             )
         points, heights = points[~missing], heights[~missing]
+    if mend:
+        points, heights, averaged, in_disorder = _ascending(points, heights)
+        mended = Mended(int(np.count_nonzero(missing)), averaged, in_disorder)
     wrong = np.flatnonzero(np.diff(points) <= 0.0)
     if wrong.size:
-        if not mend:
-            k = int(wrong[0])
-            what = "is given twice" if points[k] == points[k + 1] else f"is followed by {points[k + 1]:.9g}"
-            raise ValueError(
-                f"x does not ascend at {len(wrong)} places, the first x[{k}] = {points[k]:.9g} {what}: "
-                "mend = True sorts x and averages the heights of equal x"
-            )
-        points, at, count = np.unique(points, return_inverse=True, return_counts=True)
-        heights = np.bincount(at, heights) / count
+        k = int(wrong[0])
+        what = "is given twice" if points[k] == points[k + 1] else f"is followed by {points[k + 1]:.9g}"
+        raise ValueError(
+            f"x does not ascend at {len(wrong)} places, the first x[{k}] = {points[k]:.9g} {what}: "
+            "mend = True sorts x and averages the heights of equal x"
+        )
     if len(points) < FEWEST:
         raise ValueError(f"{len(points)} points are no trace: a cubic spline needs at least {FEWEST}")
-    return points, heights
+    _refuse_out_of_range(points, heights)
+    return points, heights, mended
+
+
+def _ascending(x: Array, h: Array) -> tuple[Array, Array, int, bool]:
+    """x sorted, heights of the same x (to rounding) averaged, how many fewer, x in disorder or not."""
+    order = np.argsort(x, kind="stable")
+    x, h, in_disorder = x[order], h[order], bool((np.diff(order) < 0).any())
+    closest = SMALLEST_STEP * (0.5 * x[-1:] - 0.5 * x[:1])
+    first = np.append(True, np.diff(x) > closest)[: len(x)]
+    count = np.diff(np.append(np.flatnonzero(first), len(x)))
+    means = np.bincount(np.cumsum(first) - 1, h) / count
+    return x[first], means, len(x) - len(count), in_disorder
+
+
+def _refuse_out_of_range(points: Array, heights: Array) -> None:
+    length = 0.5 * points[-1] - 0.5 * points[0]
+    size = max(float(np.abs(points).max()), float(np.abs(heights).max()))
+    least = float(np.diff(points).min())
+    if size > LONGEST or length < SHORTEST:
+        what = f"reaches {size:.3g}" if size > LONGEST else f"is {2.0 * length:.3g} long"
+        raise ValueError(f"the trace {what}: choose a unit in which its length and its heights are between {SHORTEST:g} and {LONGEST:g}")
+    if least < SMALLEST_STEP * length:
+        k = int(np.argmin(np.diff(points)))
+        raise ValueError(
+            f"x[{k}] = {points[k]:.17g} and x[{k + 1}] = {points[k + 1]:.17g} differ by rounding: "
+            "leave one of them out, or give mend = True, which averages them"
+        )
 
 
 def _numbers(name: str, values: Any) -> Array:
     try:
-        array = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is not a list of numbers: give an array of floats") from None
+        given = np.asarray(values)
+        array = np.array(given, dtype=float) if given.dtype.kind in "biufO" else None
+    except (TypeError, ValueError, OverflowError):
+        array = None
+    if array is None:
+        raise ValueError(f"{name} is not a list of numbers: give an array of floats")
     if array.ndim != 1:
         raise ValueError(f"{name} has shape {array.shape}: give a list of numbers")
     return array + 0.0  # no -0.0: equal traces have equal hashes

@@ -17,16 +17,24 @@ With few points in that length (few enough for a knot at each) the second deriva
 λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
 f(x).
 Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
+
+What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
+s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance
+s² (B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+(Nychka 1988).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .interval import EPS
 
 Array = NDArray[np.float64]
 
@@ -38,6 +46,8 @@ EXACT_TRACE = 400
 PROBES = 16
 STEPS = 25  # of the first look at the score, from a third of the spacing to the length of the trace
 LONGEST = 4.0  # times the length of the trace: beyond it, averaging leaves a straight line
+SIGNIFICANT = 3.0  # standard deviations
+LOCAL = 50  # points whose misfit tells the noise
 REFINED = 0.02  # of the logarithm of the averaging length
 
 
@@ -76,13 +86,52 @@ def cross_validated(x: Array, h: Array) -> float:
     return float(len(x) * np.exp(4.0 * averaging)) * problem.length**3
 
 
+def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
+    """Whether the misfit there exceeds that of a smaller λ by no more than noise does (an F-test)."""
+    problem = _Problem(x, h)
+    part, unit = _local(x, *between), problem.length**3
+    rss, left = problem.misfit(lam / unit, part)
+    least_rss, least_left = problem.misfit(least / unit, part)
+    freed = max(left - least_left, 0.0)
+    expected = freed + SIGNIFICANT * math.sqrt(2.0 * freed)
+    return (rss - least_rss) * least_left <= expected * least_rss
+
+
+def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
+    """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
+
+    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points: without
+    bias its sum of squares has the expectation s² tr (I - A)².
+    """
+    from scipy.interpolate import BSpline  # noqa: PLC0415
+
+    problem = _Problem(x, h)
+    lam /= problem.length**3
+    basis = problem.basis(lam)
+    rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
+    at = (points - x[0]) / problem.length
+    design = BSpline.design_matrix(at, basis.knots[1:-1], 2) @ basis.first_difference
+    functional = design.T @ weights.T
+    variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
+    return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
+
+
+def _local(x: Array, lo: float, hi: float) -> slice:
+    """The points between two x, or LOCAL points about them."""
+    start, stop = np.searchsorted(x, (lo, hi)).tolist()
+    start = max(min((start + stop - LOCAL) // 2, start, len(x) - LOCAL), 0)
+    return slice(start, max(stop, start + LOCAL))
+
+
 class _Problem:
-    """A trace in its own units: x from 0 to 1, and λ with it."""
+    """A trace in its own units: x from 0 to 1, λ with it, and heights of the order of 1 about 0."""
 
     def __init__(self, x: Array, h: Array) -> None:
         self.x, self.length = x, float(x[-1] - x[0])
         self.at = (x - x[0]) / self.length
-        self.h = h
+        self.origin = float(h[0])
+        self.unit = float(np.ptp(h)) or 1.0
+        self.h = (h - self.origin) / self.unit
         self._bases: dict[int, _Basis] = {}
 
     def basis(self, lam: float) -> _Basis:
@@ -97,17 +146,28 @@ class _Problem:
     def score(self, lam: float) -> float:
         basis, n = self.basis(lam), len(self.x)
         misfit = self.h - basis.values @ basis.coefficients(lam)
-        return float(n * (misfit @ misfit) / (n - basis.trace(lam)) ** 2)
+        return float(n * (misfit @ misfit) / (n - basis.traces(lam)[0]) ** 2)
+
+    def misfit(self, lam: float, part: slice) -> tuple[float, float]:
+        """(sum of squares of the misfit of some points, their share of tr (I - A)²)."""
+        basis, n = self.basis(lam), len(self.x)
+        misfit = (self.h - basis.values @ basis.coefficients(lam))[part]
+        once, twice = basis.traces(lam)
+        return float(misfit @ misfit), len(misfit) * max(1.0 - (2.0 * once - twice) / n, EPS)
 
     def spline(self, lam: float) -> tuple[Array, Array]:
         from scipy.interpolate import BSpline  # noqa: PLC0415
 
         if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
-            return self.x, _reinsch(self.at, self.h, lam) / self.length ** np.arange(4.0)
+            return self.x, self._in_given_units(_reinsch(self.at, self.h, lam))
         basis = self.basis(lam)
         knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
-        c = _pieces(knots, spline(knots), spline(knots, 2))
-        return self.x[basis.chosen], c / self.length ** np.arange(4.0)
+        return self.x[basis.chosen], self._in_given_units(_pieces(knots, spline(knots), spline(knots, 2)))
+
+    def _in_given_units(self, c: Array) -> Array:
+        c = c * (self.unit / self.length ** np.arange(4.0))
+        c[:, 0] += self.origin
+        return c
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:
@@ -166,23 +226,32 @@ class _Basis:
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(inner)
-        first = 3.0 / (t[4 : m + 5] - t[1 : m + 2])
         second = 2.0 / (t[4 : m + 4] - t[2 : m + 2])
-        S = diags([-second, second], [0, 1], shape=(m, m + 1)) @ diags([-first, first], [0, 1], shape=(m + 1, m + 2))
+        S = diags([-second, second], [0, 1], shape=(m, m + 1)) @ self.first_difference
         step = np.diff(inner) / 6.0
         mass = diags([step, 2.0 * (np.append(step, 0.0) + np.append(0.0, step)), step], [-1, 0, 1])
         return S.T @ mass @ S
 
-    def coefficients(self, lam: float) -> Array:
-        return self._solved(lam, self._data)
+    @property
+    def first_difference(self) -> Any:
+        """From the coefficients of f to those of f' in quadratic B-splines, on all knots but the outermost."""
+        from scipy.sparse import diags  # noqa: PLC0415
 
-    def trace(self, lam: float) -> float:
-        """tr A = tr (B'B + λE)^-1 B'B."""
+        t, m = self.knots, len(self.chosen)
+        first = 3.0 / (t[4 : m + 5] - t[1 : m + 2])
+        return diags([-first, first], [0, 1], shape=(m + 1, m + 2))
+
+    def coefficients(self, lam: float) -> Array:
+        return self.solved(lam, self._data)
+
+    def traces(self, lam: float) -> tuple[float, float]:
+        """tr A = tr (B'B + λE)^-1 B'B, and tr A²."""
         if len(self.chosen) <= EXACT_TRACE:
-            return float(np.trace(self._solved(lam, self._full)))
+            hat = self.solved(lam, self._full)
+            return float(np.trace(hat)), float(np.einsum("ij,ji", hat, hat))
         signs, projected = self._probes
-        fitted = self.values @ self._solved(lam, projected)
-        return float((signs * fitted).sum() / PROBES)
+        fitted = self.values @ self.solved(lam, projected)
+        return float((signs * fitted).sum() / PROBES), float((fitted * fitted).sum() / PROBES)
 
     @cached_property
     def _full(self) -> Array:
@@ -195,7 +264,7 @@ class _Basis:
         projected: Array = self.values.T @ signs
         return signs, projected
 
-    def _solved(self, lam: float, right: Array) -> Array:
+    def solved(self, lam: float, right: Array) -> Array:
         from scipy.linalg import solveh_banded  # noqa: PLC0415
 
         solved: Array = solveh_banded(self._gram + lam * self._bending, right, check_finite=False)

@@ -21,8 +21,9 @@ from .field import Stress, Tractions
 from .gap import gap
 from .jacobi_density import JacobiDensity
 from .material import Elastic
+from .noise import TraceReport, trace_reports
 from .normal import ECONOMY, Normal, normal_contact, pressure
-from .remedy import with_smoothing
+from .sampled import explained, traces_in
 from .scene import Scene
 from .slip import refuse_sliding, sheared, slip
 from .slipcheck import shear_certificate
@@ -54,6 +55,7 @@ class Solution:
     stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
+    trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -74,8 +76,7 @@ class Solution:
         try:
             return self._one_patch()
         except ContactError as error:
-            attempt = lambda scene: Solution(scene, self.tol, self.economy)._one_patch()  # noqa: E731
-            raise with_smoothing(error, self.scene, attempt, self._verified) from None
+            raise explained(error, self.scene.profile) from None
 
     def _one_patch(self) -> Normal:
         try:
@@ -112,8 +113,11 @@ class Solution:
         return density
 
     def _look_for_a_second_patch(self) -> None:
-        """Where no single patch carries the load, a lighter one may show why: raises InequalityError if it does."""
-        if not self._may_not_be_convex or self.scene.normal_load is None:
+        """Where no patch carries the load, a lighter load may show why: InequalityError if it does.
+
+        Of a trace the reason is known, and a rough one is expensive to search.
+        """
+        if not self._may_not_be_convex or self.scene.normal_load is None or any(traces_in(self.scene.profile)):
             return
         for fraction in LIGHTER:
             scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
@@ -296,6 +300,20 @@ class Solution:
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""
         return self.certificate
+
+    def trace_reports(self) -> tuple[TraceReport, ...]:
+        """The measured traces in the profile: what was done with them, and what their noise implies.
+
+        The error of the pressure that a report states is estimated from the misfit of the spline.
+        The certificate is another thing: it says how well the equations are solved for the spline
+        as it is. The cost is a smoothing by cross validation; no contact is solved again.
+
+        Returns
+        -------
+        tuple of TraceReport
+            One for each trace, () if the profile has none.
+        """
+        return () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""

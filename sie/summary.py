@@ -124,7 +124,8 @@ def tension_summary(solution: Solution, units: Units) -> str:
 
 
 def check_summary(solution: Solution, _units: Units) -> str:
-    return str(solution.check())
+    """The certificate of the equations, and of each trace what its noise leaves open."""
+    return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
 
 
 def text_picture(solution: Solution, units: Units) -> str:

@@ -31,12 +31,12 @@ DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"
 
 
 def read_columns(
-    path: str | Path, columns: tuple[Column, ...], skip: int = 0, drop_missing: bool = False, most: tuple[int, int] = TRACE
+    path: str | Path, columns: tuple[Column, ...], skip: int = 0, keep_missing: bool = False, most: tuple[int, int] = TRACE
 ) -> tuple[Array, ...]:
     """The columns of a text file, given by number (the first is 0) or by the name in the header.
 
     skip            lines at the top that are no part of the table
-    drop_missing    leave out lines that lack one of the values
+    keep_missing    give nan where a line lacks a value
     most            bytes and lines of the file
 
     Raises ValueError, naming the lines, where a value is missing or is no number; FileNotFoundError, OSError.
@@ -51,10 +51,10 @@ def read_columns(
         raise ValueError(f"{path.name} has text where a number is wanted, in {_named(strange)}: mend the file, or choose other columns")
     table = np.array(values, dtype=float)
     bad = ~np.isfinite(table).all(axis=1)
-    if bad.any() and not drop_missing:
+    if bad.any() and not keep_missing:
         lacking = [line for (line, _), is_bad in zip(rows, bad.tolist(), strict=True) if is_bad]
         raise ValueError(f"{path.name} lacks a value in {_named(lacking)}: delete such lines (for a trace, mend = true passes over them)")
-    return tuple(table[~bad].T)
+    return tuple(table.T)
 
 
 def header_of(path: str | Path, skip: int = 0, most: tuple[int, int] = TRACE) -> tuple[list[str], int]:

@@ -1,6 +1,8 @@
 """Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed; several patches are refused, with help."""
 
+import itertools
 import json
+import re
 import sys
 
 import numpy as np
@@ -49,6 +51,14 @@ def test_the_smoothing_spline_is_that_of_scipy(lam):
     x = np.linspace(-1.9, 2.1, 77)
     assert profile.height(x) == pytest.approx(spline(x), abs=1e-9)
     assert profile.lam == lam
+
+
+@pytest.mark.parametrize("smoothing", ["gcv", 1e-4])
+def test_a_smoothing_spline_does_not_depend_on_the_origin_or_the_units(smoothing):
+    h = X * X + 1e-2 * np.random.default_rng(1).standard_normal(len(X))
+    near = sie.Sampled(X, h, smoothing)
+    far = sie.Sampled(1e6 + X, 1e6 + 1e-6 * h, smoothing)
+    assert 1e6 * (far.height(1e6 + X) - 1e6) == pytest.approx(near.height(X), abs=1e-3)
 
 
 @pytest.mark.parametrize("lam", [1e-300, 1e-60, 1e-30, 1e-24])
@@ -108,6 +118,12 @@ def test_a_noisy_trace_presses_as_the_smooth_one_within_a_percent():
         ([0, 1, 2, 3], [0, float("nan"), 1, 9], r"1 of 4 points .* h\[1\] = nan"),
         ([[0, 1], [2, 3]], [0, 1, 4, 9], "shape"),
         (["a", 1, 2, 3], [0, 1, 4, 9], "not a list of numbers"),
+        ([0, 1, 2, 3], [0, 1j, 4, 9], "h is not a list of numbers"),
+        ([0, 1, 2, 10**400], [0, 1, 4, 9], "x is not a list of numbers"),
+        ([1], [1], "1 points are no trace"),
+        ([0, 1e-120, 2e-120, 3e-120], [0, 1, 4, 9], "3e-120 long: choose a unit"),
+        ([0, 1, 2, 3], [0, 1, 4e200, 9], "reaches 4e.200: choose a unit"),
+        ([0, 1, 1 + 2e-16, 3], [0, 1, 1, 9], "leave one of them out"),
     ],
 )
 def test_what_is_no_trace_is_refused_with_its_place(x, h, says):
@@ -196,6 +212,18 @@ def test_what_a_file_lacks_is_named_by_its_lines(tmp_path):
         sie.Sampled.read(tmp_path / "nothing.csv")
 
 
+@pytest.mark.parametrize("skip", [0, 1, 3])
+def test_the_lines_that_are_skipped_count_in_what_a_message_names(skip, tmp_path):
+    file = tmp_path / "trace.csv"
+    table = "-2,4\n-1,\n0,0\n1,abc\n2,4\n3,9\n"
+    file.write_text("of an instrument\n" * skip + table.replace("abc", "1"))
+    with pytest.raises(ValueError, match=f"lacks a value in line {skip + 2}:"):
+        sie.Sampled.read(file, skip=skip)
+    file.write_text("of an instrument\n" * skip + table)
+    with pytest.raises(ValueError, match=f"text where a number is wanted, in line {skip + 4}:"):
+        sie.Sampled.read(file, skip=skip)
+
+
 def test_other_formats_are_surface_topography_s(tmp_path, monkeypatch):
     file = tmp_path / "trace.opd"
     file.write_bytes(b"\0\1")
@@ -252,11 +280,83 @@ def test_a_trace_of_heights_upside_down_fits_no_pad():
 # -- several patches -------------------------------------------------------------------------------------------------
 
 
-def test_a_rough_trace_is_refused_with_its_intervals_and_the_smoothing_that_helps():
-    wavy = H + 0.1 * np.cos(12.0 * X)
-    with pytest.raises(sie.ContactError, match=r"for x in \[.*\], \[.*smoothing = .* makes it one patch") as refused:
-        pressed(sie.Sampled(X, wavy), 0.3).pressure(0.0)
-    assert pressed(sie.Sampled(X, wavy, refused.value.reached["smoothing"]), 0.3).check().ok
+WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
+
+
+def test_a_rough_trace_is_refused_with_its_intervals_and_the_call_that_helps():
+    says = r"for x in \[.*\], \[.*sie\.least_smoothing\(scene\)"
+    with pytest.raises(sie.ContactError, match=says):
+        pressed(WAVY, 0.3).pressure(0.0)
+
+
+@pytest.mark.parametrize(
+    "made",
+    [lambda t: t, lambda t: t.mirrored().shifted(3.0), lambda t: t.tilted(0.01) + sie.Parabola(50.0)],
+    ids=["trace", "mirrored and shifted", "tilted, in a sum"],
+)
+def test_the_least_smoothing_makes_one_patch_of_the_profile_that_was_asked(made):
+    scene = sie.Scene(profile=made(WAVY), modulus=1.0, normal_load=0.3)
+    lam = sie.least_smoothing(scene)
+    assert pressed(made(WAVY.smoothed(lam)), 0.3).check().ok
+    with pytest.raises(sie.ContactError, match="patch"):
+        pressed(made(WAVY.smoothed(0.3 * lam)), 0.3).edges  # noqa: B018 -- computes it
+
+
+def test_a_trace_that_touches_in_one_patch_needs_no_more_smoothing_than_it_has():
+    assert sie.least_smoothing(pressed(sie.Sampled(X, H)).scene) == 0.0
+
+
+def test_what_no_smoothing_makes_one_patch_is_refused_as_is_what_is_no_trace():
+    with pytest.raises(sie.ContactError, match="no smoothing of the trace"):
+        sie.least_smoothing(pressed(sie.Sampled(X, -H)).scene)
+    with pytest.raises(ValueError, match="is no trace"):
+        sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
+
+
+@pytest.mark.parametrize("load", [1e-3, 0.3, 5.0])
+def test_a_refused_trace_costs_one_search(load, monkeypatch):
+    searches, smoothings = [], []
+    whole = sie.normal.normal_contact
+    counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
+    monkeypatch.setattr("sie.solution.normal_contact", counted)
+    monkeypatch.setattr("sie.sampled.cross_validated", smoothings.append)
+    rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
+    with pytest.raises(sie.ContactError, match=r"least_smoothing|several patches"):
+        pressed(rough, load).edges  # noqa: B018 -- computes it
+    assert (len(searches), smoothings) == (1, [])
+
+
+@pytest.mark.parametrize(
+    ("h", "says"),
+    [
+        (-H, r"arches upwards.*scale = \(1, -1\)"),
+        (0.0 * X + 3.0, "straight line"),
+        (0.2 * X - 1e6, "straight line"),
+        (H - 4.0 * X, "lowest at its end.*levelled"),
+        (H - 3.0 * X, "measure further out$"),
+        (np.cos(40.0 * X) + 0.02 * X * X, "several patches"),
+    ],
+    ids=["upside down", "flat", "tilted flat", "tilted", "askew", "levelled and rough"],
+)
+def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
+    with pytest.raises(sie.ContactError, match=says) as refused:
+        pressed(sie.Sampled(X, h), 1.0).edges  # noqa: B018 -- computes it
+    assert ("other sign" in str(refused.value)) == ("arches" in says)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_refusal_names_places_of_the_trace(sign):
+    """One of both edges is searched for in the mirror image."""
+    x, places = np.linspace(1500.0, 1530.0, 301), []
+    for slope, load in itertools.product((0.05, 0.2, 0.5), (0.01, 0.1, 1.0, 5.0)):
+        trace = sie.Sampled(x, 0.1 * np.cos(2.0 * (x - 1500.0)) - sign * slope * (x - 1500.0))
+        try:
+            pressed(trace, load).edges  # noqa: B018 -- computes it
+        except sie.ContactError as refused:
+            places += re.findall(r"x[12]? = ([-\d.]*\d)|\[([-\d.]+), ([-\d.]+)\]", str(refused))
+    named = [float(place) for group in places for place in group if place]
+    assert len(named) > 6
+    assert all(1500.0 <= place <= 1530.0 for place in named)
 
 
 def wavy_pad(height, waves):
