@@ -314,9 +314,6 @@ class _Naming:
     def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: object) -> None:
         if isinstance(problem, ValueError):
             raise ValueError(f"{self.where} {problem}") from None
-        # A formula is evaluated here for the first time: what Python finds wrong with it is the file's fault.
-        if isinstance(problem, (ArithmeticError, RecursionError, TypeError)):
-            raise ValueError(f"{self.where} slope cannot be evaluated ({problem}): simplify the formula") from None
 
 
 # -- names that are not known ------------------------------------------------------------------------------------------
