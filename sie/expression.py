@@ -107,7 +107,7 @@ class Expression:
 
     def _step(self, node: ast.AST) -> tuple[_Step, list[Any]]:
         """What a node does, and the nodes of its operands."""
-        if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+        if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
             return _Step(0, partial(np.float64, _float(node.value))), []
         if isinstance(node, ast.Name):
             return self._named(node.id), []

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 from .errors import ContactError, InequalityError, LoadError
 from .normal import Normal
-from .profile import Profile
+from .profile import Derived, Profile
 from .sampled import Sampled
 from .scene import Scene
 from .smoothing import longest_lambda
@@ -76,17 +75,11 @@ def _rounded_up(lam: float) -> float:
     return float(f"{math.ceil(lam / digit) * digit:.{DIGITS - 1}e}")
 
 
-def _trace(profile: Any) -> Sampled | None:
+def _trace(profile: Profile) -> Sampled | None:
     """The trace in a profile that is made of others."""
-    if isinstance(profile, Sampled):
-        return profile
-    parts = (getattr(profile, f.name) for f in fields(profile)) if is_dataclass(profile) else ()
-    return next((found for part in parts if isinstance(part, Profile) and (found := _trace(part)) is not None), None)
+    parts = profile.steps if isinstance(profile, Derived) else (profile,)
+    return next((part for part in parts if isinstance(part, Sampled)), None)
 
 
-def _replaced(profile: Any, old: Sampled, new: Sampled) -> Any:
-    if profile is old:
-        return new
-    parts = {f.name: getattr(profile, f.name) for f in fields(profile)} if is_dataclass(profile) else {}
-    changes = {name: _replaced(part, old, new) for name, part in parts.items() if isinstance(part, Profile) and _trace(part) is old}
-    return replace(profile, **changes) if changes else profile
+def _replaced(profile: Profile, old: Sampled, new: Sampled) -> Profile:
+    return profile.with_part(old, new) if isinstance(profile, Derived) else new
