@@ -6,6 +6,11 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from .interval import EPS
+
+# A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
+FINEST = 2.0 * EPS
+
 
 def real(name: str, value: Any) -> float:
     """`value` as a float; ValueError unless it is one number (nan is not a number)."""
@@ -39,6 +44,16 @@ def not_negative(name: str, value: Any) -> float:
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
     return number
+
+
+def tolerance(value: Any) -> float:
+    """A relative accuracy that doubles can hold: below 1, and not below FINEST."""
+    tol = positive("tol", value)
+    if tol < FINEST:
+        raise ValueError(f"tol = {tol:g} is below {FINEST:.2g}, the rounding of doubles: give at least that")
+    if tol >= 1.0:
+        raise ValueError(f"tol = {tol:g} lets any answer pass: give a relative accuracy below 1")
+    return tol
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import checks
 from .interval import EPS
-from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus, share
+from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 from .profile import Profile
 
 
@@ -19,6 +19,7 @@ class Scene:
     profile            the gap h(x) between the undeformed indenter and the flat surface
     body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
                        or, in their place, modulus = E*, dundurs = β, poisson = ν
+    dundurs            beside body and indenter: 0 neglects their β, all else stays theirs; |β| < 1e-12 is 0 without asking
     normal_load        P, force per length;  or half_width, length: exactly one of the two
     tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
     friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
@@ -54,9 +55,12 @@ class Scene:
             what = "neither" if self.body is None else "both"
             raise ValueError(f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*")
         if self.body is not None:
-            for name in ("dundurs", "poisson"):
-                if getattr(self, name) is not None:
-                    raise ValueError(f"{name} = {getattr(self, name)!r} follows from body and indenter: leave it out")
+            if self.poisson is not None:
+                raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
+            if self.dundurs is not None:
+                self._set("dundurs", checks.finite("dundurs", self.dundurs))
+                if self.dundurs != 0.0:
+                    raise ValueError(f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β")
             if self.indenter is None:
                 self._set("indenter", self.body)
             for name in ("body", "indenter"):
@@ -68,7 +72,7 @@ class Scene:
         if self.indenter is not None:
             raise ValueError("indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out")
         self._set("modulus", checks.positive("modulus", self.modulus))
-        beta = checks.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs)
+        beta = coupling(checks.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
         if abs(beta) > 0.5:
             raise ValueError(f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it")
         self._set("dundurs", beta)

@@ -9,7 +9,7 @@
     [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]   the same; without it the indenter is made of the body's material
-    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]
+    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]; beside them dundurs = 0 alone, which neglects their β
     [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress;  or, in place of the loads,
                  path = [[P, Q, σ], ...]: turning points, σ may be left out; the scene is that of the last one
 
@@ -276,16 +276,18 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
-    if "pair" in top:
+    pair = _taken("pair", top.get("pair", {}))
+    if "pair" in top and pair.keys() != {"dundurs"}:
         for name in ("body", "indenter"):
             if name in top:
-                raise ValueError(f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out")
-        values = _taken("pair", top["pair"])
-        _required("[pair]", values, ["modulus"])
-        return values
+                raise ValueError(
+                    f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out; or give dundurs = 0 alone in it"
+                )
     if "body" not in top:
-        raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
-    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top}
+        if "pair" not in top:
+            raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
+        _required("[pair]", pair, ["modulus"])
+    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
 
 
 def _body(name: str, value: Any) -> Body:

@@ -15,12 +15,12 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 
 # From the ground up: a module imports only from those before it.
 ORDER = (
-    "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
+    "errors", "interval", "checks", "entries", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
-    "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "abscissae", "entries", "scenefile", "compare", "grid",
+    "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "abscissae", "scenefile", "compare", "grid",
     "export", "summary", "files", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip
 

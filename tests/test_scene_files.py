@@ -90,6 +90,12 @@ def test_a_rigid_indenter_is_a_word_at_the_top_or_a_table(text):
     assert parse(text + PARABOLA + LOAD).scene.indenter == sie.RIGID
 
 
+def test_a_pair_beside_the_bodies_neglects_their_beta():
+    text = BODY + "[indenter]\nyoung = 2e5\npoisson = 0.4\n[pair]\ndundurs = 0\n" + PARABOLA + LOAD
+    bodies = {"body": sie.Elastic(1e5, 0.3), "indenter": sie.Elastic(2e5, 0.4)}
+    assert parse(text).scene == sie.Scene(profile=sie.Parabola(10.0), **bodies, dundurs=0.0, normal_load=5.0)
+
+
 def test_without_a_table_the_indenter_is_made_of_the_body_s_material():
     scene = parse(BODY + PARABOLA + LOAD).scene
     assert scene.indenter == scene.body == sie.Elastic(1e5, 0.3)
