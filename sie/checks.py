@@ -10,6 +10,11 @@ from .interval import EPS
 
 # A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
 FINEST = 2.0 * EPS
+# Loads, lengths, stresses and their ratios: of larger ones the product of two is not a double.
+LARGEST = 1e150
+# Coefficients of powers of a length: their size says little, but smaller ones have fewer digits.
+LARGEST_COEFFICIENT = 1e300
+REMEDY = "choose other units"
 
 
 def real(name: str, value: Any) -> float:
@@ -18,6 +23,8 @@ def real(name: str, value: Any) -> float:
         raise ValueError(f"{name} = {value!r} is not a number: give a float")
     try:
         number = float(value)
+    except OverflowError:
+        raise ValueError(f"{name} is a whole number beyond the range of doubles: {REMEDY}") from None
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r} is not a number: give a float") from None
     if math.isnan(number):
@@ -32,15 +39,25 @@ def finite(name: str, value: Any) -> float:
     return number
 
 
-def positive(name: str, value: Any) -> float:
+def measure(name: str, value: Any, largest: float = LARGEST) -> float:
+    """A finite number that may be multiplied with others."""
     number = finite(name, value)
+    if abs(number) > largest:
+        raise ValueError(f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}")
+    return number
+
+
+def positive(name: str, value: Any, largest: float = LARGEST) -> float:
+    number = measure(name, value, largest)
     if number <= 0.0:
         raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
+    if number < 1.0 / largest:
+        raise ValueError(f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}")
     return number
 
 
 def not_negative(name: str, value: Any) -> float:
-    number = finite(name, value)
+    number = measure(name, value)
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
     return number

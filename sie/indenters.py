@@ -144,7 +144,7 @@ class Power(_Convex):
         if m < 1.0:
             raise ValueError(f"exponent = {m:g} is below 1: the profile would not be convex; give exponent >= 1")
         object.__setattr__(self, "exponent", m)
-        object.__setattr__(self, "coefficient", checks.positive("coefficient", self.coefficient))
+        object.__setattr__(self, "coefficient", checks.positive("coefficient", self.coefficient, checks.LARGEST_COEFFICIENT))
 
     @cached_property
     def pieces(self) -> Slope:
@@ -161,6 +161,11 @@ class Power(_Convex):
         return self.coefficient * np.abs(np.asarray(x, dtype=float)) ** self.exponent
 
 
+def _with_digits(coefficient: float) -> float:
+    """The coefficient, or 0 where it is so small that its products would have no digits."""
+    return coefficient if abs(coefficient) * checks.LARGEST_COEFFICIENT >= 1.0 else 0.0
+
+
 @dataclass(frozen=True)
 class Polynomial(Profile):
     """h = Σ coefficients[k] x^k, low order first."""
@@ -168,14 +173,14 @@ class Polynomial(Profile):
     coefficients: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        c = tuple(checks.finite(f"coefficients[{k}]", v) for k, v in enumerate(self.coefficients))
-        if not any(c[2:]):
+        c = tuple(checks.measure(f"coefficients[{k}]", v, checks.LARGEST_COEFFICIENT) for k, v in enumerate(self.coefficients))
+        if not any(map(_with_digits, c[2:])):
             raise ValueError(f"coefficients = {c} describe a straight line: contact needs a curved profile, give a term of order 2 or more")
         object.__setattr__(self, "coefficients", c)
 
     @cached_property
     def pieces(self) -> Slope:
-        return polynomial_slope((-INF, INF), (0.0,), ([k * c for k, c in enumerate(self.coefficients)][1:],))
+        return polynomial_slope((-INF, INF), (0.0,), ([k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:],))
 
     def height(self, x: ArrayLike) -> Array:
         h: Array = np.polynomial.polynomial.polyval(np.asarray(x, dtype=float), self.coefficients)
@@ -202,7 +207,10 @@ class Piecewise(Profile):
     coefficients: tuple[tuple[float, ...], ...]
 
     def __init__(self, breaks: Sequence[float], pieces: Sequence[Sequence[float]]) -> None:
-        rows = tuple(tuple(checks.finite(f"pieces[{k}][{j}]", c) for j, c in enumerate(row)) for k, row in enumerate(pieces))
+        rows = tuple(
+            tuple(checks.measure(f"pieces[{k}][{j}]", c, checks.LARGEST_COEFFICIENT) for j, c in enumerate(row))
+            for k, row in enumerate(pieces)
+        )
         ends = tuple(checks.real(f"breaks[{k}]", b) for k, b in enumerate(breaks))
         if len(ends) == len(rows) - 1:
             ends = (-INF, *ends, INF)
@@ -210,6 +218,9 @@ class Piecewise(Profile):
             raise ValueError(
                 f"{len(breaks)} breaks do not bound {len(rows)} pieces: give one break more than pieces, or one less (the inner ones)"
             )
+        for k, end in enumerate(ends):
+            if math.isfinite(end):
+                checks.measure(f"breaks[{k}]", end)
         for left, right in pairwise(ends):
             if not left < right:
                 raise ValueError(f"breaks {left:g}, {right:g} do not ascend: sort them and drop duplicates")
@@ -226,7 +237,8 @@ class Piecewise(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
-        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True)]
+        given = [tuple(map(_with_digits, row)) for row in self.coefficients]
+        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(given, self.ends[:-1], self.ends[1:], strict=True)]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
     def height(self, x: ArrayLike) -> Array:
@@ -315,7 +327,10 @@ class FromFunction(Profile):
         lo, hi = (checks.real("domain", end) for end in domain)
         if not lo < hi:
             raise ValueError(f"domain = ({lo:g}, {hi:g}) is empty: give lo < hi")
-        inner = tuple(sorted({checks.finite("breaks", b) for b in breaks}))
+        for end in (lo, hi):
+            if math.isfinite(end):
+                checks.measure("domain", end)
+        inner = tuple(sorted({checks.measure("breaks", b) for b in breaks}))
         for b in inner:
             if not lo <= b <= hi:
                 raise ValueError(f"break {b:g} is outside the domain ({lo:g}, {hi:g}): leave it out or widen the domain")

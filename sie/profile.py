@@ -69,12 +69,12 @@ class Profile(ABC):
 
     def tilted(self, slope: float) -> Profile:
         """h(x) + slope x."""
-        slope = checks.finite("slope", slope)
+        slope = checks.measure("tilted", slope)
         return self if slope == 0.0 else Tilted(self, slope)
 
     def shifted(self, dx: float) -> Profile:
         """h(x - dx)."""
-        dx = checks.finite("dx", dx)
+        dx = checks.measure("shifted", dx)
         return self if dx == 0.0 else Shifted(self, dx)
 
     def mirrored(self) -> Profile:
@@ -275,7 +275,7 @@ class Tilted(_OfOne):
         return None
 
     def tilted(self, slope: float) -> Profile:
-        return self.profile.tilted(checks.finite("slope", self.tilt + checks.finite("slope", slope)))
+        return self.profile.tilted(self.tilt + checks.measure("tilted", slope))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -298,7 +298,7 @@ class Shifted(_OfOne):
         return None if self.profile.axis is None else self.profile.axis + self.dx
 
     def shifted(self, dx: float) -> Profile:
-        return self.profile.shifted(checks.finite("dx", self.dx + checks.finite("dx", dx)))
+        return self.profile.shifted(self.dx + checks.measure("shifted", dx))
 
 
 @dataclass(frozen=True, repr=False, eq=False)

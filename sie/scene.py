@@ -86,14 +86,14 @@ class Scene:
         for name in ("normal_load", "half_width"):
             if getattr(self, name) is not None:
                 self._set(name, checks.positive(name, getattr(self, name)))
-        self._set("tilt", checks.finite("tilt", self.tilt))
+        self._set("tilt", checks.measure("tilt", self.tilt))
         if self.moment is not None:
-            self._set("moment", checks.finite("moment", self.moment))
+            self._set("moment", checks.measure("moment", self.moment))
             if self.tilt != 0.0:
                 raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
         self._set("friction", self.friction if self.friction == math.inf else checks.not_negative("friction", self.friction))
         for name in ("tangential_load", "bulk_stress"):
-            self._set(name, checks.finite(name, getattr(self, name)))
+            self._set(name, checks.measure(name, getattr(self, name)))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
                 f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"

@@ -266,8 +266,8 @@ def test_sums_are_the_same_however_they_are_bracketed():
 
 
 def test_a_shift_so_far_that_nothing_is_left_is_refused():
-    with pytest.raises(ValueError, match=r"shifted\(1e\+300\) leaves nothing"):
-        sie.Flat(1.0).shifted(1e300)
+    with pytest.raises(ValueError, match=r"shifted\(1e\+20\) leaves nothing"):
+        sie.Flat(1.0).shifted(1e20)
 
 
 @each
