@@ -96,7 +96,8 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
         away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
         x = at[:, None] + away
         parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
-    return np.concatenate(parts)
+    found = np.concatenate(parts)
+    return found[found[:, 0] < found[:, 1]]  # next to a break there may be no double between two halvings
 
 
 def _degrees(

@@ -60,7 +60,7 @@ def not_negative(name: str, value: Any) -> float:
     number = measure(name, value)
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
-    return number
+    return positive(name, number) if number else 0.0
 
 
 def tolerance(value: Any) -> float:

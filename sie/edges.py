@@ -148,7 +148,7 @@ class Search:
             return interval_about(axis, r).moved(-tail, tail)
 
         if math.isfinite(hi):
-            whole = interval_about(axis, hi - axis)
+            whole = Interval(*self.slope.domain)
             if self.load(whole, self.moments(whole)) <= load:
                 return whole, (True, True)
 
@@ -390,7 +390,7 @@ def _logarithmic_root(
         f, slope = function(u)
         if f > best:
             best, best_u = f, u
-        rising = f > 0.0 and slope > 0.0
+        rising = 0.0 < f < math.inf and slope > 0.0
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
             return min(u * math.exp(step), limit)

@@ -330,6 +330,8 @@ class FromFunction(Profile):
         for end in (lo, hi):
             if math.isfinite(end):
                 checks.measure("domain", end)
+        if math.isfinite(hi - lo):
+            checks.positive("the length of the domain", hi - lo)
         inner = tuple(sorted({checks.measure("breaks", b) for b in breaks}))
         for b in inner:
             if not lo <= b <= hi:

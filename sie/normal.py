@@ -41,6 +41,8 @@ WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
 HUGE = 1e300  # stands for an open end of the bracket
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
+LARGEST = 1e120  # of a contact's sizes: products of two with a third are doubles
+NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
@@ -54,8 +56,7 @@ class Normal:
 
 def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
     """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it."""
-    found = _contact(scene, tol, economy)
-    _refuse_out_of_scale(found.edges, scene.Estar)
+    found = _within_scale(scene, tol, economy)
     ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
@@ -66,19 +67,27 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
     return found
 
 
-def _refuse_out_of_scale(edges: Edges, Estar: float) -> None:
-    """Raises LoadError where doubles cannot hold the answer: its places are too few, or its squares are no doubles."""
+def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+    """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what that leaves is refused below
+            found = _contact(scene, tol, economy)
+    except ArithmeticError:
+        raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
+    edges = found.edges
     (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
     apart = float(np.spacing(max(abs(x1), abs(x2))))
-    if r < PLACES * apart:
-        raise LoadError(
-            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: "
-            "lessen what moves it there, tilt, moment or shift, or measure x from there"
-        )
-    sizes = {"half-width": r, "load": P, "mean pressure": 0.5 * P / r, "E* r": Estar * r}
-    for name, size in sizes.items():
-        if not 1.0 / checks.LARGEST <= size <= checks.LARGEST:
+    if not r >= PLACES * apart:
+        raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
+    for name, size in {"half-width": r, "mean pressure": 0.5 * P / r, "load": P, "E* r": scene.Estar * r}.items():
+        if not 1.0 / LARGEST <= size <= LARGEST:
             raise LoadError(f"the {name} of the contact is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
+    return found
+
+
+def _asked(scene: Scene) -> str:
+    names = ("normal_load", "half_width", "moment", "tilt")
+    return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
 
 
 def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:

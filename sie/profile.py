@@ -75,7 +75,7 @@ class Profile(ABC):
     def shifted(self, dx: float) -> Profile:
         """h(x - dx)."""
         dx = checks.measure("shifted", dx)
-        return self if dx == 0.0 else Shifted(self, dx)
+        return self if abs(dx) * checks.LARGEST_COEFFICIENT < 1.0 else Shifted(self, dx)
 
     def mirrored(self) -> Profile:
         """h(-x)."""

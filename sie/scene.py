@@ -91,7 +91,8 @@ class Scene:
             self._set("moment", checks.measure("moment", self.moment))
             if self.tilt != 0.0:
                 raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
-        self._set("friction", self.friction if self.friction == math.inf else checks.not_negative("friction", self.friction))
+        if self.friction != math.inf:
+            self._set("friction", checks.not_negative("friction", self.friction))
         for name in ("tangential_load", "bulk_stress"):
             self._set(name, checks.measure(name, getattr(self, name)))
         if self.tangential_load != 0.0 and self.friction == 0.0:
