@@ -10,10 +10,9 @@ from .interval import EPS
 
 # A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
 FINEST = 2.0 * EPS
-# Loads, lengths, stresses and their ratios: of larger ones the product of two is not a double.
-LARGEST = 1e150
-# Coefficients of powers of a length: their size says little, but smaller ones have fewer digits.
-LARGEST_COEFFICIENT = 1e300
+# Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are such
+# products, loads and moments, may be larger, and so may coefficients of powers of a length.
+LARGEST, LARGEST_LOAD, LARGEST_COEFFICIENT = 1e150, 1e250, 1e300
 REMEDY = "choose other units"
 
 
@@ -57,10 +56,10 @@ def positive(name: str, value: Any, largest: float = LARGEST) -> float:
 
 
 def not_negative(name: str, value: Any) -> float:
-    number = measure(name, value)
+    number = finite(name, value)
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
-    return positive(name, number) if number else 0.0
+    return number
 
 
 def tolerance(value: Any) -> float:

@@ -27,6 +27,7 @@ from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
+NO_DIGITS = 1e3 * float(np.finfo(float).tiny)  # doubles below tiny have fewer digits than others
 
 
 class _Convex(Profile):
@@ -162,8 +163,8 @@ class Power(_Convex):
 
 
 def _with_digits(coefficient: float) -> float:
-    """The coefficient, or 0 where it is so small that its products would have no digits."""
-    return coefficient if abs(coefficient) * checks.LARGEST_COEFFICIENT >= 1.0 else 0.0
+    """The coefficient, or 0 where it is so small that its products have no digits."""
+    return coefficient if abs(coefficient) >= NO_DIGITS else 0.0
 
 
 @dataclass(frozen=True)
@@ -228,7 +229,7 @@ class Piecewise(Profile):
             raise ValueError("an inner break is infinite: only the first and the last may be")
         for k, row in enumerate(rows):
             if not row:
-                raise ValueError(f"pieces[{k}] is empty: give (0.0,) for a flat piece")
+                raise ValueError(f"pieces[{k}] is empty: give its one coefficient 0 for a flat piece")
         object.__setattr__(self, "ends", ends)
         object.__setattr__(self, "coefficients", rows)
 

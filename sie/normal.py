@@ -41,7 +41,7 @@ WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
 HUGE = 1e300  # stands for an open end of the bracket
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
-LARGEST = 1e120  # of a contact's sizes: products of two with a third are doubles
+SIZE, MOMENT = 1e120, 1e304  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
 NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
@@ -69,6 +69,8 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
 
 def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
+    if scene.normal_load is not None and not 1.0 / checks.LARGEST <= scene.normal_load / scene.Estar <= checks.LARGEST:
+        raise LoadError(f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {checks.REMEDY}")
     try:
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what that leaves is refused below
             found = _contact(scene, tol, economy)
@@ -79,9 +81,10 @@ def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     apart = float(np.spacing(max(abs(x1), abs(x2))))
     if not r >= PLACES * apart:
         raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
-    for name, size in {"half-width": r, "mean pressure": 0.5 * P / r, "load": P, "E* r": scene.Estar * r}.items():
-        if not 1.0 / LARGEST <= size <= LARGEST:
-            raise LoadError(f"the {name} of the contact is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
+    sizes = {"half-width": (r, SIZE), "mean pressure": (0.5 * P / r, SIZE), "E* r²": (scene.Estar * r * r, MOMENT)}
+    for name, (size, largest) in sizes.items():
+        if not 1.0 / largest <= size <= largest:
+            raise LoadError(f"of the contact {name} is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
     return found
 
 

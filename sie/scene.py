@@ -67,7 +67,9 @@ class Scene:
                 if not isinstance(getattr(self, name), (Elastic, Rigid)):
                     raise ValueError(f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID")
             if self.body == RIGID == self.indenter:
-                raise ValueError("body and indenter are both rigid: nothing can deform; make one of them sie.Elastic(young, poisson)")
+                raise ValueError(
+                    "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
+                )
             return
         if self.indenter is not None:
             raise ValueError("indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out")
@@ -85,16 +87,19 @@ class Scene:
             raise ValueError(f"{what} of normal_load and half_width given: give exactly one, the other follows")
         for name in ("normal_load", "half_width"):
             if getattr(self, name) is not None:
-                self._set(name, checks.positive(name, getattr(self, name)))
+                largest = checks.LARGEST_LOAD if name == "normal_load" else checks.LARGEST
+                self._set(name, checks.positive(name, getattr(self, name), largest))
         self._set("tilt", checks.measure("tilt", self.tilt))
         if self.moment is not None:
-            self._set("moment", checks.measure("moment", self.moment))
+            self._set("moment", checks.measure("moment", self.moment, checks.LARGEST_COEFFICIENT))
             if self.tilt != 0.0:
                 raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
         if self.friction != math.inf:
             self._set("friction", checks.not_negative("friction", self.friction))
-        for name in ("tangential_load", "bulk_stress"):
-            self._set(name, checks.measure(name, getattr(self, name)))
+            if self.friction:
+                checks.positive("friction", self.friction)
+        self._set("tangential_load", checks.measure("tangential_load", self.tangential_load, checks.LARGEST_LOAD))
+        self._set("bulk_stress", checks.measure("bulk_stress", self.bulk_stress))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
                 f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"

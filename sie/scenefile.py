@@ -101,10 +101,13 @@ def read(path: str | pathlib.Path) -> SceneFile:
 
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
     """The scene in a TOML text; `name` is what messages call it, `folder` where the files are that it names. Raises SceneFileError."""
+    text = text if isinstance(text, str) else _decoded(text, name)
     try:
-        table = tomllib.loads(text if isinstance(text, str) else _decoded(text, name))
+        table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         raise SceneFileError(f"{name} is not TOML: {problem}; `sie example` prints files that are") from None
+    except ValueError:  # Python's own limit
+        raise SceneFileError(f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3") from None
     except RecursionError:
         raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
     try:
@@ -330,15 +333,23 @@ def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
 
 
 def _remedy(key: str, known: Iterable[str], here: str) -> str:
-    """Where a stray key belongs: near a known one, or in another table, which is what happens when a header is forgotten."""
-    known = tuple(known)
-    if not entries.nearest(key, known):
-        if here and key in ("title", "want", *_TABLES):
-            return "it stands at the top of the file, before the first [table]"
-        if here and key == "plus":
-            return "terms are not nested, write one [[profile.plus]] after the other"
+    """Where a stray key belongs: near a known one, in another table (a header was forgotten), or to another kind of profile."""
+    known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
+    if here == f"[{key}]" or (of_profile and key == "profile"):
+        return entries.suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
+    near = entries.nearest(key, known)
+    if here and not near:
+        elsewhere = dict.fromkeys(("title", "want"), "it stands at the top of the file, before the first [table]")
+        elsewhere |= {name: f"it is a table of its own, write the header [{name}] and its keys below it" for name in ("profile", *_TABLES)}
+        elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
+        if key in elsewhere:
+            return elsewhere[key]
+    if not near:
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
-        homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _FILE, _MODIFIERS)) else []
+        kinds = [kind for kind, readers in _PARAMETERS.items() if key in readers or (kind == "sampled" and key in _FILE)]
+        if of_profile and kinds:
+            return f"it belongs to kind {entries.choices(kinds)}"
+        homes += ["[profile]"] if key == "kind" or kinds or key in _MODIFIERS else []
         if homes:
             return f"it belongs in {' or '.join(homes)}"
     return entries.suggestion(key, known)
