@@ -81,11 +81,16 @@ def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     apart = float(np.spacing(max(abs(x1), abs(x2))))
     if not r >= PLACES * apart:
         raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
-    sizes = {"half-width": (r, SIZE), "mean pressure": (0.5 * P / r, SIZE), "E* r²": (scene.Estar * r * r, MOMENT)}
+    refuse_out_of_scale(r, P, scene.Estar)
+    return found
+
+
+def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
+    """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
+    sizes = {"half-width": (r, SIZE), "mean traction": (0.5 * load / r, SIZE), "E* r²": (Estar * r * r, MOMENT)}
     for name, (size, largest) in sizes.items():
         if not 1.0 / largest <= size <= largest:
-            raise LoadError(f"of the contact {name} is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
-    return found
+            raise LoadError(f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
 
 
 def _asked(scene: Scene) -> str:
@@ -108,6 +113,7 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
             if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
+                _refuse_infinite_ends(profile.pieces)
                 raise  # a wider window changes nothing
             grown += 1
             lo, hi = _grown(lo, hi, ends)
@@ -127,6 +133,16 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
             return found
         shrunk += 1
         lo, hi = fitted
+
+
+def _refuse_infinite_ends(slope: Slope) -> None:
+    """Raises LoadError where the slope is infinite at an end of the indenter, towards which no series resolves it."""
+    ends = np.array([end for end in slope.domain if math.isfinite(end)])
+    infinite = ends[~np.isfinite(slope(ends))]
+    if len(infinite):
+        raise LoadError(
+            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the contact comes near: narrow the domain"
+        )
 
 
 def contact_under(
