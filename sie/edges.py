@@ -331,9 +331,10 @@ class Search:
             )
         z1, z2 = self.touch()
         if 2.0 * r <= z2 - z1:
+            larger = "" if (z1, z2) == (lo, hi) else "a larger half_width, or "
             raise LoadError(
                 f"the half-width {r:.6g} does not reach beyond the flat base [{z1:.6g}, {z2:.6g}], "
-                "which touches as a whole under any load: give a larger half_width, or a normal_load"
+                f"which touches as a whole under any load: give {larger}a normal_load"
             )
         if self.axis is not None:
             return interval_about(self.axis, r), (False, False)

@@ -337,14 +337,13 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
     if here == f"[{key}]" or (of_profile and key == "profile"):
         return entries.suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
-    near = entries.nearest(key, known)
-    if here and not near:
+    if here:
         elsewhere = dict.fromkeys(("title", "want"), "it stands at the top of the file, before the first [table]")
         elsewhere |= {name: f"it is a table of its own, write the header [{name}] and its keys below it" for name in ("profile", *_TABLES)}
         elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
         if key in elsewhere:
             return elsewhere[key]
-    if not near:
+    if not entries.nearest(key, known):
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
         kinds = [kind for kind, readers in _PARAMETERS.items() if key in readers or (kind == "sampled" and key in _FILE)]
         if of_profile and kinds:
