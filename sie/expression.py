@@ -81,7 +81,7 @@ class Expression:
     def _program(self) -> tuple[_Step, ...]:
         text = self.text.strip()
         if len(text) > LONGEST or LONGEST_NUMBER.search(text):
-            size = f"{len(text)} characters, more than {LONGEST}," if len(text) > LONGEST else "a number of more than 400 digits"
+            size = f"{len(text)} characters, more than {LONGEST}" if len(text) > LONGEST else "a number of more than 400 digits"
             raise self._refusal(f"has {size}: shorten it, or give a Python function")
         for pattern in (_STRANGE, _KEYWORD):
             stray = pattern.search(text)

@@ -27,6 +27,8 @@ from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
+# Of polynomials: beyond it their powers overflow beside the contact; pieces are moved in rational arithmetic, in the square of the degree.
+HIGHEST_DEGREE, HIGHEST_OF_PIECE = 1000, 200
 NO_DIGITS = 1e3 * float(np.finfo(float).tiny)  # doubles below tiny have fewer digits than others
 
 
@@ -162,6 +164,11 @@ class Power(_Convex):
         return self.coefficient * np.abs(np.asarray(x, dtype=float)) ** self.exponent
 
 
+def _refuse_high_degree(name: str, coefficients: Sequence[float], highest: int) -> None:
+    if len(coefficients) > highest + 1:
+        raise ValueError(f"the degree of {name} is {len(coefficients) - 1}, more than {highest}: give the slope as a function")
+
+
 def _with_digits(coefficient: float) -> float:
     """The coefficient, or 0 where it is so small that its products have no digits."""
     return coefficient if abs(coefficient) >= NO_DIGITS else 0.0
@@ -175,6 +182,7 @@ class Polynomial(Profile):
 
     def __post_init__(self) -> None:
         c = tuple(checks.measure(f"coefficients[{k}]", v, checks.LARGEST_COEFFICIENT) for k, v in enumerate(self.coefficients))
+        _refuse_high_degree("coefficients", c, HIGHEST_DEGREE)
         if not any(map(_with_digits, c[2:])):
             raise ValueError(f"coefficients = {c} describe a straight line: contact needs a curved profile, give a term of order 2 or more")
         object.__setattr__(self, "coefficients", c)
@@ -228,6 +236,7 @@ class Piecewise(Profile):
         if any(np.isinf(b) for b in ends[1:-1]):
             raise ValueError("an inner break is infinite: only the first and the last may be")
         for k, row in enumerate(rows):
+            _refuse_high_degree(f"pieces[{k}]", row, HIGHEST_OF_PIECE)
             if not row:
                 raise ValueError(f"pieces[{k}] is empty: give its one coefficient 0 for a flat piece")
         object.__setattr__(self, "ends", ends)

@@ -151,6 +151,9 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
     [
         (lambda: sie.Power(0.5, 1.0), r"0\.5"),
         (lambda: sie.Polynomial((0.0, 1.0)), r"1\.0"),
+        (lambda: sie.Polynomial([0.0] * 3001 + [1.0]), "degree of coefficients is 3001, more than 1000: give the slope as a function"),
+        (lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])), r"pieces\[1\] is 3001, more than 200"),
+        (lambda: scene(normal_load=10**400), "normal_load is a whole number beyond the range of doubles"),
         (lambda: sie.Polynomial(()), "straight"),
         (lambda: sie.Piecewise((1.0, 0.0, 2.0), ((0.0,), (0.0, 1.0))), "1.*0"),
         (lambda: sie.Piecewise((0.0, 0.0), ((0.0,), (0.0,), (0.0,))), "0.*0"),
