@@ -31,6 +31,7 @@ NEIGHBOURS, CLOSE = 12, 1e-6
 NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 FINER = 1e-3  # of the tolerance: next to a declared break
+TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 20_000
 SHORTEST = EPS**6  # of the interval
 PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
@@ -117,7 +118,7 @@ def _degrees(
     c = chebyshev.transform(values[:, :n])
     enough = tolerance.of(pieces, values, scale)
     # a few ulp of x move the value by rounding: no series can do better
-    floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * half))
+    floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)))
     missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     ulp = np.spacing(np.abs(pieces).max(axis=1))

@@ -27,6 +27,7 @@ from .equation import CauchyEquation
 from .errors import ContactError
 from .interval import Interval
 from .jacobi_density import JacobiDensity
+from .normal import refuse_out_of_scale
 from .scene import Scene
 
 Array = NDArray[Any]
@@ -88,6 +89,7 @@ def bonded_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
     """The edges (those of the punch), load, moment and tilt, and φ = p + i q."""
     ends, P = _flat(scene)
     Q, G = scene.tangential_load, 0.5 * scene.Estar
+    refuse_out_of_scale(0.5 * (ends[1] - ends[0]), P + abs(Q), scene.Estar)
 
     def answer(total: complex, tilt: float) -> JacobiDensity:
         return CauchyEquation(ends, G * tilt, a=1j * scene.beta, b=-1.0, total=total).solve(tol)
@@ -109,7 +111,7 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
     if not (pieces.is_zero.all() and math.isfinite(ends[0]) and math.isfinite(ends[1])):
         raise ContactError(
             f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: contact that grows under load "
-            "locks in strain; give sie.Flat(...), or a finite friction"
+            "locks in strain; give a flat punch, or a finite friction"
         )
     if scene.normal_load is None:
         raise ContactError("a bonded punch carries any load on its whole width: give normal_load instead of half_width")

@@ -216,7 +216,8 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         where, intervals = float(x[np.argmin(gaps)]), _below(x, gaps)
         raise InequalityError(
             f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
-            "the profile touches there too; several patches of contact are not covered yet, lower the load or smooth the profile",
+            "the profile touches there too; several patches are not covered yet, "
+            "lower the load, raise it until they merge, or smooth the profile",
             x=where,
             edges=density.interval,
             overlap=intervals,

@@ -6,6 +6,15 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from .interval import EPS
+
+# A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
+FINEST = 2.0 * EPS
+# Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are such
+# products, loads and moments, may be larger, and so may coefficients of powers of a length.
+LARGEST, LARGEST_LOAD, LARGEST_COEFFICIENT = 1e150, 1e250, 1e300
+REMEDY = "choose other units"
+
 
 def real(name: str, value: Any) -> float:
     """`value` as a float; ValueError unless it is one number (nan is not a number)."""
@@ -13,6 +22,8 @@ def real(name: str, value: Any) -> float:
         raise ValueError(f"{name} = {value!r} is not a number: give a float")
     try:
         number = float(value)
+    except OverflowError:
+        raise ValueError(f"{name} is a whole number beyond the range of doubles: {REMEDY}") from None
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r} is not a number: give a float") from None
     if math.isnan(number):
@@ -27,10 +38,20 @@ def finite(name: str, value: Any) -> float:
     return number
 
 
-def positive(name: str, value: Any) -> float:
+def measure(name: str, value: Any, largest: float = LARGEST) -> float:
+    """A finite number that may be multiplied with others."""
     number = finite(name, value)
+    if abs(number) > largest:
+        raise ValueError(f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}")
+    return number
+
+
+def positive(name: str, value: Any, largest: float = LARGEST) -> float:
+    number = measure(name, value, largest)
     if number <= 0.0:
         raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
+    if number < 1.0 / largest:
+        raise ValueError(f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}")
     return number
 
 
@@ -39,6 +60,16 @@ def not_negative(name: str, value: Any) -> float:
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
     return number
+
+
+def tolerance(value: Any) -> float:
+    """A relative accuracy that doubles can hold: below 1, and not below FINEST."""
+    tol = positive("tol", value)
+    if tol < FINEST:
+        raise ValueError(f"tol = {tol:g} is below {FINEST:.2g}, the rounding of doubles: give at least that")
+    if tol >= 1.0:
+        raise ValueError(f"tol = {tol:g} lets any answer pass: give a relative accuracy below 1")
+    return tol
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:

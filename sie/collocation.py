@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from .errors import ContactError
 from .jacobi_density import JacobiDensity
 from .kernel import Series, series
-from .question import Attempt, Problem
+from .question import DECAYED, Attempt, Problem
 from .system import System
 from .transform import by_transform
 
@@ -36,6 +36,9 @@ LARGEST_RULE, LARGEST_COMPLEX_RULE = 4000, 1500  # ... and a transform by Gauss-
 NEAR_MINUS_ONE = 1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
 LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
 IDLE, SETTLED = 3, 1e-6  # after so many enlargements without progress an error below this is noise of g or k
+# Errors from the first of these sizes on, once the second is reached, tell whether they fall like a power of n, as those of kinks and of
+# weak singularities do, and whether a system so many times larger than the largest would be enough.
+FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
 # A right-hand side that misses its consistency by more than this fraction is refused.
 INCONSISTENT = 1e-9
 
@@ -44,6 +47,7 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
     """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
     sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
     best: Attempt | None = None
+    seen: list[tuple[int, float]] = []
     while True:
         tried = attempt(problem, sizes, kernel)
         more = tried.unresolved(tol)
@@ -53,12 +57,14 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
             best, idle = tried, 0
         else:
             idle += 1
+        seen.append((sum(sizes), tried.progress))
+        hopeless = problem.k is not None and kernel is None and _never_settles(seen, tol)
         sizes = _enlarged(sizes, more)
-        if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED):
+        if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED) or hopeless:
             reached = best.answer()
             raise ContactError(
                 f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its estimated error is {reached.error:.1e}; "
-                + _reason(problem),
+                + _reason(problem, best),
                 density=reached,
             )
 
@@ -72,16 +78,31 @@ def _largest(problem: Problem) -> int:
     return LARGEST_RULE if weight.is_real else LARGEST_COMPLEX_RULE
 
 
-def _reason(problem: Problem) -> str:
+def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
+    """Whether the errors of a kernel without a series fall like a power of n that no affordable n brings to tol.
+
+    So they fall where k has a kink or is singular, from the first sizes on; of a kernel that is only narrow they stay where they are
+    until n resolves it, and then fall faster than any power.
+    """
+    n, progress = np.array([(n, error) for n, error in seen if n >= FIRST_SEEN]).reshape(-1, 2).T
+    if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
+        return False
+    order = -float(np.polyfit(np.log(n), np.log(progress), 1)[0])
+    return KINK[0] <= order <= KINK[1] and n[-1] * (progress.min() / tol) ** (1.0 / order) > HOPELESS * LARGEST
+
+
+def _reason(problem: Problem, best: Attempt) -> str:
     """Why a density may not settle, and what to do."""
+    enough = 1.1 * best.progress / DECAYED  # coefficients have to decay to this part of tol; it is printed to two digits
+    remedy = f"raise tol to {enough:.1e}" if enough < 1.0 else "smooth them"
     for weight in problem.weights:
         left = abs((abs(weight.alpha.real) - 1.0) + math.copysign(1.0, weight.alpha.real) * weight.tail.real)
         if weight.kappa == 0 and left < NEAR_MINUS_ONE:
             return (
                 f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of φ stands at that end: "
-                "raise tol, or make that end bounded and the other singular"
+                f"{remedy}, or make that end bounded and the other singular"
             )
-    return "g or k is noisy or not smooth: raise tol, or end the intervals where it is not smooth"
+    return f"g or k is noisy or not smooth: {remedy}"
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:

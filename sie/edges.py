@@ -158,7 +158,7 @@ class Search:
             return interval_about(axis, r).moved(-tail, tail)
 
         if math.isfinite(hi):
-            whole = interval_about(axis, hi - axis)
+            whole = Interval(*self.slope.domain)
             if self.load(whole, self.moments(whole)) <= load:
                 return Found(whole, (True, True))
 
@@ -336,9 +336,10 @@ class Search:
             )
         z1, z2 = self.touch()
         if 2.0 * r <= z2 - z1:
+            larger = "" if (z1, z2) == (lo, hi) else "a larger half_width, or "
             raise LoadError(
                 f"the half-width {r:.6g} does not reach beyond the flat base [{z1:.6g}, {z2:.6g}], "
-                "which touches as a whole under any load: give a larger half_width, or a normal_load"
+                f"which touches as a whole under any load: give {larger}a normal_load"
             )
         if self.axis is not None:
             return Found(interval_about(self.axis, r))
@@ -377,7 +378,7 @@ def _logarithmic_root(
         f, slope = function(u)
         if f > best:
             best, best_u = f, u
-        rising = f > 0.0 and slope > 0.0
+        rising = 0.0 < f < math.inf and slope > 0.0
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
             return min(u * math.exp(step), limit)

@@ -190,7 +190,7 @@ class CauchyEquation:
         and size by size, growing by half, where it is rougher than that. Raises ContactError, with the best `reached["density"]`, when
         tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
         """
-        tol = checks.positive("tol", tol)
+        tol = checks.tolerance(tol)
         if n is not None:
             return consistent(attempt(self.problem, (_size(n),) * len(self.interval)))
         return solve(self.problem, tol)

@@ -63,13 +63,15 @@ class Tractions:
     @property
     def known_poisson(self) -> float:
         if self.poisson is None:
-            raise ValueError("σ_zz and what depends on it need Poisson's ratio: give the scene poisson = ..., or body = sie.Elastic(...)")
+            raise ValueError(
+                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or the body by young and poisson"
+            )
         return self.poisson
 
     @property
     def known_body(self) -> Elastic:
         if self.body is None:
-            raise ValueError("strains need the elastic constants of the body: give the scene body = sie.Elastic(young, poisson)")
+            raise ValueError("strains need the elastic constants of the body: give the body by young and poisson in place of modulus")
         return self.body
 
     @cached_property

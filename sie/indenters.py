@@ -28,6 +28,9 @@ from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
+# Of polynomials: beyond it their powers overflow beside the contact; pieces are moved in rational arithmetic, in the square of the degree.
+HIGHEST_DEGREE, HIGHEST_OF_PIECE = 1000, 200
+NO_DIGITS = 1e3 * float(np.finfo(float).tiny)  # doubles below tiny have fewer digits than others
 
 
 class _Convex(Profile):
@@ -134,7 +137,7 @@ class Power(_Convex):
         if m < 1.0:
             raise ValueError(f"exponent = {m:g} is below 1: the profile would not be convex; give exponent >= 1")
         object.__setattr__(self, "exponent", m)
-        object.__setattr__(self, "coefficient", checks.positive("coefficient", self.coefficient))
+        object.__setattr__(self, "coefficient", checks.positive("coefficient", self.coefficient, checks.LARGEST_COEFFICIENT))
 
     @cached_property
     def pieces(self) -> Slope:
@@ -155,6 +158,16 @@ class Power(_Convex):
         return PowerLaw(self.exponent, self.coefficient)
 
 
+def _refuse_high_degree(name: str, coefficients: Sequence[float], highest: int) -> None:
+    if len(coefficients) > highest + 1:
+        raise ValueError(f"the degree of {name} is {len(coefficients) - 1}, more than {highest}: give the slope as a function")
+
+
+def _with_digits(coefficient: float) -> float:
+    """The coefficient, or 0 where it is so small that its products have no digits."""
+    return coefficient if abs(coefficient) >= NO_DIGITS else 0.0
+
+
 @dataclass(frozen=True)
 class Polynomial(Profile):
     """h = Σ coefficients[k] x^k, low order first."""
@@ -162,14 +175,15 @@ class Polynomial(Profile):
     coefficients: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        c = tuple(checks.finite(f"coefficients[{k}]", v) for k, v in enumerate(self.coefficients))
-        if not any(c[2:]):
+        c = tuple(checks.measure(f"coefficients[{k}]", v, checks.LARGEST_COEFFICIENT) for k, v in enumerate(self.coefficients))
+        _refuse_high_degree("coefficients", c, HIGHEST_DEGREE)
+        if not any(map(_with_digits, c[2:])):
             raise ValueError(f"coefficients = {c} describe a straight line: contact needs a curved profile, give a term of order 2 or more")
         object.__setattr__(self, "coefficients", c)
 
     @cached_property
     def pieces(self) -> Slope:
-        return polynomial_slope((-INF, INF), (0.0,), ([k * c for k, c in enumerate(self.coefficients)][1:],))
+        return polynomial_slope((-INF, INF), (0.0,), ([k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:],))
 
     def height(self, x: ArrayLike) -> Array:
         h: Array = np.polynomial.polynomial.polyval(np.asarray(x, dtype=float), self.coefficients)
@@ -196,7 +210,10 @@ class Piecewise(Profile):
     coefficients: tuple[tuple[float, ...], ...]
 
     def __init__(self, breaks: Sequence[float], pieces: Sequence[Sequence[float]]) -> None:
-        rows = tuple(tuple(checks.finite(f"pieces[{k}][{j}]", c) for j, c in enumerate(row)) for k, row in enumerate(pieces))
+        rows = tuple(
+            tuple(checks.measure(f"pieces[{k}][{j}]", c, checks.LARGEST_COEFFICIENT) for j, c in enumerate(row))
+            for k, row in enumerate(pieces)
+        )
         ends = tuple(checks.real(f"breaks[{k}]", b) for k, b in enumerate(breaks))
         if len(ends) == len(rows) - 1:
             ends = (-INF, *ends, INF)
@@ -204,14 +221,18 @@ class Piecewise(Profile):
             raise ValueError(
                 f"{len(breaks)} breaks do not bound {len(rows)} pieces: give one break more than pieces, or one less (the inner ones)"
             )
+        for k, end in enumerate(ends):
+            if math.isfinite(end):
+                checks.measure(f"breaks[{k}]", end)
         for left, right in pairwise(ends):
             if not left < right:
                 raise ValueError(f"breaks {left:g}, {right:g} do not ascend: sort them and drop duplicates")
         if any(np.isinf(b) for b in ends[1:-1]):
             raise ValueError("an inner break is infinite: only the first and the last may be")
         for k, row in enumerate(rows):
+            _refuse_high_degree(f"pieces[{k}]", row, HIGHEST_OF_PIECE)
             if not row:
-                raise ValueError(f"pieces[{k}] is empty: give (0.0,) for a flat piece")
+                raise ValueError(f"pieces[{k}] is empty: give its one coefficient 0 for a flat piece")
         object.__setattr__(self, "ends", ends)
         object.__setattr__(self, "coefficients", rows)
 
@@ -220,7 +241,8 @@ class Piecewise(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
-        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True)]
+        given = [tuple(map(_with_digits, row)) for row in self.coefficients]
+        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(given, self.ends[:-1], self.ends[1:], strict=True)]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
     def height(self, x: ArrayLike) -> Array:
@@ -309,7 +331,12 @@ class FromFunction(Profile):
         lo, hi = (checks.real("domain", end) for end in domain)
         if not lo < hi:
             raise ValueError(f"domain = ({lo:g}, {hi:g}) is empty: give lo < hi")
-        inner = tuple(sorted({checks.finite("breaks", b) for b in breaks}))
+        for end in (lo, hi):
+            if math.isfinite(end):
+                checks.measure("domain", end)
+        if math.isfinite(hi - lo):
+            checks.positive("the length of the domain", hi - lo)
+        inner = tuple(sorted({checks.measure("breaks", b) for b in breaks}))
         for b in inner:
             if not lo <= b <= hi:
                 raise ValueError(f"break {b:g} is outside the domain ({lo:g}, {hi:g}): leave it out or widen the domain")

@@ -13,6 +13,10 @@ from typing import Literal
 
 from . import checks
 
+# Bodies whose |β| is below this differ by rounding of their constants: what β would change of any
+# traction, a fraction of about β, is below the accuracy of the answers.
+SIMILAR = 1e-12
+
 Plane = Literal["strain", "stress"]
 
 
@@ -66,9 +70,13 @@ def pair_modulus(body: Body, indenter: Body) -> float:
 
 def dundurs(body: Body, indenter: Body) -> float:
     """Dundurs' second constant β; 0 for similar bodies."""
-    if body == indenter:
-        return 0.0
-    return (_compliance(body, -1.0) - _compliance(indenter, -1.0)) / (_compliance(body, 1.0) + _compliance(indenter, 1.0))
+    difference = _compliance(body, -1.0) - _compliance(indenter, -1.0)
+    return coupling(difference / (_compliance(body, 1.0) + _compliance(indenter, 1.0)))
+
+
+def coupling(beta: float) -> float:
+    """β, or 0 where it is below SIMILAR: such bodies are similar."""
+    return beta if abs(beta) >= SIMILAR else 0.0
 
 
 def share(body: Body, indenter: Body) -> float:

@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from .fits import Gap
 from .interval import EPS, Interval
 from .normal import Normal
-from .sampled import Mended, Placed, Sampled, traces_in
+from .sampled import Mended, PlacedTrace, Sampled, traces_in
 from .scene import Scene
 from .slope_density import SlopeDensity
 from .smoothing import slope_deviations
@@ -138,7 +138,7 @@ def trace_reports(scene: Scene, normal: Normal, density: SlopeDensity) -> tuple[
     return tuple(_report(placed, scene, normal, density) for placed in traces_in(scene.profile))
 
 
-def _report(placed: Placed, scene: Scene, normal: Normal, density: SlopeDensity) -> TraceReport:
+def _report(placed: PlacedTrace, scene: Scene, normal: Normal, density: SlopeDensity) -> TraceReport:
     trace, contact = placed.trace, normal.edges.contact
     x = placed.x(trace.points)
     tilt = placed.direction * trace.line[1] + placed.tilt + normal.edges.tilt
@@ -169,7 +169,7 @@ def _averaged(trace: Sampled) -> float:
     return float((trace.lam * ((len(x) - 1) / np.ptp(x)) ** 3) ** 0.25)
 
 
-def _gap(placed: Placed, gap: Gap) -> Gap:
+def _gap(placed: PlacedTrace, gap: Gap) -> Gap:
     lo, hi = sorted(placed.x(np.array([gap.lo, gap.hi])).tolist())
     return Gap(lo, hi, gap.missing)
 
@@ -182,7 +182,7 @@ class Errors(NamedTuple):
     edges: tuple[float, float]
 
 
-def _errors(placed: Placed, reference: Sampled, scene: Scene, normal: Normal, density: SlopeDensity) -> Errors:
+def _errors(placed: PlacedTrace, reference: Sampled, scene: Scene, normal: Normal, density: SlopeDensity) -> Errors:
     contact, sharp = normal.edges.contact, np.array(normal.edges.sharp)
     place = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     p = density(contact.m + contact.r * np.cos(place))
@@ -212,7 +212,7 @@ def _errors(placed: Placed, reference: Sampled, scene: Scene, normal: Normal, de
     )
 
 
-def _angles(placed: Placed, contact: Interval) -> Array:
+def _angles(placed: PlacedTrace, contact: Interval) -> Array:
     """Chebyshev's angles, as many as the points of the trace ask for."""
     x = placed.x(placed.trace.points)
     inside = NODES_PER_POINT * np.count_nonzero((x > contact.x1) & (x < contact.x2))
@@ -221,7 +221,7 @@ def _angles(placed: Placed, contact: Interval) -> Array:
     return angles
 
 
-def _bound(placed: Placed, reference: Sampled, x: Array, weights: Array) -> Array:
+def _bound(placed: PlacedTrace, reference: Sampled, x: Array, weights: Array) -> Array:
     """A bound on Σ_k weights[i, k] δH(x_k), (m,)."""
     known, ends = placed.trace, reference.points[[0, -1]]
     at = np.clip(placed.direction * x + placed.origin, *ends)

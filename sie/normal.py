@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from . import chebyshev
+from . import chebyshev, checks
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
 from .edges import Edges, Found, Search
 from .errors import ContactError, LoadError
@@ -45,6 +45,9 @@ LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
+PLACES = 64.0  # fewer places in a half-width do not show the pressure
+SIZE, MOMENT = 1e120, 1e304  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
+NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
@@ -62,7 +65,7 @@ class Normal:
 
 def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
     """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it."""
-    found = _contact(scene, tol, economy)
+    found = _within_scale(scene, tol, economy)
     ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
@@ -71,6 +74,37 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
             end=end,
         )
     return found
+
+
+def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+    """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
+    if scene.normal_load is not None and not 1.0 / checks.LARGEST <= scene.normal_load / scene.Estar <= checks.LARGEST:
+        raise LoadError(f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {checks.REMEDY}")
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what that leaves is refused below
+            found = _contact(scene, tol, economy)
+    except ArithmeticError:
+        raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
+    edges = found.edges
+    (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
+    apart = float(np.spacing(max(abs(x1), abs(x2))))
+    if not r >= PLACES * apart:
+        raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
+    refuse_out_of_scale(r, P, scene.Estar)
+    return found
+
+
+def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
+    """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
+    sizes = {"half-width": (r, SIZE), "mean traction": (0.5 * load / r, SIZE), "E* r²": (Estar * r * r, MOMENT)}
+    for name, (size, largest) in sizes.items():
+        if not 1.0 / largest <= size <= largest:
+            raise LoadError(f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {checks.REMEDY}")
+
+
+def _asked(scene: Scene) -> str:
+    names = ("normal_load", "half_width", "moment", "tilt")
+    return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
 
 
 def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
@@ -96,6 +130,7 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
             if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
+                _refuse_infinite_ends(profile.pieces)
                 raise  # a wider window changes nothing
             grown += 1
             lo, hi = _grown(lo, hi, ends)
@@ -163,6 +198,16 @@ def _smooth(scene: Scene, tol: float, symmetry: bool) -> Normal | None:
     smooth, n = (False, False), found.evaluations
     edges = Edges(contact, P, contact.m * P + M, scene.tilt, smooth, 0.0, 0.0, 0.0, n)
     return Normal(edges, axis is not None, c)
+
+
+def _refuse_infinite_ends(slope: Slope) -> None:
+    """Raises LoadError where the slope is infinite at an end of the indenter, towards which no series resolves it."""
+    ends = np.array([end for end in slope.domain if math.isfinite(end)])
+    infinite = ends[~np.isfinite(slope(ends))]
+    if len(infinite):
+        raise LoadError(
+            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the contact comes near: narrow the domain"
+        )
 
 
 def contact_under(

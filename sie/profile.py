@@ -8,9 +8,9 @@ profiles by tilting, shifting, mirroring and adding. The kinds themselves are in
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Literal
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, reduce
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -75,13 +75,13 @@ class Profile(ABC):
 
     def tilted(self, slope: float) -> Profile:
         """h(x) + slope x."""
-        slope = checks.finite("slope", slope)
+        slope = checks.measure("tilted", slope)
         return self if slope == 0.0 else Tilted(self, slope)
 
     def shifted(self, dx: float) -> Profile:
         """h(x - dx)."""
-        dx = checks.finite("dx", dx)
-        return self if dx == 0.0 else Shifted(self, dx)
+        dx = checks.measure("shifted", dx)
+        return self if abs(dx) * checks.LARGEST_COEFFICIENT < 1.0 else Shifted(self, dx)
 
     def mirrored(self) -> Profile:
         """h(-x)."""
@@ -96,153 +96,281 @@ class Profile(ABC):
 # -- what is made of other profiles ------------------------------------------------------------------------------------
 
 
-class _Derived(Profile):
-    def __repr__(self) -> str:
-        return self._code()
-
-    @abstractmethod
-    def _code(self) -> str: ...
-
-
-def _operand(profile: Profile) -> str:
-    return f"({profile!r})" if isinstance(profile, Sum) else repr(profile)
-
-
-@dataclass(frozen=True, repr=False)
-class Tilted(_Derived):
-    """h(x) + tilt x."""
+class Placed(NamedTuple):
+    """h(sign (x - shift)) + tilt x + a constant, of a profile that is not made of others."""
 
     profile: Profile
+    sign: float
+    shift: float
+    tilt: float
+
+
+class Derived(Profile):
+    """A profile made of others, to any depth: what is asked of it is found without recursion.
+
+    Reach and axis are passed on from level to level when each is built: n levels are built in O(n).
+    """
+
+    def __post_init__(self) -> None:
+        _ = self.reach, self.axis
+
+    @property
+    @abstractmethod
+    def reach(self) -> tuple[float, float]:
+        """The domain, to rounding. Raises ValueError where nothing is left of it."""
+
+    @property
+    @abstractmethod
+    def operands(self) -> tuple[Profile, ...]:
+        """What it is made of; of a sum its terms, none of which is a sum."""
+
+    @property
+    @abstractmethod
+    def step(self) -> tuple[Any, ...]:
+        """(kind, how many operands, further arguments): how it is made of them."""
+
+    @cached_property
+    def steps(self) -> tuple[Any, ...]:
+        """The profiles that it is made of and how, in postfix order: equality, hash and pickle are those of this list."""
+        found: list[Any] = []
+        todo: list[Profile] = [self]
+        while todo:
+            node = todo.pop()
+            found.append(node.step if isinstance(node, Derived) else node)
+            todo += node.operands if isinstance(node, Derived) else ()
+        return tuple(reversed(found))
+
+    def with_part(self, old: Profile, new: Profile) -> Profile:
+        """The same profile with `new` wherever it is made of `old`, which is not made of others."""
+        return _assembled(tuple(new if step is old else step for step in self.steps))
+
+    def __eq__(self, other: object) -> bool:
+        return self.steps == other.steps if isinstance(other, Derived) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.steps)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _assembled, (self.steps,)
+
+    def __repr__(self) -> str:
+        text: list[str] = []
+        todo: list[Profile | str] = [self]
+        while todo:  # from the end of the text to its beginning
+            item = todo.pop()
+            if isinstance(item, Sum):
+                todo += [part for term in item.terms for part in (" + ", term)][1:]
+            elif isinstance(item, Derived):
+                (operand,), (kind, _, *arguments) = item.operands, item.step
+                todo += ["(", operand, ")"] if isinstance(operand, Sum) else [operand]
+                todo.append(f".{kind.__name__.lower()}({', '.join(map(repr, arguments))})")
+            else:
+                text.append(item if isinstance(item, str) else repr(item))
+        return "".join(reversed(text))
+
+    @cached_property
+    def _parts(self) -> tuple[tuple[Placed, ...], float]:
+        """The profiles that add up to this one, each in its place and with its own tilt; and the tilt of sums of them."""
+        found, tilt = [], 0.0
+        todo: list[Placed] = [Placed(self, 1.0, 0.0, 0.0)]
+        while todo:
+            part = todo.pop()
+            node, sign, shift, own = part
+            if isinstance(node, Tilted):
+                todo.append(Placed(node.profile, sign, shift, own + sign * node.tilt))
+            elif isinstance(node, Shifted):
+                todo.append(Placed(node.profile, sign, shift + sign * node.dx, own))
+            elif isinstance(node, Mirrored):
+                todo.append(Placed(node.profile, -sign, shift, own))
+            elif isinstance(node, Sum):
+                tilt += own
+                todo += [Placed(term, sign, shift, 0.0) for term in reversed(node.terms)]
+            else:
+                found.append(part)
+        return tuple(found), tilt
+
+    @cached_property
+    def pieces(self) -> Slope:
+        parts, tilt = self._parts
+        slopes = [
+            (part.profile.pieces if part.sign > 0.0 else part.profile.pieces.mirrored()).tilted(part.tilt).shifted(part.shift)
+            for part in parts
+        ]
+        while len(slopes) > 1:  # in pairs: no break is merged more often than slopes can be halved in number
+            pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
+            slopes = pairs + slopes[2 * len(pairs) :]
+        return slopes[0].tilted(tilt)
+
+    def height(self, x: ArrayLike) -> Array:
+        total = np.zeros(np.shape(x))
+        todo: list[tuple[Profile, Array]] = [(self, np.asarray(x, dtype=float))]
+        while todo:
+            node, at = todo.pop()
+            if isinstance(node, Tilted):
+                total = total + node.tilt * at
+            if isinstance(node, Derived):
+                at = at - node.dx if isinstance(node, Shifted) else -at if isinstance(node, Mirrored) else at
+                todo += [(operand, at) for operand in node.operands]
+            else:
+                total = total + node.height(at)
+        return total
+
+    @property
+    def placed(self) -> tuple[Placed, ...]:
+        """The profiles that add up to this one, each in its place and with the tilt of all of them."""
+        parts, tilt = self._parts
+        return tuple(part._replace(tilt=part.tilt + tilt) for part in parts)
+
+    @cached_property
+    def power_law(self) -> PowerLaw | None:
+        part, *others = self.placed
+        law = part.profile.power_law if part.tilt == 0.0 and not others else None
+        return law and replace(law, axis=part.sign * law.axis + part.shift)
+
+    @cached_property
+    def convex(self) -> bool:
+        return all(part.profile.convex for part in self._parts[0])
+
+    @cached_property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        """Those of the profile that ends first."""
+        corners = [True, True]
+        for profile, sign, shift, _ in self._parts[0]:
+            ends = zip(profile.domain, profile.ends_are_corners, strict=True)
+            for end, is_corner in ends:
+                here = sign * end + shift
+                for k in (0, 1):
+                    corners[k] &= is_corner or here != self.domain[k]
+        return corners[0], corners[1]
+
+
+def _reach(profile: Profile) -> tuple[float, float]:
+    return profile.reach if isinstance(profile, Derived) else profile.domain
+
+
+def _assembled(steps: tuple[Any, ...]) -> Profile:
+    """The profile that `Derived.steps` lists."""
+    made: list[Profile] = []
+    for step in steps:
+        if isinstance(step, Profile):
+            made.append(step)
+            continue
+        kind, count, *arguments = step
+        operands = made[-count:]
+        made[-count:] = [reduce(Sum, operands) if kind is Sum else kind(*operands, *arguments)]
+    return made.pop()
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class _OfOne(Derived):
+    profile: Profile
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        return _reach(self.profile)
+
+    @cached_property
+    def axis(self) -> float | None:
+        return self.profile.axis
+
+    @property
+    def operands(self) -> tuple[Profile, ...]:
+        return (self.profile,)
+
+    @property
+    def step(self) -> tuple[Any, ...]:
+        return type(self), 1, *(getattr(self, f.name) for f in fields(self)[1:])
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Tilted(_OfOne):
+    """h(x) + tilt x."""
+
     tilt: float
 
     @cached_property
-    def pieces(self) -> Slope:
-        return self.profile.pieces.tilted(self.tilt)
-
-    def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(x) + self.tilt * np.asarray(x, dtype=float)
-
-    @property
-    def convex(self) -> bool:
-        return self.profile.convex
+    def axis(self) -> float | None:
+        return None
 
     def tilted(self, slope: float) -> Profile:
-        return self.profile.tilted(self.tilt + checks.finite("slope", slope))
-
-    @property
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        return self.profile.ends_are_corners
-
-    def _code(self) -> str:
-        return f"{_operand(self.profile)}.tilted({self.tilt!r})"
+        return self.profile.tilted(self.tilt + checks.measure("tilted", slope))
 
 
-@dataclass(frozen=True, repr=False)
-class Shifted(_Derived):
+@dataclass(frozen=True, repr=False, eq=False)
+class Shifted(_OfOne):
     """h(x - dx)."""
 
-    profile: Profile
     dx: float
 
     @cached_property
-    def pieces(self) -> Slope:
-        return self.profile.pieces.shifted(self.dx)
+    def reach(self) -> tuple[float, float]:
+        lo, hi = _reach(self.profile)
+        if not lo + self.dx < hi + self.dx:
+            raise ValueError(
+                f"shifted({self.dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), doubles are farther apart there: shift it less"
+            )
+        return lo + self.dx, hi + self.dx
 
-    def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(np.asarray(x, dtype=float) - self.dx)
-
-    @property
+    @cached_property
     def axis(self) -> float | None:
         return None if self.profile.axis is None else self.profile.axis + self.dx
 
-    @property
-    def convex(self) -> bool:
-        return self.profile.convex
-
-    @property
-    def power_law(self) -> PowerLaw | None:
-        law = self.profile.power_law
-        return law and replace(law, axis=law.axis + self.dx)
-
     def shifted(self, dx: float) -> Profile:
-        return self.profile.shifted(self.dx + checks.finite("dx", dx))
-
-    @property
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        return self.profile.ends_are_corners
-
-    def _code(self) -> str:
-        return f"{_operand(self.profile)}.shifted({self.dx!r})"
+        return self.profile.shifted(self.dx + checks.measure("shifted", dx))
 
 
-@dataclass(frozen=True, repr=False)
-class Mirrored(_Derived):
+@dataclass(frozen=True, repr=False, eq=False)
+class Mirrored(_OfOne):
     """h(-x)."""
 
-    profile: Profile
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        lo, hi = _reach(self.profile)
+        return -hi, -lo
 
     @cached_property
-    def pieces(self) -> Slope:
-        return self.profile.pieces.mirrored()
-
-    def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(-np.asarray(x, dtype=float))
-
-    @property
     def axis(self) -> float | None:
         return None if self.profile.axis is None else -self.profile.axis
-
-    @property
-    def convex(self) -> bool:
-        return self.profile.convex
-
-    @property
-    def power_law(self) -> PowerLaw | None:
-        law = self.profile.power_law
-        return law and replace(law, axis=-law.axis)
 
     def mirrored(self) -> Profile:
         return self.profile
 
-    @property
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        return self.profile.ends_are_corners[::-1]
 
-    def _code(self) -> str:
-        return f"{_operand(self.profile)}.mirrored()"
-
-
-@dataclass(frozen=True, repr=False)
-class Sum(_Derived):
-    """The sum of two profiles, on the intersection of their domains."""
+@dataclass(frozen=True, repr=False, eq=False)
+class Sum(Derived):
+    """The sum of two profiles, on the intersection of their domains. A sum of sums is the sum of all their terms."""
 
     first: Profile
     second: Profile
 
-    def __post_init__(self) -> None:
-        _ = self.pieces  # refuses domains that do not overlap
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        one, other = _reach(self.first), _reach(self.second)
+        lo, hi = max(one[0], other[0]), min(one[1], other[1])
+        if not lo < hi:
+            raise ValueError(f"profiles on {one} and {other} do not overlap: shift one of them before adding")
+        return lo, hi
 
     @cached_property
-    def pieces(self) -> Slope:
-        return self.first.pieces + self.second.pieces
-
-    def height(self, x: ArrayLike) -> Array:
-        return self.first.height(x) + self.second.height(x)
-
-    @property
     def axis(self) -> float | None:
         return self.first.axis if self.first.axis == self.second.axis else None
 
-    @property
-    def convex(self) -> bool:
-        return self.first.convex and self.second.convex
+    @cached_property
+    def terms(self) -> tuple[Profile, ...]:
+        found: list[Profile] = []
+        todo: list[Profile] = [self]
+        while todo:
+            node = todo.pop()
+            if isinstance(node, Sum):
+                todo += (node.second, node.first)
+            else:
+                found.append(node)
+        return tuple(found)
 
     @property
-    def ends_are_corners(self) -> tuple[bool, bool]:
-        """Those of the profile that ends first."""
-        lo, hi = self.domain
-        left, right = ([p.ends_are_corners[k] for p in (self.first, self.second) if p.domain[k] == end] for k, end in enumerate((lo, hi)))
-        return all(left), all(right)
+    def operands(self) -> tuple[Profile, ...]:
+        return self.terms
 
-    def _code(self) -> str:
-        return f"{self.first!r} + {_operand(self.second)}"
+    @property
+    def step(self) -> tuple[Any, ...]:
+        return Sum, len(self.terms)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields, replace
-from typing import Any
+from dataclasses import replace
 
 from .errors import ContactError
-from .profile import Profile
+from .profile import Derived, Profile
 from .sampled import Sampled, traces_in
 from .scene import Scene
 from .smoothing import longest_lambda
@@ -94,14 +93,6 @@ def _rounded_up(lam: float) -> float:
     return float(f"{math.ceil(lam / digit) * digit:.{DIGITS - 1}e}")
 
 
-def _replaced(profile: Any, old: Sampled, new: Sampled) -> Any:
+def _replaced(profile: Profile, old: Sampled, new: Sampled) -> Profile:
     """The profile with another trace in the place of one."""
-    if profile is old:
-        return new
-    if isinstance(profile, tuple):
-        return tuple(_replaced(part, old, new) for part in profile)
-    if not any(placed.trace is old for placed in traces_in(profile)):
-        return profile
-    parts = {f.name: getattr(profile, f.name) for f in fields(profile)}
-    parts = {name: part for name, part in parts.items() if isinstance(part, (tuple, Profile))}
-    return replace(profile, **{name: _replaced(part, old, new) for name, part in parts.items()})
+    return profile.with_part(old, new) if isinstance(profile, Derived) else new

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from numbers import Integral
 from pathlib import Path
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import checks, fits
 from .errors import ContactError
-from .profile import Mirrored, Profile, Shifted, Tilted
+from .profile import Derived, Placed, Profile
 from .slope import Slope
 from .smoothing import cross_validated, explains, interpolating_spline, longest_lambda, smoothing_spline
 from .traces import Column, is_text, read_columns, read_topography
@@ -233,7 +233,7 @@ class Sampled(Profile):
 # -- traces in other profiles ----------------------------------------------------------------------
 
 
-class Placed(NamedTuple):
+class PlacedTrace(NamedTuple):
     """A trace in a profile: its x is direction x + origin, its slope counts times direction, + tilt."""
 
     trace: Sampled
@@ -246,18 +246,12 @@ class Placed(NamedTuple):
         return self.direction * (points - self.origin)
 
 
-def traces_in(profile: Any) -> Iterator[Placed]:
+def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
     """The traces that a profile is made of, tilted, shifted, mirrored and added as it may be."""
-    if isinstance(profile, Sampled):
-        yield Placed(profile)
-        return
-    for placed in (placed for part in _parts(profile) for placed in traces_in(part)):
-        if isinstance(profile, Mirrored):
-            yield placed._replace(direction=-placed.direction, tilt=-placed.tilt)
-        elif isinstance(profile, Shifted):
-            yield placed._replace(origin=placed.origin - placed.direction * profile.dx)
-        else:
-            yield placed._replace(tilt=placed.tilt + profile.tilt) if isinstance(profile, Tilted) else placed
+    parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
+    for part, sign, shift, tilt in parts:
+        if isinstance(part, Sampled):
+            yield PlacedTrace(part, sign, -sign * shift, tilt)
 
 
 def explained(error: ContactError, profile: Profile) -> ContactError:
@@ -270,13 +264,6 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
     else:
         advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
     return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error
-
-
-def _parts(profile: Any) -> Iterator[Profile]:
-    for field in fields(profile) if is_dataclass(profile) else ():
-        value = getattr(profile, field.name)
-        parts = value if isinstance(value, tuple) else (value,)
-        yield from (part for part in parts if isinstance(part, Profile))
 
 
 # -- what is not a trace -------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import checks
 from .interval import EPS
-from .material import RIGID, Body, Elastic, Rigid, dundurs, pair_modulus, share
+from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 from .profile import Profile
 
 
@@ -19,6 +19,7 @@ class Scene:
     profile            the gap h(x) between the undeformed indenter and the flat surface
     body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
                        or, in their place, modulus = E*, dundurs = β, poisson = ν
+    dundurs            beside body and indenter: 0 neglects their β, all else stays theirs; |β| < 1e-12 is 0 without asking
     normal_load        P, force per length;  or half_width, length: exactly one of the two
     tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
     friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
@@ -54,21 +55,26 @@ class Scene:
             what = "neither" if self.body is None else "both"
             raise ValueError(f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*")
         if self.body is not None:
-            for name in ("dundurs", "poisson"):
-                if getattr(self, name) is not None:
-                    raise ValueError(f"{name} = {getattr(self, name)!r} follows from body and indenter: leave it out")
+            if self.poisson is not None:
+                raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
+            if self.dundurs is not None:
+                self._set("dundurs", checks.finite("dundurs", self.dundurs))
+                if self.dundurs != 0.0:
+                    raise ValueError(f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β")
             if self.indenter is None:
                 self._set("indenter", self.body)
             for name in ("body", "indenter"):
                 if not isinstance(getattr(self, name), (Elastic, Rigid)):
                     raise ValueError(f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID")
             if self.body == RIGID == self.indenter:
-                raise ValueError("body and indenter are both rigid: nothing can deform; make one of them sie.Elastic(young, poisson)")
+                raise ValueError(
+                    "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
+                )
             return
         if self.indenter is not None:
             raise ValueError("indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out")
         self._set("modulus", checks.positive("modulus", self.modulus))
-        beta = checks.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs)
+        beta = coupling(checks.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
         if abs(beta) > 0.5:
             raise ValueError(f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it")
         self._set("dundurs", beta)
@@ -81,15 +87,19 @@ class Scene:
             raise ValueError(f"{what} of normal_load and half_width given: give exactly one, the other follows")
         for name in ("normal_load", "half_width"):
             if getattr(self, name) is not None:
-                self._set(name, checks.positive(name, getattr(self, name)))
-        self._set("tilt", checks.finite("tilt", self.tilt))
+                largest = checks.LARGEST_LOAD if name == "normal_load" else checks.LARGEST
+                self._set(name, checks.positive(name, getattr(self, name), largest))
+        self._set("tilt", checks.measure("tilt", self.tilt))
         if self.moment is not None:
-            self._set("moment", checks.finite("moment", self.moment))
+            self._set("moment", checks.measure("moment", self.moment, checks.LARGEST_COEFFICIENT))
             if self.tilt != 0.0:
                 raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
-        self._set("friction", self.friction if self.friction == math.inf else checks.not_negative("friction", self.friction))
-        for name in ("tangential_load", "bulk_stress"):
-            self._set(name, checks.finite(name, getattr(self, name)))
+        if self.friction != math.inf:
+            self._set("friction", checks.not_negative("friction", self.friction))
+            if self.friction:
+                checks.positive("friction", self.friction)
+        self._set("tangential_load", checks.measure("tangential_load", self.tangential_load, checks.LARGEST_LOAD))
+        self._set("bulk_stress", checks.measure("bulk_stress", self.bulk_stress))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
                 f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"

@@ -9,7 +9,7 @@
     [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]   the same; without it the indenter is made of the body's material
-    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]
+    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]; beside them dundurs = 0 alone, which neglects their β
     [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress;  or, in place of the loads,
                  path = [[P, Q, σ], ...]: turning points, σ may be left out; the scene is that of the last one
 
@@ -301,16 +301,18 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
-    if "pair" in top:
+    pair = _taken("pair", top.get("pair", {}))
+    if "pair" in top and pair.keys() != {"dundurs"}:
         for name in ("body", "indenter"):
             if name in top:
-                raise ValueError(f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out")
-        values = _taken("pair", top["pair"])
-        _required("[pair]", values, ["modulus"])
-        return values
+                raise ValueError(
+                    f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out; or give dundurs = 0 alone in it"
+                )
     if "body" not in top:
-        raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
-    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top}
+        if "pair" not in top:
+            raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
+        _required("[pair]", pair, ["modulus"])
+    return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
 
 
 def _body(name: str, value: Any) -> Body:
@@ -339,9 +341,6 @@ class _Naming:
     def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: object) -> None:
         if isinstance(problem, ValueError):
             raise ValueError(f"{self.where} {problem}") from None
-        # A formula is evaluated here for the first time: what Python finds wrong with it is the file's fault.
-        if isinstance(problem, (ArithmeticError, RecursionError, TypeError)):
-            raise ValueError(f"{self.where} slope cannot be evaluated ({problem}): simplify the formula") from None
 
 
 # -- names that are not known ------------------------------------------------------------------------------------------
@@ -356,15 +355,22 @@ def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
 
 
 def _remedy(key: str, known: Iterable[str], here: str) -> str:
-    """Where a stray key belongs: near a known one, or in another table, which is what happens when a header is forgotten."""
-    known = tuple(known)
+    """Where a stray key belongs: near a known one, in another table (a header was forgotten), or to another kind of profile."""
+    known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
+    if here == f"[{key}]" or (of_profile and key == "profile"):
+        return entries.suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
+    if here:
+        elsewhere = dict.fromkeys(("title", "want"), "it stands at the top of the file, before the first [table]")
+        elsewhere |= {name: f"it is a table of its own, write the header [{name}] and its keys below it" for name in ("profile", *_TABLES)}
+        elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
+        if key in elsewhere:
+            return elsewhere[key]
     if not entries.nearest(key, known):
-        if here and key in ("title", "want", *_TABLES):
-            return "it stands at the top of the file, before the first [table]"
-        if here and key == "plus":
-            return "terms are not nested, write one [[profile.plus]] after the other"
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
-        homes += ["[profile]"] if key == "kind" or any(key in readers for readers in (*_PARAMETERS.values(), _FILE, _MODIFIERS)) else []
+        kinds = [kind for kind, readers in _PARAMETERS.items() if key in readers or (kind == "sampled" and key in _FILE)]
+        if of_profile and kinds:
+            return f"it belongs to kind {entries.choices(kinds)}"
+        homes += ["[profile]"] if key == "kind" or kinds or key in _MODIFIERS else []
         if homes:
             return f"it belongs in {' or '.join(homes)}"
     return entries.suggestion(key, known)

@@ -40,7 +40,9 @@ _SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
 _NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment", "epsilon", "bonded"})
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "sliding", "bulk_stress"}
+_SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "sliding", "bulk_stress", "dundurs"}
+# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
+NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
 _STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
 _STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
 
@@ -325,7 +327,7 @@ class Solution:
                 if changes.get(given) is not None and replaced not in changes:
                     changes[replaced] = 0.0 if replaced == "tilt" else None
         if "modulus" in changes and self.scene.body is not None:
-            changes = {"body": None, "indenter": None} | changes
+            changes = {"body": None, "indenter": None, "dundurs": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
         changed = {name for name in (*changes, "epsilon", "bonded") if getattr(new.scene, name) != getattr(self.scene, name)}
@@ -352,7 +354,7 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     """
     if not isinstance(scene, Scene):
         raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
-    tol = checks.positive("tol", tol)
+    tol = checks.tolerance(tol)
     unknown = set(economy) - ECONOMY
     if unknown:
         raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")
@@ -368,12 +370,11 @@ def _refuse_uncovered(scene: Scene) -> None:
     if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
             f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) with friction is not covered yet: "
-            "set bulk_stress = 0, or friction = 0"
+            f"{NEGLECTED}; or set friction = 0"
         )
     if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
         raise ContactError(
             f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick and slip in part at "
             f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is not covered yet; "
-            "let them slide (sliding = ±1), or set friction = 0 for the frictionless contact, "
-            f"or leave out what couples them, shear of the order of β p: modulus = {scene.Estar!r} and dundurs = 0 in place of the bodies"
+            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the frictionless contact"
         )

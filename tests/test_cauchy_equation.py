@@ -1,6 +1,7 @@
 """The question and how it is solved: index and side conditions, nodes, sizes, conditioning, refusals."""
 
 import math
+import re
 
 import mpmath
 import numpy as np
@@ -423,6 +424,40 @@ def test_what_does_not_settle_is_refused_with_the_best_density(g, error, k, monk
     reference = sie.CauchyEquation((-1.0, 1.0), np.exp if g is noisy else g, k=k, total=0.0).solve(n=60 if g is noisy else 700)
     assert np.abs(best(x) - reference(x)).max() <= error * np.abs(reference(x)).max()
     assert equation.solve(tol=10.0 * best.error).error <= 10.0 * best.error
+
+
+ROUGH = {
+    "log": lambda x, t: np.log(np.abs(x - t)),
+    "kink": lambda x, t: np.abs(x - t),
+    "root": lambda x, t: np.abs(x - t) ** -0.5,
+    "jump": lambda x, t: np.sign(x - t),
+}
+
+
+@pytest.mark.parametrize("k", ROUGH.values(), ids=ROUGH)
+def test_a_kernel_with_a_kink_or_a_weak_singularity_is_refused_before_large_systems(k, monkeypatch):
+    largest, system_of = 0, collocation.System
+
+    def counted(problem, sizes, series=None):
+        nonlocal largest
+        largest = max(largest, *sizes)
+        return system_of(problem, sizes, series)
+
+    monkeypatch.setattr(collocation, "System", counted)
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, k=k, total=0.0)
+    with pytest.raises(sie.ContactError, match="did not settle") as caught:
+        equation.solve()
+    assert largest <= 1000
+    tol = float(re.search(r"raise tol to (\S+)", str(caught.value))[1])
+    assert equation.solve(tol).error <= tol
+
+
+def test_a_right_hand_side_with_a_step_settles_to_the_tolerance_that_its_refusal_offers():
+    equation = sie.CauchyEquation((-1.0, 1.0), lambda x: np.where(x > 0.2, 1.0, 0.0), total=0.0)
+    with pytest.raises(sie.ContactError, match="did not settle") as caught:
+        equation.solve()
+    tol = float(re.search(r"raise tol to (\S+)", str(caught.value))[1])
+    assert equation.solve(tol).error <= tol
 
 
 def test_the_potential_vanishes_at_infinity():

@@ -15,7 +15,7 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 
 # From the ground up: a module imports only from those before it.
 ORDER = (
-    "quiet", "errors", "interval", "power_law", "checks", "files",
+    "quiet", "errors", "interval", "power_law", "checks", "files", "entries",
     "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
@@ -23,7 +23,7 @@ ORDER = (
     "smooth", "normal", "noise", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "plan",
     "solution", "remedy", "ladder", "path", "history", "fretting", "charts", "workers", "sweep",
-    "abscissae", "entries", "scenefile", "compare", "grid",
+    "abscissae", "scenefile", "compare", "grid",
     "export", "summary", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip
 

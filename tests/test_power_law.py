@@ -111,8 +111,8 @@ def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
 
 
 def test_a_load_that_doubles_cannot_answer_is_refused_with_a_reason():
-    for asked in ({"normal_load": 1e300}, {"normal_load": None, "half_width": 1e-280}):
-        with pytest.raises(sie.LoadError, match="beyond the range of doubles"):
+    for asked in ({"normal_load": 1e240}, {"normal_load": None, "half_width": 1e-140}):
+        with pytest.raises((sie.ContactError, ValueError), match="range"):
             _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
 
 

@@ -11,6 +11,7 @@ from strategies import between, dyadic
 
 import sie
 from analytic import power
+from sie import slope
 
 INF = float("inf")
 
@@ -191,6 +192,82 @@ def test_the_sum_of_profiles_lives_on_the_common_domain():
     assert both.domain == (-0.5, 1.0)
     with pytest.raises(ValueError, match="do not overlap"):
         sie.Flat(1.0) + sie.Flat(1.0).shifted(3.0)
+
+
+def nested(depth):
+    """The same modifications of a sum, one inside the other."""
+    profile = sie.Wedge(0.25) + sie.Flat(3.0)
+    for _ in range(depth):
+        profile = (profile.tilted(1e-4).shifted(1e-4) + sie.Parabola(1e3)).mirrored()
+    return profile
+
+
+def chain(terms):
+    total = sie.Parabola(1.0)
+    for k in range(terms):
+        total = total + sie.Wedge(1e-6).shifted(1e-4 * k)
+    return total
+
+
+DEEP = {"sum": lambda: chain(1500), "sum of modified sums": lambda: nested(1500), "sum on the right": lambda: right_handed(1500)}
+
+
+def right_handed(terms):
+    total = sie.Parabola(1.0)
+    for k in range(terms):
+        total = sie.Wedge(1e-6).shifted(1e-4 * k) + total
+    return total
+
+
+@pytest.mark.parametrize("build", DEEP.values(), ids=DEEP)
+def test_a_profile_nested_thousands_deep_is_a_value_that_solves(build):
+    profile = build()
+    again = pickle.loads(pickle.dumps(profile))
+    assert again == profile == copy.deepcopy(profile)
+    assert hash(again) == hash(profile)
+    assert repr(again) == repr(profile)
+    assert profile != profile.tilted(0.5)
+    assert np.isfinite(profile.height(0.3))
+    assert profile.ends_are_corners == (True, True)
+    assert solved(again).edges == solved(profile).edges
+
+
+def test_modified_sums_add_up_to_the_profile_that_they_mean():
+    x = np.array([-1.5, -0.2, 0.3, 2.0])
+    height, slope = (lambda u: 0.25 * np.abs(u)), (lambda u: 0.25 * np.sign(u))
+    for _ in range(3):
+        last = height, slope
+        height = lambda u, h=last[0]: h(-u - 1e-4) - 1e-4 * (u + 1e-4) + u * u / 2e3  # noqa: E731
+        slope = lambda u, H=last[1]: -H(-u - 1e-4) - 1e-4 + u / 1e3  # noqa: E731
+    profile = nested(3)
+    assert profile.height(x) == pytest.approx(height(x), rel=1e-14)
+    assert profile.slope(x) == pytest.approx(slope(x), rel=1e-13)
+
+
+@pytest.mark.parametrize("build", [chain, right_handed])
+def test_a_sum_of_n_terms_takes_n_additions(build, monkeypatch):
+    count, added = 0, slope.Slope.__add__
+
+    def counted(one, other):
+        nonlocal count
+        count += 1
+        return added(one, other)
+
+    monkeypatch.setattr(slope.Slope, "__add__", counted)
+    profile = build(200)
+    _ = profile.pieces, profile.axis, profile.convex, profile.ends_are_corners, profile.domain
+    assert count == 200
+
+
+def test_sums_are_the_same_however_they_are_bracketed():
+    a, b, c = sie.Parabola(1.0), sie.Wedge(0.5), sie.Flat(2.0)
+    assert (a + b) + c == a + (b + c)
+    assert hash((a + b) + c) == hash(a + (b + c))
+
+
+def test_a_shift_so_far_that_nothing_is_left_is_refused():
+    with pytest.raises(ValueError, match=r"shifted\(1e\+20\) leaves nothing"):
+        sie.Flat(1.0).shifted(1e20)
 
 
 @each

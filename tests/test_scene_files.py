@@ -90,6 +90,12 @@ def test_a_rigid_indenter_is_a_word_at_the_top_or_a_table(text):
     assert parse(text + PARABOLA + LOAD).scene.indenter == sie.RIGID
 
 
+def test_a_pair_beside_the_bodies_neglects_their_beta():
+    text = BODY + "[indenter]\nyoung = 2e5\npoisson = 0.4\n[pair]\ndundurs = 0\n" + PARABOLA + LOAD
+    bodies = {"body": sie.Elastic(1e5, 0.3), "indenter": sie.Elastic(2e5, 0.4)}
+    assert parse(text).scene == sie.Scene(profile=sie.Parabola(10.0), **bodies, dundurs=0.0, normal_load=5.0)
+
+
 def test_without_a_table_the_indenter_is_made_of_the_body_s_material():
     scene = parse(BODY + PARABOLA + LOAD).scene
     assert scene.indenter == scene.body == sie.Elastic(1e5, 0.3)
@@ -143,6 +149,18 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
         (BODY + LOAD + PARABOLA + 'want = ["edges"]\n', '"want": it stands at the top of the file'),
         ("normal_load = 5.0\n" + BODY + PARABOLA, '"normal_load": it belongs in [load]'),
         (BODY + PARABOLA + LOAD + "young = 1.0\n", '"young": it belongs in [body] or [indenter]'),
+        (BODY + PARABOLA + "[load]\nload = 500\n", '[load] has no key "load": did you mean "normal_load"?'),
+        (BODY + LOAD + '[profile]\nprofile = "parabola"\nkind = "parabola"\nradius = 1\n', 'has no key "profile": did you mean "kind"?'),
+        (BODY + "body = 3\n" + PARABOLA + LOAD, '[body] has no key "body": choose "young"'),
+        (BODY + PARABOLA + LOAD + "pair = 3\n", "it is a table of its own, write the header [pair] and its keys below it"),
+        (BODY + PARABOLA + "half_flat = 1.0\n" + LOAD, 'of kind "parabola" has no key "half_flat": it belongs to kind "rounded-flat"'),
+        (BODY + PARABOLA + "breaks = [1.0]\n" + LOAD, 'it belongs to kind "piecewise" or "function"'),
+        (BODY + PARABOLA + "columns = [0, 1]\n" + LOAD, 'it belongs to kind "sampled"'),
+        (BODY + PARABOLA + LOAD + "radius = 1.0\n", '"radius": it belongs in [profile]'),
+        (BODY + PARABOLA + "shifted = nan\n" + LOAD, "[profile] shifted is nan: give a number"),
+        (BODY + PARABOLA + "tilted = inf\n" + LOAD, "[profile] tilted = inf is infinite"),
+        (BODY + PARABOLA + f"[load]\nnormal_load = 1{'0' * 5000}\n", "a number of more than 4300 digits"),
+        ("[body]\nrigid = true\n" + PARABOLA + LOAD, "both rigid: nothing can deform; give one of them young and poisson"),
         (BODY + PARABOLA, "there is no [load]: give [load]"),
         (BODY + LOAD, "there is no [profile]: give [profile]"),
         (PARABOLA + LOAD, "neither [body] nor [pair]"),

@@ -63,6 +63,22 @@ def test_what_must_be_positive_is_refused_otherwise_with_its_value(name, value):
         POSITIVE[name](value)
 
 
+FINEST = 2.0 * np.finfo(float).eps
+
+
+@pytest.mark.parametrize("value", [1e-30, 5e-324, np.nextafter(FINEST, 0.0), 1.0, 1e300])
+def test_an_accuracy_that_doubles_cannot_hold_or_that_means_nothing_is_refused(value):
+    path = sie.Path([(1.0, 0.0)])
+    equation = sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0)
+    for ask in (lambda: sie.solve(scene(), tol=value), lambda: sie.follow(scene(), path, tol=value), lambda: equation.solve(tol=value)):
+        with pytest.raises(ValueError, match=rf"tol = {value:g}".replace("+", r"\+")):
+            ask()
+
+
+def test_the_finest_accuracy_that_doubles_hold_is_taken():
+    assert sie.solve(scene(profile=sie.Parabola(1.0)), tol=FINEST).half_width > 0.0
+
+
 @pytest.mark.parametrize("name", FINITE)
 @pytest.mark.parametrize("value", [INF, -INF, NAN])
 def test_what_must_be_finite_is_refused_otherwise_with_its_value(name, value):
@@ -135,6 +151,9 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
     [
         (lambda: sie.Power(0.5, 1.0), r"0\.5"),
         (lambda: sie.Polynomial((0.0, 1.0)), r"1\.0"),
+        (lambda: sie.Polynomial([0.0] * 3001 + [1.0]), "degree of coefficients is 3001, more than 1000: give the slope as a function"),
+        (lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])), r"pieces\[1\] is 3001, more than 200"),
+        (lambda: scene(normal_load=10**400), "normal_load is a whole number beyond the range of doubles"),
         (lambda: sie.Polynomial(()), "straight"),
         (lambda: sie.Piecewise((1.0, 0.0, 2.0), ((0.0,), (0.0, 1.0))), "1.*0"),
         (lambda: sie.Piecewise((0.0, 0.0), ((0.0,), (0.0,), (0.0,))), "0.*0"),

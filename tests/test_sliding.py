@@ -1,7 +1,7 @@
 """Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded flat punch)."""
 
 import math
-import re
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -267,15 +267,58 @@ def test_partial_slip_of_dissimilar_bodies_is_not_covered_yet(tangential_load):
         sie.solve(scene)
 
 
-def test_the_refusal_of_partial_slip_names_the_similar_bodies_that_come_nearest():
-    pair = {"body": sie.Elastic(young=70e3, poisson=0.33), "indenter": sie.Elastic(young=210e3, poisson=0.3)}
-    scene = sie.Scene(profile=RIM, **pair, friction=0.3, normal_load=0.1, tangential_load=0.01)
-    with pytest.raises(sie.ContactError) as refusal:
+PAIR = {"body": sie.Elastic(young=115e3, poisson=0.32), "indenter": sie.Elastic(young=210e3, poisson=0.3)}
+
+
+@pytest.mark.parametrize("loads", [{"tangential_load": 30.0}, {"bulk_stress": 200.0}, {"tangential_load": 30.0, "bulk_stress": 20.0}])
+def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
+    """Followed, it is the contact of bodies with β = 0 whose E* and whose strain under the bulk stress are those of the scene."""
+    scene = sie.Scene(profile=sie.Parabola(50.0), **PAIR, friction=0.4, normal_load=200.0, **loads)
+    with pytest.raises(sie.ContactError, match="give dundurs = 0") as refusal:
         sie.solve(scene)
-    modulus = float(re.search(r"modulus = (\S+) and dundurs = 0", str(refusal.value))[1])
-    assert modulus == scene.Estar
-    nearest = sie.Scene(profile=RIM, modulus=modulus, friction=0.3, normal_load=0.1, tangential_load=0.01)
-    assert sie.solve(nearest).check().ok
+    assert f"{scene.beta:.4g}" in str(refusal.value)
+    followed = sie.solve(replace(scene, dundurs=0))
+    body, indenter = ((1.0 - e.poisson**2) / e.young for e in PAIR.values())
+    assert followed.scene.Estar == pytest.approx(1.0 / (body + indenter), rel=1e-15)
+    strain = loads.get("bulk_stress", 0.0) * body  # of the body, plane strain; E*/2 times it is what the shear answers
+    similar = {name: value for name, value in loads.items() if name != "bulk_stress"} | {"bulk_stress": 2.0 * strain / (body + indenter)}
+    same = sie.solve(sie.Scene(profile=sie.Parabola(50.0), modulus=scene.Estar, friction=0.4, normal_load=200.0, **similar))
+    assert followed.energy_lost == pytest.approx(same.energy_lost, rel=1e-12)
+    assert np.array(followed.stick) == pytest.approx(np.array(same.stick), rel=1e-12)
+    assert followed.check().ok
+    x = np.array([-0.9, 0.1, 1.3]) * followed.half_width
+    assert followed.surface_stress(x).xx - same.surface_stress(x).xx == pytest.approx(
+        followed.scene.bulk_stress - same.scene.bulk_stress, abs=1e-9
+    )
+
+
+def test_bodies_that_differ_by_rounding_are_similar():
+    body, indenter = sie.Elastic(210e3, 0.3), sie.Elastic(210e3 * (1.0 + 1e-15), 0.30000000000000004)
+    one = sie.Scene(profile=sie.Parabola(50.0), body=body, indenter=indenter, friction=0.3, normal_load=200.0, tangential_load=30.0)
+    assert one.beta == 0.0
+    same = sie.solve(replace(one, indenter=body))
+    assert sie.solve(one).energy_lost == pytest.approx(same.energy_lost, rel=1e-13)
+    assert sie.solve(replace(one, indenter=sie.RIGID, body=sie.Elastic(210e3, 0.5))).stick
+
+
+@pytest.mark.parametrize(("beta", "similar"), [(9e-13, True), (-9e-13, True), (1.1e-12, False), (-1.1e-12, False)])
+def test_beta_below_1e_minus_12_is_zero(beta, similar):
+    assert (sie.Scene(profile=RIM, modulus=1.0, dundurs=beta, normal_load=1.0).beta == 0.0) is similar
+    # β = (1 - 2ν) / (2 - 2ν) on a rigid indenter
+    nearly = sie.Elastic(1.0, 0.5 - 0.5 * abs(beta))
+    scene = sie.Scene(profile=RIM, body=nearly, indenter=sie.RIGID, normal_load=1.0)
+    assert (scene.beta == 0.0) is similar
+
+
+def test_another_beta_than_that_of_the_bodies_is_refused():
+    with pytest.raises(ValueError, match=r"dundurs = 0\.1 follows .* or give 0"):
+        sie.Scene(profile=RIM, **PAIR, dundurs=0.1, normal_load=1.0)
+
+
+def test_a_changed_beta_changes_a_bonded_punch():
+    first = sie.solve(bonded(0.1))
+    _ = first.pressure(0.5)
+    assert first.with_(dundurs=0.3).pressure(0.5) == sie.solve(bonded(0.3)).pressure(0.5)
 
 
 def test_full_stick_is_for_flat_punches():
