@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .adaptive import integral
 from .expression import Expression
-from .profile import Parity, Profile
+from .profile import Parity, Profile, of_any_x
 from .sampled import Sampled
 from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
@@ -58,8 +58,9 @@ class Parabola(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, INF), (0.0,), ((0.0, 1.0 / self.radius),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         return 0.5 * x * (x / self.radius)
 
 
@@ -79,8 +80,9 @@ class RoundedFlat(_Convex):
         a, curvature = self.half_flat, 1.0 / self.radius
         return polynomial_slope((-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature)))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        rim = np.maximum(np.abs(np.asarray(x, dtype=float)) - self.half_flat, 0.0)
+        rim = np.maximum(np.abs(checks.reals("x", x)) - self.half_flat, 0.0)
         return 0.5 * rim * (rim / self.radius)
 
 
@@ -97,8 +99,10 @@ class Flat(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-self.half_width, self.half_width), (0.0,), ((0.0,),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return np.where(np.abs(np.asarray(x, dtype=float)) <= self.half_width, 0.0, INF)
+        x = checks.reals("x", x)
+        return np.where(np.abs(x) <= self.half_width, 0.0, np.where(np.isnan(x), x, INF))
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -117,8 +121,9 @@ class Wedge(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((-self.rise,), (self.rise,)))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.rise * np.abs(np.asarray(x, dtype=float))
+        return self.rise * np.abs(checks.reals("x", x))
 
 
 @dataclass(frozen=True)
@@ -157,8 +162,9 @@ class Power(_Convex):
         smooth = polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((0.0,), (0.0,)))
         return Slope(smooth.breaks, smooth.origins, smooth.coefficients, smooth.degrees, (FunctionTerm(_PowerSlope(m, A)),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.coefficient * np.abs(np.asarray(x, dtype=float)) ** self.exponent
+        return self.coefficient * np.abs(checks.reals("x", x)) ** self.exponent
 
 
 @dataclass(frozen=True)
@@ -177,9 +183,9 @@ class Polynomial(Profile):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, INF), (0.0,), ([k * c for k, c in enumerate(self.coefficients)][1:],))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        h: Array = np.polynomial.polynomial.polyval(np.asarray(x, dtype=float), self.coefficients)
-        return h
+        return np.asarray(np.polynomial.polynomial.polyval(checks.reals("x", x), self.coefficients), dtype=float)
 
     @property
     def axis(self) -> float | None:
@@ -229,8 +235,9 @@ class Piecewise(Profile):
         rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True)]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         zero = min(max(0.0, self.ends[0]), self.ends[-1])
         lo, hi = np.minimum(x, zero), np.maximum(x, zero)
         h = np.zeros(x.shape)
@@ -362,9 +369,10 @@ class FromFunction(Profile):
         flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
         return Slope(flat.breaks, flat.origins, flat.coefficients, flat.degrees, (FunctionTerm(self.function),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
         zero = min(max(0.0, self.ends[0]), self.ends[1])
-        return integral(self.pieces, zero, np.asarray(x, dtype=float))
+        return integral(self.pieces, zero, checks.reals("x", x))
 
     @property
     def axis(self) -> float | None:

@@ -8,9 +8,10 @@ profiles by tilting, shifting, mirroring and adding. The kinds themselves are in
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal
+from functools import cached_property, wraps
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,24 @@ from .slope import Slope
 
 Array = NDArray[np.float64]
 Parity = Literal["even", "none"]
+
+
+def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
+    """A height that is defined at finite x, everywhere: nan at nan, infinite far away as its slope says, inf where it overflows."""
+
+    @wraps(height)
+    def everywhere(profile: Profile, x: ArrayLike) -> Array:
+        x = checks.reals("x", x)
+        finite = np.isfinite(x)
+        with np.errstate(over="ignore", invalid="ignore"):
+            h = height(profile, np.where(finite, x, 0.0)[()])
+            h = np.where(np.isnan(h), np.inf, h)  # the difference of two heights beyond all doubles
+            if not finite.all():
+                falls = profile.slope(x) * np.sign(x) < 0.0
+                h = np.where(finite, h, np.where(np.isnan(x), x, np.where(falls, -np.inf, np.inf)))
+        return h[()]
+
+    return everywhere
 
 
 class Profile(ABC):
@@ -46,7 +65,9 @@ class Profile(ABC):
 
     def slope(self, x: ArrayLike) -> Array:
         """h'(x), same shape as x: the mean of both sides at a corner, -inf and inf beyond the ends of the indenter."""
-        return self.pieces(x)
+        x = checks.reals("x", x)
+        with np.errstate(over="ignore"):
+            return np.where(np.isnan(x), x, self.pieces(x))[()]
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -113,8 +134,9 @@ class Tilted(_Derived):
     def pieces(self) -> Slope:
         return self.profile.pieces.tilted(self.tilt)
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(x) + self.tilt * np.asarray(x, dtype=float)
+        return self.profile.height(x) + self.tilt * checks.reals("x", x)
 
     @property
     def convex(self) -> bool:
@@ -142,8 +164,9 @@ class Shifted(_Derived):
     def pieces(self) -> Slope:
         return self.profile.pieces.shifted(self.dx)
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(np.asarray(x, dtype=float) - self.dx)
+        return self.profile.height(checks.reals("x", x) - self.dx)
 
     @property
     def axis(self) -> float | None:
@@ -174,8 +197,9 @@ class Mirrored(_Derived):
     def pieces(self) -> Slope:
         return self.profile.pieces.mirrored()
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.profile.height(-np.asarray(x, dtype=float))
+        return self.profile.height(-checks.reals("x", x))
 
     @property
     def axis(self) -> float | None:
@@ -210,6 +234,7 @@ class Sum(_Derived):
     def pieces(self) -> Slope:
         return self.first.pieces + self.second.pieces
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
         return self.first.height(x) + self.second.height(x)
 
