@@ -174,6 +174,11 @@ class Density(ABC):
         return self.interval
 
     @property
+    def singular(self) -> tuple[float, ...]:
+        """Those breaks at which the slope of the density is, or may be, infinite."""
+        return self.breaks
+
+    @property
     def hilbert_at_edges(self) -> tuple[float, float]:
         """The limits of `hilbert` at both edges, from inside: where it peaks, and rounding of an edge would show."""
         left, right = self.hilbert(np.array(self.interval)).tolist()

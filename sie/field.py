@@ -79,6 +79,11 @@ class Tractions:
         return np.unique(np.concatenate((self.pressure.breaks, self.shear.breaks)))
 
     @cached_property
+    def singular(self) -> Array:
+        """Those marks at which the slope of a traction is infinite."""
+        return np.unique(np.concatenate((self.pressure.singular, self.shear.singular)))
+
+    @cached_property
     def depth_of_surface(self) -> float:
         """What is less deep is the surface: 1/y would overflow."""
         x1, x2 = self.pressure.interval

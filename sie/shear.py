@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import checks
-from .density import Complex, Density, on_surface, shallow
+from .density import Complex, Density, on_surface, refuse_side, shallow
 from .slope_density import SlopeDensity
 from .superposition import Combination
 from .zones import Zone, Zones
@@ -76,6 +76,10 @@ class OneSign(Density):
     @property
     def breaks(self) -> tuple[float, ...]:
         return self._difference.breaks
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        return self._difference.singular
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
@@ -160,6 +164,11 @@ class TwoSigns(Density):
         stick = self.zones.stick
         return tuple(sorted({*self.pressure.breaks, stick.x1, stick.x2}))
 
+    @property
+    def singular(self) -> tuple[float, ...]:
+        stick = self.zones.stick
+        return tuple(sorted({*self.pressure.singular, stick.x1, stick.x2}))
+
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         dF: Complex = self._in_plane(lambda flat: self._cauchy_derivative(flat, side), z, side, derivative=True)
         return dF
@@ -177,6 +186,27 @@ class TwoSigns(Density):
         dF.imag[real] *= np.where(inside[real], float(side), 0.0)
         dF[lower] = dF[lower].conj()
         return dF
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        z = checks.complexes("z", z)
+        flat = z.ravel()
+        if not ((flat.imag > 0.0) & (np.abs(flat) <= self._horizon)).all():
+            return self.cauchy(z, side), self.cauchy_derivative(z, side)
+        refuse_side(side)
+        F, dF = np.empty((2, *flat.shape), dtype=complex)
+        for right in (False, True):
+            at = (flat.real > self.zones.stick.m) == right
+            if at.any():
+                F[at], dF[at] = self._both_off_axis(flat[at], right)
+        return F.reshape(z.shape), dF.reshape(z.shape)
+
+    def _both_off_axis(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
+        """(F, F') off the axis: they share the tail, which costs most."""
+        scale, _, sign = self._side(right)
+        root, steep, tail, falling = self._tail(z, right)
+        (F, dF), (N, dN) = self.pressure.potentials(z), self.formal.potentials(z)
+        factor = 2.0 * sign / np.pi * root
+        return scale * (F - N + factor * tail) + self.tau, scale * (dF - dN + factor * (steep * tail + falling))
 
     def _off_axis(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)

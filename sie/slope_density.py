@@ -199,6 +199,10 @@ class SlopeDensity(Density):
         return self.cauchy(z, side), self.cauchy_derivative(z, side)
 
     @property
+    def singular(self) -> tuple[float, ...]:
+        return self.interval
+
+    @property
     def hilbert_at_edges(self) -> tuple[float, float]:
         left, right = self._slope_at_edges
         return self.half_modulus * left, self.half_modulus * right
@@ -364,6 +368,12 @@ class PanelDensity(SlopeDensity):
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
         return self._plane.kinks
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        """Among many pieces a kink is not told from what resolves a function, but a jump is."""
+        inner = self.panels.jumps if self.panels.many else self._kinks
+        return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -53,6 +53,10 @@ class Combination(Density):
         return tuple(sorted({b for _, density in self.terms for b in density.breaks}))
 
     @property
+    def singular(self) -> tuple[float, ...]:
+        return tuple(sorted({b for _, density in self.terms for b in density.singular}))
+
+    @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
         return tuple((factor * inner, part) for factor, density in self.terms for inner, part in density.bases)
 
