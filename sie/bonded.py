@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import chebyshev
+from . import chebyshev, checks
 from .check import Certificate
-from .density import Density
+from .density import Density, on_surface
 from .edges import Edges
 from .equation import CauchyEquation
 from .errors import ContactError
@@ -68,20 +68,37 @@ class Component(Density):
         return self._part(self.whole(x))
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._of_component(self.whole.cauchy, z, side)
+        def potential(flat: Complex) -> Complex:
+            F, edge = self._of_component(self.whole.cauchy, flat, side)
+            x = flat.real[edge]
+            F[edge] = on_surface(self.hilbert(x), self(x), side)
+            return F
+
+        F: Complex = self._in_plane(potential, z, side)
+        return F
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._of_component(self.whole.cauchy_derivative, z, side)
+        def derivative(flat: Complex) -> Complex:
+            dF, edge = self._of_component(self.whole.cauchy_derivative, flat, side)
+            x = flat.real[edge]
+            dF[edge] = on_surface(np.zeros_like(x), np.where(x == self.interval[0], -1.0, 1.0) * self(x), side)
+            return dF
 
-    def _of_component(self, potential: Callable[[ArrayLike, int], Array], z: ArrayLike, side: int) -> Complex:
-        z = np.asarray(z, dtype=np.complex128)
+        dF: Complex = self._in_plane(derivative, z, side, derivative=True)
+        return dF
+
+    def _of_component(self, potential: Callable[[ArrayLike, int], Array], z: Complex, side: int) -> tuple[Complex, NDArray[np.bool_]]:
+        """The potential at z (1-d) off the edges, and where these are."""
+        edge = (z == self.interval[0]) | (z == self.interval[1])
+        z = np.where(edge, self.contact.m, z)
         # F of the complex conjugate density is the conjugate of F at conj z
         F, mirrored = potential(z, side), potential(z.conj(), -side).conj()
-        return np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
+        values = np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
+        return values, edge
 
     def hilbert(self, x: ArrayLike) -> Array:
         """0 at the edges, as for other sharp ones: it oscillates there without limit."""
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         return np.where((x == self.interval[0]) | (x == self.interval[1]), 0.0, self._part(self.whole.hilbert(x)))[()]
 
 

@@ -6,6 +6,9 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .interval import EPS
 
 # A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
@@ -70,6 +73,34 @@ def tolerance(value: Any) -> float:
     if tol >= 1.0:
         raise ValueError(f"tol = {tol:g} lets any answer pass: give a relative accuracy below 1")
     return tol
+
+
+def reals(name: str, values: Any) -> NDArray[np.float64]:
+    """`values` as an array of floats, infinite or nan where they are; ValueError unless they are real numbers."""
+    array = np.asarray(values)
+    if array.dtype == np.float64:
+        return array
+    try:
+        if array.dtype.kind in "fiu":
+            return array.astype(float)
+        if array.dtype.kind == "O":  # numbers of other libraries; None would become nan
+            return np.array([float(value) for value in array.flat]).reshape(array.shape)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name} is not an array of real numbers: give positions as floats")
+
+
+def complexes(name: str, values: Any) -> NDArray[np.complex128]:
+    """`values` as an array of complex numbers, infinite or nan where they are; ValueError unless they are numbers."""
+    array = np.asarray(values)
+    try:
+        if array.dtype.kind in "cfiu":
+            return array.astype(complex, copy=False)
+        if array.dtype.kind == "O":
+            return np.array([complex(value) for value in array.flat]).reshape(array.shape)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:

@@ -11,13 +11,17 @@ Those whose slope is known are in `slope_density`, sums in `superposition`, solu
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from . import checks
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -25,6 +29,8 @@ Complex = NDArray[np.complex128]
 # The derivative on the surface is its value at this depth, in half-widths: closed forms keep all digits there, and 1/depth is finite.
 # However small the contact, that depth is no underflow: at a depth of 0 the side of the surface would be lost.
 SHALLOW, SHALLOWEST = 1e-290, 1e-300
+# Sizes of a traction at which it is a point force to all digits, and squares are no overflow yet.
+FAR_AWAY, LARGEST = 1e100, 1e308
 
 
 def shallow(half_width: float) -> float:
@@ -32,12 +38,27 @@ def shallow(half_width: float) -> float:
     return max(SHALLOW * half_width, SHALLOWEST)
 
 
-def on_axis(z: ArrayLike, side: int) -> tuple[Complex, NDArray[np.bool_]]:
-    """(z as a complex array, which of its flattened entries are real)."""
-    if side not in (-1, 0, 1):
-        raise ValueError(f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side")
-    points = np.asarray(z, dtype=complex)
-    return points, points.ravel().imag == 0.0
+def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
+    """function(x) of a function of finite x (1-d), in the shape of x: 0 where x is infinite, nan where it is nan."""
+    x = checks.reals("x", x)
+    flat = x.ravel()
+    out, finite = zero_or_nan(flat), np.isfinite(flat)
+    out[finite] = function(flat[finite])
+    values: Array = out.reshape(x.shape)
+    return values
+
+
+def zero_or_nan(z: Any) -> Any:
+    """What a traction and its integrals are where it does not act, infinitely far away included: 0, but nan at nan."""
+    nan = complex(np.nan, np.nan) if np.iscomplexobj(z) else np.nan
+    return np.where(np.isnan(z), nan, 0.0)
+
+
+def on_surface(hilbert: Array, p: Array, side: int) -> Complex:
+    """F at real x by Plemelj's formula, hilbert - i side p, part by part: p may be infinite."""
+    F = np.empty(hilbert.shape, dtype=complex)
+    F.real, F.imag = hilbert, -side * p if side else 0.0
+    return F
 
 
 def reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
@@ -67,7 +88,7 @@ def refuse_side(side: int) -> None:
 
 
 class Density(ABC):
-    """A traction p(x) on the surface, in units of stress; x and z in units of length.
+    """A traction p(x) on the surface, in units of stress; x and z in units of length. Far away all is 0; at nan it is nan.
 
     Attributes: `interval` (the two edges), `resultant` = ∫p dx, `moment` = ∫p x dx about x = 0.
     """
@@ -98,6 +119,42 @@ class Density(ABC):
     def hilbert(self, x: ArrayLike) -> Array:
         """1/π PV∫ p(t)/(x - t) dt at real x, same shape as x."""
 
+    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares overflow. There F is that of a force.
+
+    def _on_line(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
+        x = checks.reals("x", x)
+        values: Array = self._everywhere(function, x.ravel(), self._of_force).reshape(x.shape)
+        return values
+
+    def _in_plane(self, function: Callable[[Complex], Complex], z: ArrayLike, side: int, derivative: bool = False) -> Complex:
+        refuse_side(side)
+        z = checks.complexes("z", z)
+        values: Complex = self._everywhere(function, z.ravel(), self._steepness_of_force if derivative else self._of_force).reshape(z.shape)
+        return values
+
+    def _everywhere(self, function: Callable[[Any], Any], z: Any, tail: Callable[[Any], Any]) -> Any:
+        near = np.abs(z) <= self._horizon
+        if near.all():
+            return function(z)
+        values = function(z[near])
+        out = zero_or_nan(z).astype(values.dtype)
+        far = ~near & np.isfinite(z)
+        out[near], out[far] = values, tail(z[far])
+        return out
+
+    @cached_property
+    def _horizon(self) -> float:
+        """From here on the force is all that is left of a traction, and nothing of where it acts."""
+        lo, hi = self.interval
+        size = max(abs(lo), abs(hi), hi - lo)
+        return min(FAR_AWAY * size, LARGEST) if math.isfinite(abs(self.resultant)) else LARGEST
+
+    def _of_force(self, z: Any) -> Any:
+        return (self.resultant / math.pi) / z
+
+    def _steepness_of_force(self, z: Any) -> Any:
+        return -self._of_force(z) / z
+
     def strength(self, x: float) -> float:
         """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
         return 0.0
@@ -115,6 +172,11 @@ class Density(ABC):
     def breaks(self) -> tuple[float, ...]:
         """Where p or its derivatives are not smooth: the edges and what lies between them, ascending."""
         return self.interval
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        """Those breaks at which the slope of the density is, or may be, infinite."""
+        return self.breaks
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
@@ -135,13 +197,13 @@ class Zero(Density):
         return 0.0, 0.0
 
     def __call__(self, x: ArrayLike) -> Array:
-        return np.zeros(np.shape(x))
+        return on_line(np.zeros_like, x)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return np.zeros(np.shape(z), dtype=complex)
+        return self._in_plane(np.zeros_like, z, side)
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return np.zeros(np.shape(z), dtype=complex)
+        return self._in_plane(np.zeros_like, z, side)
 
     @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
@@ -152,7 +214,7 @@ class Zero(Density):
         return ()
 
     def hilbert(self, x: ArrayLike) -> Array:
-        return np.zeros(np.shape(x))
+        return on_line(np.zeros_like, x)
 
 
 ZERO = Zero()

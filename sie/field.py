@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import checks
 from .density import Density, shallow
 from .material import Elastic, Plane
 
@@ -78,6 +79,11 @@ class Tractions:
     def marks(self) -> Array:
         """Edges and breaks of both tractions, ascending."""
         return np.unique(np.concatenate((self.pressure.breaks, self.shear.breaks)))
+
+    @cached_property
+    def singular(self) -> Array:
+        """Those marks at which the slope of a traction is infinite."""
+        return np.unique(np.concatenate((self.pressure.singular, self.shear.singular)))
 
     @cached_property
     def depth_of_surface(self) -> float:
@@ -310,10 +316,7 @@ def _times(factor: float, values: Array) -> Array:
 
 
 def _real(name: str, values: ArrayLike) -> Array:
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} is not an array of real numbers: give positions as floats")
-    array = array.astype(float, copy=False)
+    array = checks.reals(name, values)
     bad = ~np.isfinite(array)
     if bad.any():
         raise ValueError(f"{name} = {array[bad].flat[0]} is not finite: give finite positions")

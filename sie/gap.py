@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import refined
+from .density import zero_or_nan
 from .interval import EPS, Interval
 from .slope import Slope
 from .slope_density import SlopeDensity
@@ -32,13 +33,15 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
-    out = np.zeros(x.shape)
+    out: Array = zero_or_nan(x)
     lo, hi = slope.domain
-    out[(x < lo) | (x > hi)] = np.inf
+    out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf  # the surface sinks like a logarithm of the distance
+    x = np.where(np.isinf(x), np.nan, x)
     contact = density.contact
     for side, outside in ((1.0, (contact.from_right(x) < 0.0) & (x <= hi)), (-1.0, (contact.from_left(x) < 0.0) & (x >= lo))):
         if outside.any():
-            out[outside] = _on_one_side(x[outside], side, density, slope, more)
+            with np.errstate(over="ignore"):  # a gap may be larger than all doubles
+                out[outside] = _on_one_side(x[outside], side, density, slope, more)
     return out
 
 

@@ -22,7 +22,7 @@ from . import checks
 from .adaptive import integral
 from .expression import Expression
 from .power_law import PowerLaw, PowerSlope
-from .profile import Parity, Profile
+from .profile import Parity, Profile, of_any_x
 from .sampled import Sampled
 from .slope import JUMP, FunctionTerm, Slope, Vectorised, polynomial_slope
 
@@ -62,8 +62,9 @@ class Parabola(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, INF), (0.0,), ((0.0, 1.0 / self.radius),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         return 0.5 * x * (x / self.radius)
 
 
@@ -83,8 +84,9 @@ class RoundedFlat(_Convex):
         a, curvature = self.half_flat, 1.0 / self.radius
         return polynomial_slope((-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature)))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        rim = np.maximum(np.abs(np.asarray(x, dtype=float)) - self.half_flat, 0.0)
+        rim = np.maximum(np.abs(checks.reals("x", x)) - self.half_flat, 0.0)
         return 0.5 * rim * (rim / self.radius)
 
 
@@ -101,8 +103,10 @@ class Flat(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-self.half_width, self.half_width), (0.0,), ((0.0,),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return np.where(np.abs(np.asarray(x, dtype=float)) <= self.half_width, 0.0, INF)
+        x = checks.reals("x", x)
+        return np.where(np.abs(x) <= self.half_width, 0.0, np.where(np.isnan(x), x, INF))
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -121,8 +125,9 @@ class Wedge(_Convex):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((-self.rise,), (self.rise,)))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.rise * np.abs(np.asarray(x, dtype=float))
+        return self.rise * np.abs(checks.reals("x", x))
 
 
 @dataclass(frozen=True)
@@ -150,8 +155,9 @@ class Power(_Convex):
         smooth = polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((0.0,), (0.0,)))
         return replace(smooth, functions=(FunctionTerm(PowerSlope(m, A)),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return self.coefficient * np.abs(np.asarray(x, dtype=float)) ** self.exponent
+        return self.coefficient * np.abs(checks.reals("x", x)) ** self.exponent
 
     @property
     def power_law(self) -> PowerLaw:
@@ -185,9 +191,9 @@ class Polynomial(Profile):
     def pieces(self) -> Slope:
         return polynomial_slope((-INF, INF), (0.0,), ([k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:],))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        h: Array = np.polynomial.polynomial.polyval(np.asarray(x, dtype=float), self.coefficients)
-        return h
+        return np.asarray(np.polynomial.polynomial.polyval(checks.reals("x", x), self.coefficients), dtype=float)
 
     @property
     def axis(self) -> float | None:
@@ -245,8 +251,9 @@ class Piecewise(Profile):
         rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(given, self.ends[:-1], self.ends[1:], strict=True)]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         zero = min(max(0.0, self.ends[0]), self.ends[-1])
         lo, hi = np.minimum(x, zero), np.maximum(x, zero)
         h = np.zeros(x.shape)
@@ -383,9 +390,10 @@ class FromFunction(Profile):
         flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
         return Slope(flat.breaks, flat.origins, flat.coefficients, flat.degrees, (FunctionTerm(self.function),))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
         zero = min(max(0.0, self.ends[0]), self.ends[1])
-        return integral(self.pieces, zero, np.asarray(x, dtype=float))
+        return integral(self.pieces, zero, checks.reals("x", x))
 
     @property
     def axis(self) -> float | None:

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import jacobi
-from .density import Density, refuse_side
+from . import checks, jacobi
+from .density import Density, zero_or_nan
 from .grading import Affine, Map
 from .interval import EPS
 from .jacobi import Weight
@@ -254,8 +254,8 @@ class JacobiDensity(Density):
 
     def __call__(self, x: ArrayLike) -> Array:
         """φ(x), same shape as x; infinite at a singular end."""
-        x = np.asarray(x, dtype=float)
-        out = np.zeros(x.shape, dtype=self._kind)
+        x = checks.reals("x", x)
+        out = zero_or_nan(x.astype(self._kind))
         for part in self.parts:
             to_right, to_left = part.map.x2 - x, x - part.map.x1
             inside = (to_right >= 0.0) & (to_left >= 0.0)
@@ -264,7 +264,7 @@ class JacobiDensity(Density):
         return out
 
     def hilbert(self, x: ArrayLike) -> Array:
-        F = self.cauchy(np.asarray(x, dtype=float), side=0)
+        F = self.cauchy(checks.reals("x", x), side=0)
         return F if np.issubdtype(self._kind, np.complexfloating) else F.real
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Array:
@@ -274,15 +274,16 @@ class JacobiDensity(Density):
         return self._summed(_cauchy_derivative, z, side)
 
     def _summed(self, of_part: Callable[[Part, Array, int], Array], z: ArrayLike, side: int) -> Array:
-        refuse_side(side)
-        z = np.asarray(z, dtype=complex)
-        out = np.where(np.isnan(z), complex(math.nan, math.nan), 0j).ravel()  # 0 at infinity
-        here = np.flatnonzero(np.isfinite(z.ravel()))
-        for start in range(0, len(here), CHUNK):
-            at = here[start : start + CHUNK]
-            for part in self.parts:
-                out[at] += of_part(part, z.ravel()[at], side)
-        return out.reshape(z.shape)
+        def total(flat: Array) -> Array:
+            out = np.zeros_like(flat)
+            for start in range(0, len(flat), CHUNK):
+                at = slice(start, start + CHUNK)
+                for part in self.parts:
+                    out[at] += of_part(part, flat[at], side)
+            return out
+
+        values: Array = self._in_plane(total, z, side, derivative=of_part is _cauchy_derivative)
+        return values
 
 
 def _cauchy_derivative(part: Part, z: Array, side: int) -> Array:

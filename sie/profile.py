@@ -8,8 +8,9 @@ profiles by tilting, shifting, mirroring and adding. The kinds themselves are in
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, reduce
+from functools import cached_property, reduce, wraps
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -21,6 +22,24 @@ from .slope import Slope
 
 Array = NDArray[np.float64]
 Parity = Literal["even", "none"]
+
+
+def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
+    """A height that is defined at finite x, everywhere: nan at nan, infinite far away as its slope says, inf where it overflows."""
+
+    @wraps(height)
+    def everywhere(profile: Profile, x: ArrayLike) -> Array:
+        x = checks.reals("x", x)
+        finite = np.isfinite(x)
+        with np.errstate(over="ignore", invalid="ignore"):
+            h = height(profile, np.where(finite, x, 0.0)[()])
+            h = np.where(np.isnan(h), np.inf, h)  # the difference of two heights beyond all doubles
+            if not finite.all():
+                falls = profile.slope(x) * np.sign(x) < 0.0
+                h = np.where(finite, h, np.where(np.isnan(x), x, np.where(falls, -np.inf, np.inf)))
+        return h[()]
+
+    return everywhere
 
 
 class Profile(ABC):
@@ -52,7 +71,9 @@ class Profile(ABC):
 
     def slope(self, x: ArrayLike) -> Array:
         """h'(x), same shape as x: the mean of both sides at a corner, -inf and inf beyond the ends of the indenter."""
-        return self.pieces(x)
+        x = checks.reals("x", x)
+        with np.errstate(over="ignore"):
+            return np.where(np.isnan(x), x, self.pieces(x))[()]
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -201,9 +222,10 @@ class Derived(Profile):
             slopes = pairs + slopes[2 * len(pairs) :]
         return slopes[0].tilted(tilt)
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
         total = np.zeros(np.shape(x))
-        todo: list[tuple[Profile, Array]] = [(self, np.asarray(x, dtype=float))]
+        todo: list[tuple[Profile, Array]] = [(self, checks.reals("x", x))]
         while todo:
             node, at = todo.pop()
             if isinstance(node, Tilted):

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import checks, fits
 from .errors import ContactError
-from .profile import Derived, Placed, Profile
+from .profile import Derived, Placed, Profile, of_any_x
 from .slope import Slope
 from .smoothing import cross_validated, explains, interpolating_spline, longest_lambda, smoothing_spline
 from .traces import Column, is_text, read_columns, read_topography
@@ -156,9 +156,10 @@ class Sampled(Profile):
         breaks, c = self._spline
         return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
 
+    @of_any_x
     def height(self, x: ArrayLike) -> Array:
         breaks, c = self._spline
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
         u = x - breaks[k]
         h = c[k, 0] + u * (c[k, 1] + u * (c[k, 2] + u * c[k, 3]))

@@ -16,7 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .density import Complex, Density, refuse_side, shallow
+from . import checks
+from .density import Complex, Density, on_surface, refuse_side, shallow
 from .slope_density import SlopeDensity
 from .superposition import Combination
 from .zones import Zone, Zones
@@ -53,7 +54,7 @@ class OneSign(Density):
     def __call__(self, x: ArrayLike) -> Array:
         if self.thin is None:
             return self._difference(x)
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         flat = x.ravel()
         stick = self.thin.stick
         inside = (stick.from_left(flat) > 0.0) & (stick.from_right(flat) > 0.0)
@@ -75,6 +76,10 @@ class OneSign(Density):
     @property
     def breaks(self) -> tuple[float, ...]:
         return self._difference.breaks
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        return self._difference.singular
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
@@ -107,7 +112,7 @@ class TwoSigns(Density):
         return self.friction * self.zones.moment
 
     def __call__(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         flat = x.ravel()
         stick, drive = self.zones.stick, self.zones.drive
         inside = (stick.from_left(flat) > 0.0) & (stick.from_right(flat) > 0.0)
@@ -123,8 +128,10 @@ class TwoSigns(Density):
         return (self.friction * drive.right, self.zones.left, 1.0) if right else (self.friction * drive.left, self.zones.right, -1.0)
 
     def hilbert(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
-        flat, stick = x.ravel(), self.zones.stick
+        return self._on_line(self._hilbert, x)
+
+    def _hilbert(self, flat: Array) -> Array:
+        stick = self.zones.stick
         out = np.full(flat.shape, self.tau)
         for at, right in ((stick.from_left(flat) < 0.0, False), (stick.from_right(flat) < 0.0, True)):
             if at.any():
@@ -133,32 +140,41 @@ class TwoSigns(Density):
                 far, near = (stick.from_left(t), -stick.from_right(t)) if right else (stick.from_right(t), -stick.from_left(t))
                 pull = 2.0 * sign / np.pi * np.sqrt(far * near) * other.pull(far, stick.r)
                 out[at] += scale * (self.pressure.hilbert(t) - self.formal.hilbert(t) + pull)
-        return out.reshape(x.shape)
+        return out
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        z = np.asarray(z, dtype=complex)
-        flat = z.ravel()
+        F: Complex = self._in_plane(lambda flat: self._cauchy(flat, side), z, side)
+        return F
+
+    def _cauchy(self, flat: Complex, side: int) -> Complex:
         F = np.empty(flat.shape, dtype=complex)
         real = flat.imag == 0.0
         x = flat.real[real]
-        F[real] = self.hilbert(x) - 1j * side * self(x) if side else self.hilbert(x)
+        F[real] = on_surface(self._hilbert(x), self(x), side)
         lower = flat.imag < 0.0
         upper = np.where(lower, flat.conj(), flat)
         for at, right in ((~real & (flat.real <= self.zones.stick.m), False), (~real & (flat.real > self.zones.stick.m), True)):
             if at.any():
                 F[at] = self._off_axis(upper[at], right)
         F[lower] = F[lower].conj()
-        return F.reshape(z.shape)
+        return F
 
     @property
     def breaks(self) -> tuple[float, ...]:
         stick = self.zones.stick
         return tuple(sorted({*self.pressure.breaks, stick.x1, stick.x2}))
 
+    @property
+    def singular(self) -> tuple[float, ...]:
+        stick = self.zones.stick
+        return tuple(sorted({*self.pressure.singular, stick.x1, stick.x2}))
+
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        refuse_side(side)
-        z = np.asarray(z, dtype=complex)
-        flat, contact = z.ravel(), self.pressure.contact
+        dF: Complex = self._in_plane(lambda flat: self._cauchy_derivative(flat, side), z, side, derivative=True)
+        return dF
+
+    def _cauchy_derivative(self, flat: Complex, side: int) -> Complex:
+        contact = self.pressure.contact
         real, lower = flat.imag == 0.0, flat.imag < 0.0
         upper = np.where(lower, flat.conj(), flat)
         upper[real] += 1j * shallow(contact.r)
@@ -169,7 +185,28 @@ class TwoSigns(Density):
         inside = (contact.from_left(flat.real) >= 0.0) & (contact.from_right(flat.real) >= 0.0)
         dF.imag[real] *= np.where(inside[real], float(side), 0.0)
         dF[lower] = dF[lower].conj()
-        return dF.reshape(z.shape)
+        return dF
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        z = checks.complexes("z", z)
+        flat = z.ravel()
+        if not ((flat.imag > 0.0) & (np.abs(flat) <= self._horizon)).all():
+            return self.cauchy(z, side), self.cauchy_derivative(z, side)
+        refuse_side(side)
+        F, dF = np.empty((2, *flat.shape), dtype=complex)
+        for right in (False, True):
+            at = (flat.real > self.zones.stick.m) == right
+            if at.any():
+                F[at], dF[at] = self._both_off_axis(flat[at], right)
+        return F.reshape(z.shape), dF.reshape(z.shape)
+
+    def _both_off_axis(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
+        """(F, F') off the axis: they share the tail, which costs most."""
+        scale, _, sign = self._side(right)
+        root, steep, tail, falling = self._tail(z, right)
+        (F, dF), (N, dN) = self.pressure.potentials(z), self.formal.potentials(z)
+        factor = 2.0 * sign / np.pi * root
+        return scale * (F - N + factor * tail) + self.tau, scale * (dF - dN + factor * (steep * tail + falling))
 
     def _off_axis(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)

@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import chebyshev
+from . import chebyshev, checks
 from .adaptive import refined
-from .density import Density, in_order, on_axis, reflected, shallow
+from .density import Density, in_order, on_surface, reflected, refuse_side, shallow, zero_or_nan
 from .geometry import Geometry
 from .interval import Interval
 from .panels import FAR_FIELD, Panels
@@ -112,13 +112,13 @@ class SlopeDensity(Density):
         return ()
 
     def __call__(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         flat = x.ravel()
         left, right = self.contact.from_left(flat), self.contact.from_right(flat)
         inside = np.minimum(left, right) >= 0.0
         if inside.all():
             return self._inside(flat, left, right).reshape(x.shape)
-        p = np.zeros(flat.shape)
+        p: Array = zero_or_nan(flat)
         p[inside] = self._inside(flat[inside], left[inside], right[inside])
         return p.reshape(x.shape)
 
@@ -148,8 +148,9 @@ class SlopeDensity(Density):
         return G, continued
 
     def hilbert(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
-        flat = x.ravel()
+        return self._on_line(self._hilbert, x)
+
+    def _hilbert(self, flat: Array) -> Array:
         out = np.empty(flat.shape)
         left, right = self.contact.from_left(flat), self.contact.from_right(flat)
         inside = (left >= 0.0) & (right >= 0.0)
@@ -160,41 +161,53 @@ class SlopeDensity(Density):
                 out[side] = self.half_modulus * (continued - G)
         if self.k1 or self.k2:
             far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
-            out[far] = self._far_in_upper(flat[far] + 1j * shallow(self.contact.r))[0].real
-        return out.reshape(x.shape)
+            out[far] = self._far_in_upper(np.asarray(flat[far] + 1j * shallow(self.contact.r), dtype=np.complex128))[0].real
+        return out
 
     def _hilbert_inside(self, x: Array) -> Array:
         return self.half_modulus * self._slope(x)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        z, real = on_axis(z, side)
-        flat = z.ravel()
-        F = np.empty(flat.shape, dtype=complex)
-        if real.any():
-            x = flat.real[real]
-            F[real] = self.hilbert(x) - 1j * side * self(x) if side else self.hilbert(x)
-        off = ~real
-        if off.any():
-            F[off] = reflected(self._in_upper, flat[off])
-        return F.reshape(z.shape)
+        def potential(flat: Complex) -> Complex:
+            real = flat.imag == 0.0
+            F = np.empty(flat.shape, dtype=complex)
+            if real.any():
+                x = flat.real[real]
+                F[real] = on_surface(self._hilbert(x), self(x), side)
+            off = ~real
+            if off.any():
+                F[off] = reflected(self._in_upper, flat[off])
+            return F
+
+        F: Complex = self._in_plane(potential, z, side)
+        return F
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        z, real = on_axis(z, side)
-        flat = z.ravel()
-        dF = np.empty(flat.shape, dtype=complex)
-        if real.any():
-            dF[real] = self._on_surface(flat.real[real], side)
-        off = ~real
-        if off.any():
-            dF[off] = reflected(lambda upper: self._both_in_upper(upper)[1], flat[off])
-        return dF.reshape(z.shape)
+        def derivative(flat: Complex) -> Complex:
+            real = flat.imag == 0.0
+            dF = np.empty(flat.shape, dtype=complex)
+            if real.any():
+                dF[real] = self._on_surface(flat.real[real], side)
+            off = ~real
+            if off.any():
+                dF[off] = reflected(lambda upper: self._both_in_upper(upper)[1], flat[off])
+            return dF
+
+        dF: Complex = self._in_plane(derivative, z, side, derivative=True)
+        return dF
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
-        points, real = on_axis(z, side)
-        if real.any() or (points.imag < 0.0).any():
-            return self.cauchy(points, side), self.cauchy_derivative(points, side)
-        F, dF = self._both_in_upper(points.ravel())
-        return F.reshape(points.shape), dF.reshape(points.shape)
+        z = checks.complexes("z", z)
+        flat = z.ravel()
+        if (flat.imag > 0.0).all() and (np.abs(flat) <= self._horizon).all():
+            refuse_side(side)
+            F, dF = self._both_in_upper(flat)
+            return F.reshape(z.shape), dF.reshape(z.shape)
+        return self.cauchy(z, side), self.cauchy_derivative(z, side)
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        return self.interval
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
@@ -397,6 +410,12 @@ class OnPanels(SlopeDensity):
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
         return self._plane.kinks
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        """Among many pieces a kink is not told from what resolves a function, but a jump is."""
+        inner = self.panels.jumps if self.panels.many else self._kinks
+        return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
 
     @property
     def breaks(self) -> tuple[float, ...]:

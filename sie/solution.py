@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import checks
 from .bonded import Component, bonded_certificate, bonded_contact
 from .check import Certificate, certificate, slope_rises, verify_inequalities
-from .density import ZERO, Density
+from .density import ZERO, Density, on_line, zero_or_nan
 from .edges import Edges
 from .errors import ContactError, LoadError
 from .field import Stress, Tractions
@@ -239,8 +239,8 @@ class Solution:
         that takes their partial slip before.
         """
         self._refuse_unknown_slip()
-        x = np.asarray(x, dtype=float)
-        return self.tangential.slip(x.ravel()).reshape(x.shape) if self.sheared else np.zeros(x.shape)
+        slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
+        return slipped
 
     @property
     def energy_lost(self) -> float:
@@ -294,9 +294,9 @@ class Solution:
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         if self.scene.bonded:
-            return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, 0.0)
+            return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     def check(self) -> Certificate:

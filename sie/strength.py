@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .field import Stress, Tractions
-from .maxima import Maximum, Measure, largest, on_surface
+from .maxima import Maximum, Measure, largest, mesh_of, on_surface, surface_values
 
 Array = NDArray[np.float64]
 Criterion = Literal["mises", "tresca"]
@@ -90,7 +90,8 @@ def peak_tension(tractions: Tractions) -> Peak:
         q = float(tractions.shear(np.array([edge]))[0])
         if q * outward == np.inf:
             return Peak(np.inf, x)
-    found = on_surface(tractions, _tension())
+    mesh = mesh_of(tractions)
+    found = on_surface(tractions, _tension(), mesh, surface_values(tractions, mesh.x))
     best = max(m.value for m in found)
     middle = 0.5 * sum(tractions.pressure.interval)
     # Where nothing pulls, the whole free surface is tied

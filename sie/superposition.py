@@ -6,6 +6,7 @@ Potentials are linear, so that a stress asks each density underneath once (`Dens
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import checks
 from .density import ZERO, Density
 
 Array = NDArray[np.float64]
@@ -51,6 +53,10 @@ class Combination(Density):
         return tuple(sorted({b for _, density in self.terms for b in density.breaks}))
 
     @property
+    def singular(self) -> tuple[float, ...]:
+        return tuple(sorted({b for _, density in self.terms for b in density.singular}))
+
+    @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
         return tuple((factor * inner, part) for factor, density in self.terms for inner, part in density.bases)
 
@@ -65,11 +71,11 @@ class Combination(Density):
         )
 
     def __call__(self, x: ArrayLike) -> Array:
-        x = np.asarray(x, dtype=float)
+        x = checks.reals("x", x)
         flat = x.ravel()
         with np.errstate(invalid="ignore"):  # infinities that cancel are looked at below
             total: Array = self._total([density(flat) for _, density in self.terms])
-        for k in np.flatnonzero(~np.isfinite(total)):
+        for k in np.flatnonzero(~np.isfinite(total) & ~np.isnan(flat)):
             total[k] = self._at_infinity(float(flat[k]))
         return total.reshape(x.shape)
 
@@ -78,10 +84,20 @@ class Combination(Density):
         total, size = self.strength(x), sum(abs(factor * density.strength(x)) for factor, density in self.terms)
         if abs(total) > CANCELLED * size:
             return math.copysign(math.inf, total)
+        return float(np.mean(self(self._beside(x))))
+
+    def _steepness(self, x: float) -> float:
+        """The derivative where those of terms are infinite: finite where they cancel, each in proportion to its strength if it has one."""
+        steep = [(factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag)) for factor, d in self.terms]
+        infinite = [math.copysign(factor * strength, factor * slope) for factor, strength, slope in steep if math.isinf(slope)]
+        if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
+            return math.copysign(math.inf, sum(infinite))
+        return float(np.mean(self.cauchy_derivative(self._beside(x)).imag))
+
+    def _beside(self, x: float) -> Array:
         lo, hi = self.interval
         step = BESIDE * (hi - lo)
-        sides = np.array([y for y in (x - step, x + step) if lo < y < hi])
-        return float(np.mean(self(sides)))
+        return np.array([y for y in (x - step, x + step) if lo < y < hi])
 
     def strength(self, x: float) -> float:
         return sum(factor * density.strength(x) for factor, density in self.terms)
@@ -91,16 +107,27 @@ class Combination(Density):
         return total
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        F: Complex = self._total([density.cauchy(z, side) for _, density in self.terms])
-        return F
+        values = [density.cauchy(z, side) for _, density in self.terms]
+        return self._without_nan(values, z, lambda x: -side * float(self(x)))
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        dF: Complex = self._total([density.cauchy_derivative(z, side) for _, density in self.terms])
-        return dF
+        values = [density.cauchy_derivative(z, side) for _, density in self.terms]
+        return self._without_nan(values, z, lambda x: side * self._steepness(x))
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         pairs = [density.potentials(z, side) for _, density in self.terms]
-        return self._total([F for F, _ in pairs]), self._total([dF for _, dF in pairs])
+        F = self._without_nan([F for F, _ in pairs], z, lambda x: -side * float(self(x)))
+        return F, self._without_nan([dF for _, dF in pairs], z, lambda x: side * self._steepness(x))
+
+    def _without_nan(self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]) -> Complex:
+        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are infinite."""
+        with np.errstate(invalid="ignore"):
+            total: Complex = self._total(values)
+        lost = np.isnan(total)
+        if lost.any():
+            for place in zip(*np.nonzero(np.atleast_1d(lost & ~np.isnan(z))), strict=True):
+                np.atleast_1d(total.imag)[place] = imaginary(float(np.atleast_1d(np.real(z))[place]))
+        return total
 
     def _total(self, values: list[Any]) -> Any:
         """Σ factor × value, part by part: a real factor times inf + 0j would be nan."""

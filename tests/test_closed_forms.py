@@ -569,6 +569,19 @@ def test_pressure_is_zero_outside_and_infinite_only_at_corners_and_apex() -> Non
             assert infinite == set()
 
 
+@pytest.mark.parametrize("side", [+1, -1])
+def test_at_its_apex_the_potential_of_a_wedge_has_no_slope_and_infinite_pressure(side: int) -> None:
+    F = wedge.potential(0.0, **WEDGE, side=side)
+    assert F.real == 0.0 and F.imag == -side * np.inf
+
+
+@pytest.mark.parametrize("side", [+1, -1])
+@pytest.mark.parametrize(("x", "beside"), [(0.0, 1e-200), (1.0, 1.0 - EPS), (-1.0, EPS - 1.0)])
+def test_where_the_pressure_of_a_wedge_is_infinitely_steep_its_sign_is_that_next_to_it(x: float, beside: float, side: int) -> None:
+    steep = wedge.potential_derivative(x, **WEDGE, side=side).imag
+    assert steep == np.inf * np.sign(wedge.potential_derivative(beside, **WEDGE, side=side).imag)
+
+
 CALLS: list[tuple[Callable[..., Any], dict[str, Any]]] = [
     (rounded_flat.height, {"x": 0.7, "half_flat": 0.3, "radius": 2.0}),
     (rounded_flat.slope, {"x": -0.7, "half_flat": 0.3, "radius": 2.0}),

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import sie
 from analytic import rounded_flat
+from sie import maxima
 from validation.reference import mp
 
 NU = 0.3
@@ -222,3 +223,73 @@ def test_a_compression_that_nothing_relieves_is_the_largest_tension():
     scene = sie.Scene(profile=sie.RoundedFlat(0.6, 5.0), modulus=1.0, normal_load=5e-3, friction=0.3, bulk_stress=-1e-4)
     value, x = sie.solve(scene).peak_tension()
     assert value == -1e-4 and abs(x) > 100.0
+
+
+# -- maxima beside edges and breaks, and what they cost ----------------------------------------------------------------
+
+
+def around(solution, x, criterion="mises"):
+    """The largest measured stress around x, in all directions, 1e-9 to 1 half-widths away."""
+    radius = solution.half_width * np.geomspace(1e-9, 1.0, 400)[:, None]
+    angle = np.linspace(1e-2, np.pi - 1e-2, 91)
+    stress = solution.stress(x + radius * np.cos(angle), radius * np.sin(angle))
+    return float((np.sqrt(stress.j2) if criterion == "mises" else stress.max_shear).max())
+
+
+LOPSIDED_CORNERS = {
+    "flank and radius": ((-0.78515625, 0.15234375), ((-0.505, 0.371), (0.0, 0.0), (-0.6, 3.94)), 0.0375),
+    "a short flank": ((0.0, 0.01), ((-0.3, 1.0), (0.2, 0.0), (0.16, 4.0)), 0.02),
+    "a steep flank": ((0.0,), ((-0.1, 0.1), (0.6, 6.0)), 0.05),
+}
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+@pytest.mark.parametrize("case", LOPSIDED_CORNERS)
+def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, criterion):
+    """The largest stress may lie as near to a jump of h' as 1e-6 half-widths, above what it tends to there."""
+    breaks, pieces, load = LOPSIDED_CORNERS[case]
+    solution = sie.solve(sie.Scene(profile=sie.Piecewise(breaks, pieces), modulus=1.0, poisson=0.5, normal_load=load))
+    found = solution.elastic_limit(criterion)
+    for x in solution.scene.profile.breaks:
+        assert around(solution, x, criterion) <= found.stress * (1 + 1e-12)
+
+
+def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corner():
+    """Ten digits: a search over distances from the corner and directions."""
+    profile = sie.Piecewise(
+        (-0.78515625, 0.15234375),
+        ((-0.5055084228515625, 0.37109375), (0.01171875, 0.0), (-0.5535736083984375, 3.94140625)),
+    )
+    solution = sie.solve(sie.Scene(profile=profile, modulus=0.13998032674729158, poisson=0.5, normal_load=0.005251772486469636))
+    found = solution.elastic_limit()
+    r, corner = solution.half_width, profile.breaks[0]
+    assert 0.0 < found.y <= 1e-4 * r and abs(found.x - corner) <= 1e-4 * r
+    depth, angle = np.log(3e-5), 0.5 * np.pi
+    for size in 0.6 ** np.arange(30):
+        radius, turn = np.meshgrid(np.exp(depth + size * np.linspace(-1, 1, 41)), angle + 0.1 * size * np.linspace(-1, 1, 41))
+        stress = np.sqrt(solution.stress(corner + radius * np.cos(turn), radius * np.sin(turn)).j2)
+        k = stress.argmax()
+        depth, angle = np.log(radius.flat[k]), turn.flat[k]
+    limit = np.sqrt(solution.stress(corner, 1e-14).j2)
+    assert found.stress >= limit * (1 + 1e-6)
+
+
+def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
+    profile = sie.Piecewise((-0.25, 0.125), ((0.25, 1.0), (0.5, 2.0), (0.375, 3.0)))
+    scene = sie.Scene(profile=profile, modulus=1.0, poisson=0.2, normal_load=0.02, friction=0.35, tangential_load=-0.005, bulk_stress=-0.3)
+    solution = sie.solve(scene)
+    found = solution.elastic_limit()
+    for x in (*solution.edges, *solution.stick[0], *(b for b in profile.breaks if solution.edges[0] < b < solution.edges[1])):
+        assert around(solution, x) <= found.stress * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("exponent", [1.2644369020018338, 1.51, 1.67])
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
+def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):
+    """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not follow all of them."""
+    counted = []
+    asked = maxima.potentials
+    monkeypatch.setattr(maxima, "potentials", lambda tractions, z: (counted.append(len(z)), asked(tractions, z))[1])
+    scene = sie.Scene(profile=sie.Power(exponent, 0.139), modulus=1.0, poisson=poisson, normal_load=0.05, tilt=1.2e-3)
+    sie.solve(scene).elastic_limit()
+    assert sum(counted) <= 3e4
