@@ -12,7 +12,8 @@ with the contact, each edge has an equation of its own, and along the solution t
     d(r K2)/dx2 = r JR + I0/2,        d(r K1)/dx1 = -r JL + I0/2,        dM/d(tilt) = -π/2 G r²  at constant P.
 
 So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where the profile touches first (a power law
-there is a straight line, solved in one step); then both edges are polished together, with steps added to unrounded edges.
+there is a straight line, solved in one step); then both edges are polished together (`polish`), with steps added to unrounded edges.
+Given the moment in place of the tilt, both edges and the tilt are found in one such search.
 
 Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for smooth and sharp edges.
 """

@@ -152,7 +152,9 @@ class Polish:
             rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
             if not (rise1 > 0.0 and rise2 > 0.0):
                 return None
-            rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + math.pi * self.noise(contact) * r
+            rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + (
+                math.pi * self.noise(contact) * r if self.slope.functions else 0.0
+            )
             missed = (abs(half) + abs(turned)) / rounding
             if missed < before or missed <= 1.0:
                 tilt -= k.I0 / math.pi
@@ -282,13 +284,14 @@ class Polish:
 
     def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
         """Of F1 and F2."""
-        of_values = math.pi * self.noise(contact) * contact.r
-        return tuple(ROUNDINGS * (contact.r * size + target) + of_values for size in (k.size1, k.size2))  # type: ignore[return-value]
+        r = contact.r
+        least = ROUNDINGS * target + (math.pi * self.noise(contact) * r if self.slope.functions else 0.0)
+        return least + ROUNDINGS * r * k.size1, least + ROUNDINGS * r * k.size2
 
     def noise(self, contact: Interval) -> float:
         """How rough the values of functions are by rounding of their own."""
         if self._noise is None:
-            self._noise = rounding_noise(self.slope.inside, contact.x1, contact.x2) if self.slope.functions else 0.0
+            self._noise = rounding_noise(self.slope.inside, contact.x1, contact.x2)
         return self._noise
 
     _noise: float | None = None

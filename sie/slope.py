@@ -48,6 +48,14 @@ class Row(NamedTuple):
             value = value * (x - self.origin) + c
         return value
 
+    def steepness(self, x: float) -> float:
+        """H'."""
+        value = slope = 0.0
+        for c in self.coefficients:
+            slope = slope * (x - self.origin) + value
+            value = value * (x - self.origin) + c
+        return slope
+
 
 @dataclass(frozen=True)
 class FunctionTerm:
@@ -200,10 +208,14 @@ class Slope:
         j = int(np.searchsorted(self.breaks, x))
         if not 0 < j < len(self.origins):
             return 0.0, 0.0
-        k, start, ulp = np.array([j - 1, j]), np.array([x, x]), np.spacing(abs(x)) if self.functions else 0.0
-        (below,), (above,) = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))
-        curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
-        kink = float(curvature[1, 0] - curvature[0, 0]) if isinstance(curvature, np.ndarray) else 0.0
+        if self.few:  # a flat piece has no row
+            lower, upper = (next((row for row in self.rows if row[end] == x), Row(x, x, x, ())) for end in (1, 0))
+            below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
+        else:
+            k, start, ulp = np.array([j - 1, j]), np.array([x, x]), np.spacing(abs(x)) if self.functions else 0.0
+            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[:, 0].tolist()
+            curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
+            kink = float(curvature[1, 0] - curvature[0, 0]) if isinstance(curvature, np.ndarray) else 0.0
         rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
         return (float(above - below) if abs(above - below) > rounding else 0.0), kink
 
