@@ -16,22 +16,49 @@ amplitude of the step (Q, σ) that reaches it from the virgin state. Only that t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from .interval import EPS
 
 # A layer below this fraction of the whole ladder is what rounding left of one that was wiped out.
 NOTHING = 8.0 * EPS
+BALANCED = 1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
 
 
 @dataclass(frozen=True)
 class Overwritten:
-    """Between two depths κ jumped by this much (in units of f, positive): what slipped in a step, and in which layer."""
+    """Between two depths κ jumped by this much (in units of f, positive): what slipped in a step, and in which layer.
+
+    Depths are counted from P at the end of the step; `surface` says how deep P was when the front was at `upper` and at `lower`.
+    """
 
     upper: float
     lower: float
     jump: float
+    surface: tuple[float, float] = (0.0, 0.0)
+
+    def moved(self, depth: float) -> Overwritten:
+        """The same, counted from a surface that is so much higher."""
+        start, end = self.surface
+        return Overwritten(self.upper + depth, self.lower + depth, self.jump, (start + depth, end + depth))
+
+
+@dataclass(frozen=True)
+class Slipped:
+    """Slip in one direction: its sign, and what it overwrote on the way down."""
+
+    sign: float
+    layers: tuple[Overwritten, ...]
+
+    def while_raised(self, thickness: float) -> Slipped:
+        """The same slip if P did not come before but rose by this thickness along with it."""
+        whole = math.fsum(o.jump * (o.lower - o.upper) for o in self.layers)
+        used, found = 0.0, []
+        for o in self.layers:
+            before, used = used, used + o.jump * (o.lower - o.upper)
+            found.append(replace(o, surface=(thickness * (1.0 - before / whole), thickness * (1.0 - min(used / whole, 1.0)))))
+        return Slipped(self.sign, tuple(found))
 
 
 @dataclass(frozen=True)
@@ -93,14 +120,65 @@ class Ladder:
             return Ladder(self.size + added)
         return Ladder(self.size + added, ((thickness, k), *layers))
 
-    def thinned(self, thickness: float) -> tuple[Ladder, float]:
-        """P lowered: the top taken off, and the Q that went with it."""
-        layers, left, lost = list(self.layers), thickness, 0.0
+    def lowered(self, thickness: float, rate: float) -> tuple[Ladder, tuple[Slipped, ...]]:
+        """P lowered while Q changes by `rate` for each unit of thickness: the new ladder, and what slipped, in the order of time.
+
+        A layer goes as it came, without slip, where κ = -rate. Otherwise slip in the direction of rate + κ runs down from the edges, faster
+        than the edges retreat. In a deeper layer it may be slower: where the edges catch up with it, all that slipped has left the contact,
+        and the layer below decides anew.
+        """
+        ladder, gone = self, 0.0
+        slips: list[Slipped] = []
+        while thickness - gone > NOTHING * thickness:
+            top, k = ladder.layers[0] if ladder.layers else (math.inf, 0.0)
+            if abs(rate + k) <= BALANCED * max(abs(rate), abs(k)):
+                taken = min(top, thickness - gone)
+                ladder = ladder.thinned(taken)
+            else:
+                sign = math.copysign(1.0, rate + k)
+                ladder, taken, done = ladder._chased(sign, 1.0 + sign * rate, thickness - gone)
+                if done:
+                    slips.append(Slipped(sign, tuple(o.moved(gone - thickness) for o in done)))
+            gone += taken
+        return ladder, tuple(slips)
+
+    def _chased(self, sign: float, pull: float, most: float) -> tuple[Ladder, float, list[Overwritten]]:
+        """Slip that P follows down: `pull` of Q for each unit of thickness taken off, until that is `most` or all that slipped has gone."""
+        layers, depth, taken = list(self.layers), 0.0, 0.0
+        done: list[Overwritten] = []
+        while taken < most and depth < self.size:
+            thickness, k = layers.pop(0) if layers else (self.size - depth, 0.0)
+            if k == sign:
+                depth += thickness
+                continue
+            jump = abs(sign - k)
+            speed = pull / jump  # of the front, where that of P is 1
+            caught = (depth - taken) / (1.0 - speed) if speed < 1.0 else math.inf
+            passed = thickness / speed
+            time = min(passed, caught, most - taken)
+            way = thickness if time == passed else min(time * speed, thickness)
+            done.append(Overwritten(depth, depth + way, jump, (taken, taken + time)))
+            depth, taken = depth + way, taken + time
+            if thickness - way > NOTHING * self.size and (layers or k):
+                layers.insert(0, (thickness - way, k))
+            if time == caught:
+                depth = taken
+            if time != passed:
+                break
+        else:
+            taken = most  # the bodies slide
+        left = depth - taken
+        if layers and layers[0][1] == sign:
+            left += layers.pop(0)[0]
+        return Ladder(self.size - taken, ((left, sign), *layers) if left > 0.0 else tuple(layers)), taken, done
+
+    def thinned(self, thickness: float) -> Ladder:
+        """P lowered, and Q by what the top carried: it is taken off."""
+        layers, left = list(self.layers), thickness
         while layers and left > 0.0:
             t, k = layers.pop(0)
             taken = min(t, left)
             if t - taken > NOTHING * self.size:
                 layers.insert(0, (t - taken, k))
             left -= taken
-            lost += taken * k
-        return Ladder(self.size - thickness, tuple(layers)), lost
+        return Ladder(self.size - thickness, tuple(layers))

@@ -97,7 +97,7 @@ def slip(step: Step) -> Slip:
 
 def sliding(step: Step) -> Sliding:
     f, sign = step.scene.friction, math.copysign(1.0, step.Q)
-    return Sliding(step.pressure, step.slope, f, sign, step.slope.tilted(_tilt_of_strain(step, sign)))
+    return Sliding(step.pressure, step.slope, f, step, sign, step.slope.tilted(_tilt_of_strain(step, sign)))
 
 
 def _tilt_of_strain(step: Step, sign: float) -> float:
@@ -111,7 +111,7 @@ def _one_way(step: Step, sign: float) -> OneWay:
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
     found = contact_under(load, tilt, scene, step.tol, step.economy, near=step.near)
-    state = OneWay(step.pressure, step.slope, f, sign, step, found)
+    state = OneWay(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once
     return state
@@ -146,4 +146,4 @@ def _two_ways(step: Step) -> TwoWays:
     slope = refined(step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS)
     I0 = moments(slope, found.stick).I0
     formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
-    return TwoWays(step.pressure, step.slope, f, found, formal, step)
+    return TwoWays(step.pressure, step.slope, f, step, found, formal)
