@@ -1,18 +1,22 @@
-"""How a contact grows under its load, and what slip in its layers turns into heat: energy in closed form but for one integral.
+"""How a contact grows under its load, and what slip in its layers turns into heat.
 
-Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is dy/(π sqrt(r² - (x - m)²)), and the
-slip that opens beside the contact of y when κ jumps there by j (`ladder`) is 2 f j dy/(π E*) arccosh(|x - m|/r). That is 2 f j dy/(π E*)
-times Green's function of what lies beside an interval; integrated over the layer of another, larger contact of half-width R, in which it
-lies anywhere, it gives ln(R/r) (Ransford 1995, § 3.7: the difference of two Robin constants). Hence a front of slip that runs down from the
-level Y to the level L, while the load is P(y) when it passes y, turns into heat
+Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is
+dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`ladder`) the slip beside the contact grows by
+2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what lies beside an interval:
+integrated over the layer of a larger contact of half-width R, in which the interval lies anywhere, it
+gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, § 5.1). Hence a front of slip that
+runs down from the level Y to the level L, while the load is P(y) when it passes y, turns into heat
 
     W = 2 f² j/(π E*) ∫_L^Y dy ∫_y^P(y) (P(y) - η) d ln r(η)  =  2 f² j/(π E*) ∫ v(η) d ln r(η)
 
-for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a quadratic polynomial between the levels L, Y, P(L),
-P(Y), and not negative: nothing cancels. At constant P, from Y = P, v = (P - η)(η - L) (Ciavarella & Hills 1999 for symmetric profiles).
+for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a quadratic
+polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At constant P, from
+Y = P down, v = (P - η)(η - L).
 
-d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of the profile: from there on it goes with the
-root of the distance.
+d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of the
+profile: from there on it goes with the root of the distance. A wide front that crosses the many breaks of
+a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy and T = ∫S dy at
+the four levels, and these are known from the contact under one load (`Growth._potentials`).
 """
 
 from __future__ import annotations
@@ -21,6 +25,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -41,7 +46,7 @@ Array = NDArray[np.float64]
 SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
 TAIL = 3
 FINE, COARSE = 1024.0 * EPS, 1e-11  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
-LONG = 1e-2
+LONG = 1e-2  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
 NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
 FEW = 8  # so many breaks are cut at without trial
@@ -68,7 +73,10 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """d ln r/d ln y for lo <= y <= hi, a series in 2 sqrt(t) - 1 if an edge passes a break at lo, otherwise in 2 t - 1; t = ln(y/lo)/ln(hi/lo)."""
+    """d ln r/d ln y for lo <= y <= hi, with t = ln(y/lo)/ln(hi/lo).
+
+    A series in 2 sqrt(t) - 1 if an edge passes a break at lo (`kinked`), otherwise in 2 t - 1.
+    """
 
     lo: float
     hi: float
@@ -106,9 +114,8 @@ class Growth:
         """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
         rows = [(P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1]))) for P, o in zip(loads, fronts, strict=True)]
         apart = [self._crosses_many_breaks(*row) for row in rows]
-        total = self._by_panels([row for row, many in zip(rows, apart, strict=True) if not many])
-        total = iter(total.tolist())
-        found = np.array([self._from_potentials(*row) if many else next(total) for row, many in zip(rows, apart, strict=True)])
+        rest = iter(self._by_panels([row for row, many in zip(rows, apart, strict=True) if not many]).tolist())
+        found = np.array([self._from_potentials(*row) if many else next(rest) for row, many in zip(rows, apart, strict=True)])
         return friction * friction / (math.pi * self._search.half_modulus) * found
 
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
@@ -122,7 +129,7 @@ class Growth:
             marks = {L, highest, *(m for m in (Y, at_L, at_Y) if L < m < highest)}
             marks |= {c - P for c in cuts[bisect_right(cuts, P + L) : bisect_left(cuts, P + highest)] if L < c - P < highest}
             ascending = sorted(marks)
-            ends += [(a, b, k) for a, b in zip(ascending, ascending[1:], strict=False)]
+            ends += [(a, b, k) for a, b in pairwise(ascending)]
         total = np.zeros(len(rows))
         given = np.array(rows).reshape(-1, 5)
         for start in range(0, len(ends), ROWS):
@@ -348,7 +355,7 @@ class Growth:
         distances = self._distances(found.interval)
         if any(found.sharp) or min(distances) <= 0.0:
             return
-        point = (math.log(y), *map(math.log, distances))
+        point = (math.log(y), math.log(distances[0]), math.log(distances[1]))
         k = bisect_left(self._known, point[:1])
         if k == len(self._known) or self._known[k][0] != point[0]:
             self._known.insert(k, point)

@@ -32,7 +32,7 @@ from .growth import Growth
 from .interval import EPS, Interval
 from .ladder import Overwritten
 from .normal import ECONOMY, Normal
-from .path import Path, State, direction, states
+from .path import Path, direction, states
 from .scene import Scene
 from .slip import slip
 from .slope_density import SlopeDensity
@@ -132,11 +132,8 @@ class History(Sequence[Solution]):
             self._energy += list(accumulate(lost, initial=self._energy[-1] if known else 0.0))[1:]
         return self._energy[index]
 
-    def step_energy(self, index: int) -> float:
-        """Lost in the step that ends at this point."""
-        return self._step_energies(range(index, index + 1))[0]
-
     def _step_energies(self, steps: range) -> list[float]:
+        """Lost in the steps that end at these points."""
         fronts = [(k, o) for k in steps for slip in self.states[k].slips for o in slip.layers]
         lost = dict.fromkeys(steps, 0.0)
         if fronts:
@@ -255,12 +252,12 @@ class Track(Slip):
 
     def _refuse_retreat(self) -> None:
         """One monotonic loading is what a scene asks, and is answered like one; a return from there depends on the way."""
-        corners = self.state.ladder.corners
-        if len(corners) > 1 and not self.history.virgin(self.P, corners[-1][0]).advancing:
-            Q, sigma = (corners[-1][0] * unit for unit in self.history.unit)
+        depth, turned = self.state.ladder.deepest
+        if turned and not self.history.virgin(self.P, depth).advancing:
+            Q, sigma = (depth * unit for unit in self.history.unit)
             raise ContactError(
-                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = {sigma:.6g}, zones of slip have retreated on "
-                "the way, and what they left depends on that way; lower Q or σ",
+                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = {sigma:.6g}, zones of slip have "
+                "retreated on the way, and what they left depends on that way; lower Q or σ",
                 step=self.index,
             )
 
@@ -279,7 +276,7 @@ class Track(Slip):
     @property
     def _now(self) -> Slip | None:
         """The virgin state as deep as the last step slipped."""
-        return self.history.virgin(self.P, self.state.ladder.layers[0][0]) if self.state.last else None
+        return self.history.virgin(self.P, self.state.ladder.top.thickness) if self.state.last and self.state.ladder.top else None
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -288,8 +285,20 @@ class Track(Slip):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        now = self._now
-        return () if now is None else tuple((lo, hi, sign * self.state.last.sign) for lo, hi, sign in now.slipped)
+        now, last = self._now, self.state.last
+        zones = () if now is None or last is None else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
+        return *self._slipped_and_gone, *zones
+
+    @property
+    def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
+        """What slipped while P fell, until the edges had passed it: slip turned there, or stopped."""
+        zones: list[tuple[float, float, float]] = []
+        for gone in self.state.slips:
+            if gone is not self.state.last:
+                start, end = (self.P - depth / self.friction for depth in (gone.layers[0].surface[0], gone.layers[-1].lower))
+                outer, inner = (self.history.growth.contact(load).interval for load in (start, end))
+                zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
+        return tuple(zones)
 
     @property
     def untouched(self) -> tuple[float, float]:
@@ -356,7 +365,7 @@ class Track(Slip):
     @cached_property
     def shift(self) -> float:
         past = self.history.states[: self.index + 1]
-        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.layers]
+        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.top]
         if any(P != self.P for pair in loads for P in pair):
             raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed while it was sheared")
         return sum(weight * virgin.shift for weight, virgin in self._terms)

@@ -140,7 +140,7 @@ def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], uni
         )
     if P == P0:
         return _pulled(loads, before.ladder, amplitude)
-    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and not before.ladder.layers:
+    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and before.ladder.top is None:
         return State(loads, Ladder(_size(f, P, unit)))  # nothing was ever sheared
     if unit[1]:
         raise ContactError(

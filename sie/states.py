@@ -92,7 +92,10 @@ class Slip(ABC):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones where |q| = f p as (lo, hi, sign of q)."""
+        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order of time; |q| = f p in those in contact.
+
+        Where slip turned while P fell, the zones of the first direction lie beside the contact, which has left them.
+        """
         return ()
 
     @property
