@@ -111,6 +111,15 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
     assert not any("corrective" in vars(state) for state in history._virgin.values())
 
 
+def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_each(monkeypatch):
+    """Each load is overwritten in part by the next, smaller one: every layer stays. One series for the growth of the contact serves them all."""
+    k = np.arange(10_000)
+    history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 10_000) * (-1.0) ** k))
+    assert len(history.states[-1].ladder.layers) == 10_000
+    assert history.energy(9_999) > history.energy(9_998) > 0.0
+    assert history.growth.evaluations < 500 and not history._virgin
+
+
 def test_nothing_is_solved_before_it_is_asked_for():
     history = at_constant_load(PUNCH, 0.5, -0.5, 0.2)
     assert len(history) == 3
@@ -402,7 +411,7 @@ def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
     assert coarse[:, 0].max() < 6e-3 and coarse[:, 2].max() < 1.5
     assert fine[:, 0].max() < 1.6e-3 and fine[:, 2].max() < 1.5
     assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
-    assert fine[-1, 1] < 2e-2
+    assert fine[-1, 1] < 0.45 * coarse[-1, 1]  # of a zone of a few elements the slip is known to few digits, on any mesh
 
 
 def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():
