@@ -50,7 +50,7 @@ LONG = 1e-2  # in ln y: on a longer panel ln r itself is expanded where d ln r/d
 NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
 FEW = 8  # so many breaks are cut at without trial
-MANY = 24  # so many are a trace
+MANY = 24  # a profile of so many breaks is a trace
 WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
 HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
 LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
@@ -189,7 +189,7 @@ class Growth:
             return False
         highest, change = max(at_L, at_Y), abs(at_L - at_Y)
         thin = highest - L < WIDE * (P + highest) or 0.0 < change < WIDE * (Y - L)
-        return not thin and len(self._passed(max(P + L, LOWEST * self.top), P + highest)) > MANY
+        return not thin and len(self._passed(max(P + L, LOWEST * self.top), P + highest)) > FEW
 
     def _from_potentials(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> float:
         """∫v d ln r from S = ∫ln r dy and T = ∫S dy at the four levels."""

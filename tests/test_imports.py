@@ -18,9 +18,9 @@ ORDER = (
     "errors", "interval", "checks", "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "gap", "composite",
+    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "edges", "widest", "normal", "ladder", "growth", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "remedy", "plan",
-    "solution", "ladder", "path", "history", "fretting", "charts", "sweep", "abscissae", "entries", "scenefile", "compare", "grid",
+    "solution", "path", "history", "fretting", "charts", "sweep", "abscissae", "entries", "scenefile", "compare", "grid",
     "export", "summary", "files", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip
 
