@@ -80,6 +80,37 @@ def test_sweep_on_one_core(benchmark, scenes):
     benchmark(lambda: sie.sweep(scene(PROFILES["rounded flat"]), over=over))
 
 
+OBLIQUE = {
+    **{name: PROFILES[name] for name in ("parabola", "rounded flat", "wedge", "function")},
+    "power 1.5": sie.Power(1.5, 0.5),
+    "power 2.5": sie.Power(2.5, 0.5),
+    "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
+    "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
+    "trace of 401 points": sie.Sampled(np.linspace(-1.6, 1.6, 401), np.cosh(np.linspace(-1.6, 1.6, 401))),
+}
+
+
+@pytest.mark.parametrize("name", OBLIQUE)
+def test_energy_of_an_oblique_path_of_four_points(benchmark, name):
+    path, question = sie.Path([(0.1, 0.01), (0.3, 0.1), (0.25, -0.05), (0.4, 0.15)]), scene(OBLIQUE[name], friction=0.5)
+    benchmark(lambda: sie.follow(question, path)[-1].energy_lost)
+
+
+@pytest.mark.parametrize("turns", [1_000, 10_000])
+def test_energy_of_remembered_turning_points(benchmark, turns):
+    k = np.arange(turns)
+    path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / turns) * (-1.0) ** k])
+    question = scene(PROFILES["rounded flat"], friction=0.5)
+    benchmark(lambda: sie.follow(question, path)[-1].energy_lost)
+
+
+def test_shear_of_a_thousand_remembered_turning_points(benchmark):
+    k = np.arange(1_000)
+    path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / 1_000) * (-1.0) ** k])
+    question = scene(PROFILES["rounded flat"], friction=0.5)
+    benchmark(lambda: sie.follow(question, path)[-1].shear(X))
+
+
 def test_stress_on_a_grid(benchmark):
     solution = sie.solve(scene(PROFILES["rounded flat"], friction=0.5, sliding=1))
     x, y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]

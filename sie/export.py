@@ -132,7 +132,10 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)
-    return tuple(solution.tangential.slipped) if solution.sheared else ()
+    if not solution.sheared:
+        return ()
+    x1, x2 = solution.edges
+    return tuple(z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2)  # not what the contact has left
 
 
 def _shear(solution: Solution, points: int) -> dict[str, Any]:

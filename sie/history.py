@@ -17,32 +17,30 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import chebyshev
 from .density import ZERO, Density
 from .errors import ContactError, LoadError
+from .growth import Growth
 from .interval import EPS, Interval
-from .normal import ECONOMY, Normal, normal_contact
-from .path import Path, State, direction, states
+from .ladder import Overwritten
+from .normal import ECONOMY, Normal
+from .path import Path, direction, states
 from .scene import Scene
 from .slip import slip
 from .slope_density import SlopeDensity
 from .solution import Solution, solve
-from .states import OneWay, Slip, Step, rims
+from .states import OneWay, Slip, Step
 from .superposition import Combination
-from .zones import zone
 
 Array = NDArray[np.float64]
-
-NODES = 32  # over the levels that a step overwrites while P changes
 
 
 def follow(scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> History:
@@ -128,21 +126,36 @@ class History(Sequence[Solution]):
 
     def energy(self, index: int) -> float:
         """Lost from the beginning of the path."""
-        while len(self._energy) <= index:
-            k = len(self._energy)
-            self._energy.append((self._energy[-1] if k else 0.0) + self.step_energy(k))
+        known = len(self._energy)
+        if index >= known:
+            lost = self._step_energies(range(known, index + 1))
+            self._energy += list(accumulate(lost, initial=self._energy[-1] if known else 0.0))[1:]
         return self._energy[index]
 
-    def step_energy(self, index: int) -> float:
-        """Lost in the step that ends at this point."""
-        state = self.states[index]
-        P, before = state.loads[0], self.states[index - 1] if index else None
-        if before is not None and before.loads[0] != P and state.sign:
-            return _energy_while_P_changes(self, before, state)
-        return sum(o.jump * (self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)) for o in state.done)
+    def _step_energies(self, steps: range) -> list[float]:
+        """Lost in the steps that end at these points."""
+        fronts = [(k, o) for k in steps for slip in self.states[k].slips for o in slip.layers]
+        lost = dict.fromkeys(steps, 0.0)
+        if fronts:
+            owners, layers = zip(*fronts, strict=True)
+            loads = [self.states[k].loads[0] for k in owners]
+            for k, o, heat in zip(owners, layers, self._heat(loads, layers), strict=True):
+                lost[k] += o.jump * heat
+        return list(lost.values())
+
+    def _heat(self, loads: Sequence[float], layers: Sequence[Overwritten]) -> Iterable[float]:
+        """What each layer that was overwritten turned into heat, per jump."""
+        if self.unit[1]:
+            return [self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper) for P, o in zip(loads, layers, strict=True)]
+        return self.growth.heat(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
         return self.virgin(P, depth).energy if depth else 0.0
+
+    @cached_property
+    def growth(self) -> Growth:
+        """The contacts under all loads of the path."""
+        return Growth(self.scene, self.plain(max(P for P, _, _ in self.path.points)).normal, self.tol, self.economy)
 
 
 class Seen:
@@ -238,15 +251,19 @@ class Track(Slip):
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
-        deepest = [corner[0] for corner in self.state.ladder.corners][-1:]
-        for depth in deepest:
-            if not self.history.virgin(self.P, depth).advancing:
-                raise ContactError(
-                    f"step {self.index} of the path: under the largest loads, Q = {depth * self.history.unit[0]:.6g} with "
-                    f"σ = {depth * self.history.unit[1]:.6g}, zones of slip have retreated on the way, and what they left depends on "
-                    "that way; lower Q or σ",
-                    step=self.index,
-                )
+        """One monotonic loading is what a scene asks, and is answered like one; a return from there depends on the way."""
+        depth, turned = self.state.ladder.deepest
+        if turned and not self.history.virgin(self.P, depth).advancing:
+            Q, sigma = (depth * unit for unit in self.history.unit)
+            raise ContactError(
+                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = {sigma:.6g}, zones of slip have "
+                "retreated on the way, and what they left depends on that way; lower Q or σ",
+                step=self.index,
+            )
+
+    @property
+    def advancing(self) -> bool:  # type: ignore[override]
+        return all(virgin.advancing for _, virgin in self._terms)
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
@@ -259,7 +276,7 @@ class Track(Slip):
     @property
     def _now(self) -> Slip | None:
         """The virgin state as deep as the last step slipped."""
-        return self.history.virgin(self.P, self.state.ladder.layers[0][0]) if self.state.sign else None
+        return self.history.virgin(self.P, self.state.ladder.top.thickness) if self.state.last and self.state.ladder.top else None
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -268,8 +285,20 @@ class Track(Slip):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        now = self._now
-        return () if now is None else tuple((lo, hi, sign * self.state.sign) for lo, hi, sign in now.slipped)
+        now, last = self._now, self.state.last
+        zones = () if now is None or last is None else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
+        return *self._slipped_and_gone, *zones
+
+    @property
+    def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
+        """What slipped while P fell, until the edges had passed it: slip turned there, or stopped."""
+        zones: list[tuple[float, float, float]] = []
+        for gone in self.state.slips:
+            if gone is not self.state.last:
+                start, end = (self.P - depth / self.friction for depth in (gone.layers[0].surface[0], gone.layers[-1].lower))
+                outer, inner = (self.history.growth.contact(load).interval for load in (start, end))
+                zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
+        return tuple(zones)
 
     @property
     def untouched(self) -> tuple[float, float]:
@@ -304,7 +333,7 @@ class Track(Slip):
             P = state.loads[0]
             if P == 0.0:
                 continue
-            if index and P > P0 and state.sign:
+            if index and P > P0 and state.slips:
                 self._refuse_new(x, index, P0, P)
             total = np.where(self._touches(x, min(P0, P) if index else P), total, 0.0) + _step_slip(self.history, index, x)
             P0 = P
@@ -336,7 +365,7 @@ class Track(Slip):
     @cached_property
     def shift(self) -> float:
         past = self.history.states[: self.index + 1]
-        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.layers]
+        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.top]
         if any(P != self.P for pair in loads for P in pair):
             raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed while it was sheared")
         return sum(weight * virgin.shift for weight, virgin in self._terms)
@@ -346,47 +375,9 @@ def _step_slip(history: History, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.states[index]
     P, out = state.loads[0], np.zeros(x.shape)
-    for o in state.done:
-        for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
-            if depth:
-                out += sign * o.jump * state.sign * history.virgin(P, depth).slip(x)
+    if state.last is not None:  # what slipped before that has left the contact
+        for o in state.last.layers:
+            for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
+                if depth > 0.0:
+                    out += sign * o.jump * state.last.sign * history.virgin(P, depth).slip(x)
     return out
-
-
-def _energy_while_P_changes(history: History, before: State, state: State) -> float:
-    """2f/(π E*) ∫|jump| ∫p_P(x) arccosh(|x - m|/r) dx dy over the depths y that the step overwrites; m, r of the contact down to y.
-
-    Slip at the level of load L adds dy/f of its ∂p/∂P', and that opens arccosh(|x - m|/r)/π beside the level's contact [m - r, m + r]. P is
-    in proportion to the pull that was used up when y is reached.
-    """
-    (P0, Q0, _), (P1, Q1, _), f, s = before.loads, state.loads, history.scene.friction, state.sign
-    pull = s * (Q1 - Q0) - f * (P1 - P0)
-    _, done = replace(before.ladder, size=f * P0).pulled(s * pull)
-    g, w = chebyshev.gauss_legendre(NODES)
-    used = total = 0.0
-    for o in done:
-        share = np.sin(0.5 * np.pi * g) ** 2  # towards both ends, where an edge may pass a break
-        weight = w * 0.5 * np.pi * np.sin(np.pi * g) * (o.lower - o.upper)
-        for part, dy in zip(share.tolist(), weight.tolist(), strict=True):
-            y = o.upper + part * (o.lower - o.upper)
-            t = min((used + o.jump * (y - o.upper)) / pull, 1.0)
-            total += o.jump * dy * _reach(history, P0 + t * (P1 - P0), P0 - y / f)
-        used += o.jump * (o.lower - o.upper)
-    return 2.0 * f / (math.pi * history.scene.Estar) * total
-
-
-def _reach(history: History, P: float, level: float) -> float:
-    """∫p_P arccosh(|x - m|/r) dx beside the contact of a lower load."""
-    if not 0.0 < level < P:
-        return 0.0
-    outer = Solution(replace(history.scene, normal_load=P), history.tol, history.economy)
-    inner = normal_contact(replace(history.scene, normal_load=level), history.tol, history.economy).edges.contact
-    contact, total = outer.pressure.contact, 0.0
-    slope = outer.scene.profile.pieces.tilted(outer.tilt)
-    lengths = ((inner.x1 - contact.x1) + (inner.tail1 - contact.tail1), (contact.x2 - inner.x2) + (contact.tail2 - inner.tail2))
-    for seen_from, length in zip(rims(outer.slope_density, slope), lengths, strict=True):
-        if length > 0.0:
-            z = zone(seen_from, length)
-            u = z.inwards / inner.r
-            total += float(z.force @ np.log1p(u + np.sqrt(u * (u + 2.0))))
-    return total

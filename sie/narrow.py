@@ -51,7 +51,7 @@ def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zone
         rho = _narrowed(lambda rho: excess(rho, depth)[0], least, NARROW * depth)
         rho, depth = _settled(excess, rho, depth)
         if not rho < min(depth, width - depth):
-            return None  # Newton's method left the contact: the stick zone is not narrow
+            return None  # Newton's method left the contact, or did not settle: the stick zone is not narrow
     zones = cut(rho, depth)
     left, right = zones[near], zones[1 - near]
     return Zones(_about(contact, rho, depth, near), left, right, drive, max(short, 0.0))
@@ -118,4 +118,6 @@ def _settled(excess: Callable[[float, float], tuple[float, float]], rho: float, 
         rho, depth, previous = rho * math.exp(step[0]), depth * math.exp(step[1]), size
         if size <= 4.0 * EPS:
             break
+    else:
+        return math.inf, depth  # to and fro across a corner of the pressure
     return rho, depth

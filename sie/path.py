@@ -14,7 +14,7 @@ from typing import Any
 from . import checks
 from .errors import ContactError
 from .interval import EPS
-from .ladder import Ladder, Overwritten
+from .ladder import Ladder, Slipped
 from .scene import Scene
 from .slip import refuse_sliding
 
@@ -84,12 +84,16 @@ def _point(k: int, point: Any) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class State:
-    """A turning point: its loads, the ladder there, and the sign and the depths of what slipped since the last one."""
+    """A turning point: its loads, the ladder there, and what slipped since the last one, in the order of time."""
 
     loads: tuple[float, float, float]
     ladder: Ladder
-    sign: float = 0.0
-    done: tuple[Overwritten, ...] = ()
+    slips: tuple[Slipped, ...] = ()
+
+    @property
+    def last(self) -> Slipped | None:
+        """What slips at the end of the step; None if nothing does, or what slipped has left the contact."""
+        return self.slips[-1] if self.slips and self.slips[-1].layers[-1].lower > 0.0 else None
 
 
 def direction(path: Path) -> tuple[float, float]:
@@ -136,7 +140,7 @@ def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], uni
         )
     if P == P0:
         return _pulled(loads, before.ladder, amplitude)
-    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and not before.ladder.layers:
+    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and before.ladder.top is None:
         return State(loads, Ladder(_size(f, P, unit)))  # nothing was ever sheared
     if unit[1]:
         raise ContactError(
@@ -146,11 +150,15 @@ def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], uni
     if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
         raise ContactError("P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead")
     if P > P0:
-        k = (Q - Q0) / (f * (P - P0))
-        ladder = before.ladder.thickened(f * (P - P0), min(max(k, -1.0), 1.0))
-        ladder = replace(ladder, size=f * P)
-        return _pulled(loads, ladder, Q) if abs(k) > 1.0 else State(loads, ladder)
-    return _lowered(loads, before, f)
+        rise = f * (P - P0)
+        k = (Q - Q0) / rise
+        ladder = replace(before.ladder.thickened(rise, min(max(k, -1.0), 1.0)), size=f * P)
+        if abs(k) <= 1.0:
+            return State(loads, ladder)
+        pulled = _pulled(loads, ladder, Q)
+        return replace(pulled, slips=tuple(slip.while_raised(rise) for slip in pulled.slips))
+    ladder, slips = before.ladder.lowered(f * (P0 - P), (Q - Q0) / (f * (P0 - P)))
+    return State(loads, replace(ladder, size=f * P), slips)
 
 
 def _pulled(loads: tuple[float, float, float], ladder: Ladder, amplitude: float) -> State:
@@ -158,18 +166,4 @@ def _pulled(loads: tuple[float, float, float], ladder: Ladder, amplitude: float)
     if abs(step) <= 4.0 * EPS * max(abs(amplitude), abs(ladder.total)):
         return State(loads, ladder)
     new, done = ladder.pulled(step)
-    return State(loads, new, math.copysign(1.0, step), done)
-
-
-def _lowered(loads: tuple[float, float, float], before: State, f: float) -> State:
-    """P falls: layers go as they came, without slip, while Q falls along their κ; any other way slips for the rest of the step."""
-    (P0, Q0, _), (P, Q, _), ladder = before.loads, loads, before.ladder
-    rate, left = (Q - Q0) / (f * (P0 - P)), f * (P0 - P)
-    while left > 0.0:
-        thickness, k = ladder.layers[0] if ladder.layers else (math.inf, 0.0)
-        if abs(rate + k) > PROPORTIONAL * max(abs(rate), abs(k)):
-            thinner = replace(ladder.thinned(left)[0], size=f * P)
-            return _pulled(loads, thinner, Q)
-        taken = min(thickness, left)
-        ladder, left = ladder.thinned(taken)[0], left - taken
-    return State(loads, replace(ladder, size=f * P))
+    return State(loads, new, (Slipped(math.copysign(1.0, step), done),) if done else ())

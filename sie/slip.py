@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import numpy as np
 
@@ -53,12 +54,23 @@ HARDLY = 1e-40
 
 def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
     """Raises LoadError if friction cannot carry Q."""
-    if abs(Q) > friction * normal_load:
+    limit = friction * normal_load
+    if abs(Q) > limit:
+        digits = next(n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1))
         raise LoadError(
-            f"|Q| = {abs(Q):.6g} exceeds f P = {friction * normal_load:.6g}: the bodies slide; "
-            f"lower tangential_load to at most that, or raise normal_load to {abs(Q) / friction:.6g} or friction",
-            limit=friction * normal_load,
+            f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies slide; "
+            f"lower tangential_load to at most that, or raise normal_load to {_within(abs(Q) / friction, digits, 1)} or friction",
+            limit=limit,
         )
+
+
+def _within(value: float, digits: int, side: int) -> str:
+    """A positive value to so many digits, not above it (side -1) or not below it (1), so that who follows an advice stays within it."""
+    shown = f"{value:.{digits}g}"
+    if side * float(shown) < side * value:
+        rounding = ROUND_CEILING if side > 0 else ROUND_FLOOR
+        shown = f"{float(Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):.{digits}g}"
+    return shown
 
 
 def remaining(friction: float, normal_load: float, Q: float) -> float:
@@ -97,7 +109,7 @@ def slip(step: Step) -> Slip:
 
 def sliding(step: Step) -> Sliding:
     f, sign = step.scene.friction, math.copysign(1.0, step.Q)
-    return Sliding(step.pressure, step.slope, f, sign, step.slope.tilted(_tilt_of_strain(step, sign)))
+    return Sliding(step.pressure, step.slope, f, step, sign, step.slope.tilted(_tilt_of_strain(step, sign)))
 
 
 def _tilt_of_strain(step: Step, sign: float) -> float:
@@ -111,7 +123,7 @@ def _one_way(step: Step, sign: float) -> OneWay:
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
     found = contact_under(load, tilt, scene, step.tol, step.economy, near=step.near)
-    state = OneWay(step.pressure, step.slope, f, sign, step, found)
+    state = OneWay(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once
     return state
@@ -146,4 +158,4 @@ def _two_ways(step: Step) -> TwoWays:
     slope = refined(step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS)
     I0 = moments(slope, found.stick).I0
     formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
-    return TwoWays(step.pressure, step.slope, f, found, formal, step)
+    return TwoWays(step.pressure, step.slope, f, step, found, formal)

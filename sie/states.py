@@ -15,7 +15,9 @@ from .adaptive import refined
 from .check import verify_inequalities
 from .density import ZERO, Density
 from .gap import gap
+from .growth import Growth
 from .interval import EPS, Interval, two_sum
+from .ladder import Overwritten
 from .moments import moments
 from .normal import Normal, pressure
 from .scene import Scene
@@ -90,7 +92,10 @@ class Slip(ABC):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones where |q| = f p as (lo, hi, sign of q)."""
+        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order of time; |q| = f p in those in contact.
+
+        Where slip turned while P fell, the zones of the first direction lie beside the contact, which has left them.
+        """
         return ()
 
     @property
@@ -143,6 +148,7 @@ class _Slipping(Slip):
     pressure: SlopeDensity
     slope: Slope
     friction: float
+    step: Step
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
@@ -194,9 +200,13 @@ class _Slipping(Slip):
                 shift += sign * f / math.pi * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
         return energy, shift
 
-    @property
+    @cached_property
     def energy(self) -> float:
-        return self._integrals[0]
+        step = self.step
+        if step.tau:
+            return self._integrals[0]
+        growth = Growth(step.scene, step.normal, step.tol, step.economy)
+        return float(growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0])
 
     @property
     def shift(self) -> float:
@@ -260,7 +270,6 @@ class OneWay(_Slipping):
     """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
 
     sign: float
-    step: Step
     found: Normal
     kind = "one sign"
 
@@ -333,7 +342,6 @@ class TwoWays(_Slipping):
 
     found: Zones
     formal: SlopeDensity  # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish at both ends
-    step: Step
     kind = "two signs"
 
     @property

@@ -97,7 +97,10 @@ def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> S
         return replace(density, contact=contact)
     old = density.panels
     slope = old.geometry.slope.shifted(dx).shifted(tail)
-    return replace(density, contact=contact, panels=Panels(Geometry(slope, contact), old.I0))
+    # A slope that ended with the contact still does: an ulp short of it, all of H would jump there
+    breaks = slope.breaks.copy()
+    breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
+    return replace(density, contact=contact, panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0))
 
 
 # -- one zone -----------------------------------------------------------------------------------------------------------

@@ -20,9 +20,9 @@ ORDER = (
     "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "polish", "edges", "widest",
-    "smooth", "normal", "noise", "gap", "composite",
+    "smooth", "normal", "noise", "ladder", "growth", "gap", "composite",
     "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "plan",
-    "solution", "remedy", "ladder", "path", "history", "fretting", "charts", "workers", "sweep",
+    "solution", "remedy", "path", "history", "fretting", "charts", "workers", "sweep",
     "abscissae", "scenefile", "compare", "grid",
     "export", "summary", "plot", "contours", "overlay", "__main__",
 )  # fmt: skip

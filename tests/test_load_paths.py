@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -110,6 +111,15 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
     assert not any("corrective" in vars(state) for state in history._virgin.values())
 
 
+def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_each(monkeypatch):
+    """The next, smaller one overwrites a part of each: every layer stays. One series for the growth of the contact serves all."""
+    k = np.arange(10_000)
+    history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 10_000) * (-1.0) ** k))
+    assert len(history.states[-1].ladder.layers) == 10_000
+    assert history.energy(9_999) > history.energy(9_998) > 0.0
+    assert history.growth.evaluations < 500 and not history._virgin
+
+
 def test_nothing_is_solved_before_it_is_asked_for():
     history = at_constant_load(PUNCH, 0.5, -0.5, 0.2)
     assert len(history) == 3
@@ -161,6 +171,91 @@ def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
     almost = sie.follow(HERTZ, sie.Path([(P, 0.1 * FP), (P * (1.0 + 1e-9), 0.7 * FP)]))[1].energy_lost
     constant = at_constant_load(HERTZ, 0.1, 0.7)[1].energy_lost
     assert almost == pytest.approx(constant, rel=1e-7)
+
+
+KINDS = {
+    "power 1.5": sie.Power(1.5, 0.5),
+    "power 2.5": sie.Power(2.5, 0.5),
+    "wedge": sie.Wedge(0.3),
+    "punch": sie.RoundedFlat(0.5, 1.0),
+    "tilted punch": sie.RoundedFlat(0.5, 1.0).tilted(0.02),
+    "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
+    "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
+    "sharp": sie.Flat(0.6) + sie.Parabola(1.0),
+    "function": sie.FromFunction("sinh(x) + x**2/8", domain=(-3.0, 3.0)),
+    "trace": sie.Sampled(np.linspace(-1.6, 1.6, 161), np.linspace(-1.6, 1.6, 161) ** 2 / 2 + np.linspace(-1.6, 1.6, 161) ** 3 / 20),
+}  # fmt: skip
+TURNING = [(0.1, 0.02), (0.3, 0.1), (0.25, -0.05), (0.1, 0.02), (0.3, 0.04), (0.2, 0.09), (0.2, -0.06), (0.26, 0.1)]
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_energy_of_a_path_is_that_of_the_path_cut_into_many_parts(name):
+    scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
+    whole, parts = sie.follow(scene, sie.Path(TURNING)), sie.follow(scene, sie.Path(TURNING).subdivided(7))
+    for one, same in zip(whole, parts[::7], strict=True):
+        assert one.energy_lost == pytest.approx(same.energy_lost, rel=1e-10)
+
+
+@settings(max_examples=40)
+@given(st.lists(st.tuples(st.integers(1, 40), st.integers(-9, 9)), min_size=2, max_size=6), st.sampled_from([PUNCH, HERTZ, LOPSIDED]))
+def test_energy_of_every_oblique_path_is_that_of_the_path_cut_into_parts(points, scene):
+    path = sie.Path([(0.02 * p, 0.1 * q * F * 0.02 * p) for p, q in points])
+    whole, parts = sie.follow(scene, path), sie.follow(scene, path.subdivided(9))
+    assert whole[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=1e-10, abs=1e-16)
+    x = np.linspace(*whole[-1].edges, 23)
+    assert whole[-1].shear(x) == pytest.approx(parts[-1].shear(x), abs=1e-11)
+
+
+def test_slip_that_turns_while_the_normal_load_falls_is_told_in_both_directions():
+    """The layers: κ = 0.9 f on top, -f below. P falls: slip + until the edges have passed them, then slip -."""
+    history = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]))
+    last = history[-1].tangential
+    first, turned = history.states[-1].slips
+    assert first.sign == -turned.sign
+    ((a, b, plus), (c, d, minus), *now) = last.slipped
+    assert plus == minus == first.sign and {sign for _, _, sign in now} == {turned.sign}
+    x1, x2 = history[-1].edges
+    before = sie.solve(sie.Scene(**fields(HERTZ) | {"normal_load": 0.4})).edges
+    assert before[0] == pytest.approx(a) and before[1] == pytest.approx(d) and b <= x1 and x2 <= c
+    parts = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]).subdivided(8))
+    x = np.linspace(x1, x2, 15)
+    total = sum(solution.tangential.slip_now(x) for solution in parts[-8:])
+    assert last.slip_now(x) == pytest.approx(total, abs=1e-14)
+    assert history[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=1e-12)
+
+
+@given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.02, 1.0)), min_size=2, max_size=6), st.floats(0.05, 0.95), st.floats(-2.0, 2.0))
+def test_what_slips_while_the_ladder_is_lowered_accounts_for_the_load(layers, share, rate):
+    """Q falls by what the layers carried away, and rises by the pull of the slip; no front is behind the edge."""
+    ladder = Ladder(1.0)
+    for target, _ in layers:
+        if target != ladder.total:
+            ladder, _ = ladder.pulled(0.9 * target - ladder.total)
+    thickness = share * 0.9
+    if abs(ladder.total + rate * thickness) >= 1.0 - thickness:
+        return  # the bodies slide
+    lower, slips = ladder.lowered(thickness, rate)
+    assert lower.size == pytest.approx(1.0 - thickness, abs=1e-14)
+    assert lower.total == pytest.approx(ladder.total + rate * thickness, abs=1e-13)
+    for slip in slips:
+        for o in slip.layers:
+            assert o.lower >= o.upper and 0.0 < o.jump <= 2.0
+            assert o.surface[0] <= o.upper + 1e-13 and o.surface[1] <= o.lower + 1e-13
+
+
+def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
+    """h' = sinh x + x²/10 - t: ∫h'/w = π [sinh m I0(r) + (m² + r²/2)/10 - t], P = π G r [cosh m I1(r) + m r/10], for each half-width r."""
+    G, load, Q, f = mpmath.mpf("0.5"), mpmath.mpf(0.3), mpmath.mpf(0.1), mpmath.mpf(0.5)
+
+    def under(r):
+        m = mpmath.findroot(lambda m: mpmath.sinh(m) * mpmath.besseli(0, r) + (m * m + r * r / 2) / 10, -r * r / 20)
+        return mpmath.pi * G * r * (mpmath.cosh(m) * mpmath.besseli(1, r) + m * r / 10)
+
+    b, c = (mpmath.findroot(lambda r, y=y: under(r) - y, (0.3, 0.7), solver="anderson", tol=1e-24) for y in (load, load - Q / f))
+    by_hand = f * f / (mpmath.pi * G) * mpmath.quad(lambda r: (load - under(r)) * (under(r) - load + Q / f) / r, [c, b])
+    profile = sie.FromFunction(lambda x: np.sinh(x) + 0.1 * x * x, domain=(-3.0, 3.0))
+    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.1)
+    assert sie.solve(scene).energy_lost == pytest.approx(float(by_hand), rel=1e-12)
 
 
 def test_energy_of_loading_hertz_with_a_growing_normal_load():
@@ -220,11 +315,19 @@ def test_a_normal_load_that_changes_at_a_given_moment_is_refused():
     assert sie.follow(tilted, sie.Path([(P, 0.05), (P, -0.05)]))[1].check().shear.ok
 
 
-def test_zones_that_retreat_under_a_bulk_stress_are_refused_with_the_step():
-    history = sie.follow(HERTZ, sie.Path([(P, 0.6 * FP, 0.5), (P, 0.0, 0.0)]))
-    for solution in history:
-        with pytest.raises(sie.ContactError, match="retreat"):
-            _ = solution.stick
+@pytest.mark.parametrize("more", [{}, {"moment": 0.02}], ids=["tilt", "moment"])
+def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(more):
+    """With the same remark; a return from there is refused, since it depends on the way."""
+    given = fields(HERTZ) | {"tilt": 0.0} | more
+    history = sie.follow(sie.Scene(**given), sie.Path([(P, 0.6 * FP, 0.5), (P, 0.0, 0.0)]))
+    scene = sie.solve(sie.Scene(**given, tangential_load=0.6 * FP, bulk_stress=0.5))
+    x = np.linspace(*scene.edges, 21)
+    assert history[0].stick == scene.stick and history[0].energy_lost == scene.energy_lost
+    assert (history[0].shear(x) == scene.shear(x)).all() and (history[0].slip(x) == scene.slip(x)).all()
+    for solution in (history[0], scene):
+        assert "retreat" in str(solution.check())
+    with pytest.raises(sie.ContactError, match=r"step 1 .*retreat"):
+        _ = history[1].stick
 
 
 @pytest.mark.parametrize(
@@ -308,7 +411,7 @@ def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
     assert coarse[:, 0].max() < 6e-3 and coarse[:, 2].max() < 1.5
     assert fine[:, 0].max() < 1.6e-3 and fine[:, 2].max() < 1.5
     assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
-    assert fine[-1, 1] < 2e-2
+    assert fine[-1, 1] < 0.45 * coarse[-1, 1]  # of a zone of a few elements the slip is known to few digits, on any mesh
 
 
 def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():

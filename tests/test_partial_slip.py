@@ -1,6 +1,7 @@
 """Cattaneo and Mindlin for any profile: zones, shear, slip and energy against closed forms in many digits, and laws for every contact."""
 
 import math
+import re
 
 import mpmath
 import numpy as np
@@ -297,6 +298,30 @@ def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
     assert abs(E * r / 2 * mp.quad(lambda phi: H(phi) * mp.sin(phi), ends) / left_over(sie.solve(scene)) - 1) < 1e-14
 
 
+def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
+    """The strain pulls the far side back, and all of Q is held at the edge: q = -f (p - p̂), p̂ under P + |Q|/f."""
+    scene = sie.Scene(profile=sie.Flat(1.0), modulus=2.0, normal_load=0.2, friction=0.6, tilt=0.125, tangential_load=0.02, bulk_stress=0.1)
+    solution = sie.solve(scene)
+    assert solution.tangential.kind == "one sign"
+    ((lo, hi, sign),) = solution.tangential.slipped
+    assert sign == -1.0 and solution.stick == ((-1.0, lo),) and hi == solution.edges[1]
+    t = (np.arange(20_000) + 0.5) * np.pi / 20_000
+    x, r = solution.centre + solution.half_width * np.cos(t), solution.half_width
+    assert float(solution.shear(x) @ (r * np.sin(t))) * np.pi / 20_000 == pytest.approx(0.02, rel=1e-4)
+    assert solution.check().shear.ok
+
+
+@pytest.mark.parametrize("Q", [0.30000001, 0.3 * (1.0 + 1e-14), 0.41, 2.0 / 3.0])
+def test_a_refused_load_is_told_from_what_friction_carries_and_the_advice_is_enough(Q):
+    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=1.0, friction=0.3)
+    with pytest.raises(sie.LoadError) as caught:
+        _ = sie.solve(scene).with_(tangential_load=Q).stick
+    asked, carried, advised = re.match(r"\|Q\| = (\S+) exceeds f P = (\S+): .* raise normal_load to (\S+) or", str(caught.value)).groups()
+    assert asked != carried
+    assert sie.solve(scene).with_(tangential_load=float(carried)).shear.resultant == float(carried)
+    assert sie.solve(scene).with_(tangential_load=Q, normal_load=float(advised)).shear.resultant == Q
+
+
 def reverse_slip_of_hertz(strain):
     """c/b of the stick zone when a bulk stress alone acts, strain = τ/(f p0): ∫_c^1 sqrt(1 - s²)/sqrt(s² - c²) ds = π/2 strain.
 
@@ -401,6 +426,17 @@ def test_every_bulk_stress_is_solved(profile, fraction):
         assert 0.0 < solution.energy_lost < math.inf
 
 
+@pytest.mark.parametrize("strain", [-0.771, -0.77, -0.769, 0.77])
+def test_a_stick_zone_that_ends_next_to_the_tip_of_a_wedge_carries_the_load(strain):
+    """Newton's method for a narrow zone goes to and fro across the tip, where p is infinite, and must not be believed."""
+    f = 0.3
+    scene = sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=0.4, friction=f)
+    sigma = 4.0 * strain * f * 0.4 / sie.solve(scene).half_width
+    solution = sie.solve(scene).with_(tangential_load=-0.62 * f * 0.4, bulk_stress=sigma)
+    assert abs(solution.stick[0][0 if strain < 0.0 else 1]) < 0.01 * solution.half_width
+    assert solution.check().shear.ok, solution.check().shear
+
+
 def test_a_stick_zone_between_two_doubles_is_solved_for_a_slope_given_by_a_function():
     solution = sheared(sie.Power(4.2, 0.2), 1.0 - 1e-9, bulk_stress=-1e3 * P)
     assert solution.tangential.kind == "two signs"
@@ -421,6 +457,20 @@ def test_the_certificate_of_a_stick_zone_at_a_sharp_edge_raises_no_false_alarm(l
     """q is infinite at an edge of the stick zone, which the abscissae there do not resolve."""
     for profile in (sie.Flat(1.0), sie.Flat(1.0) + sie.Parabola(8.0)):
         assert sheared(profile, 1.0 - left, tilt=tilt).check().ok
+
+
+@settings(max_examples=25)
+@given(st.floats(1.1, 6.0), st.floats(-1.0, 1.0), st.floats(0.05, 0.9), st.floats(-0.3, 0.3), st.sampled_from([0.3, 1.0]))
+def test_slip_and_energy_of_mirror_images_under_a_bulk_stress_agree(exponent, size, fraction, strain, f):
+    """The slope of a power ends with the contact: seen from the edge it ended an ulp inside it, and what is left of 1e-16 is 1e-8."""
+    scene = sie.Scene(profile=sie.Power(exponent, 10.0**size), modulus=1.0, normal_load=0.3, friction=f)
+    plain = sie.solve(scene)
+    sigma = 4.0 * strain * fraction * f * 0.3 / plain.half_width
+    here, there = (plain.with_(tangential_load=sign * fraction * f * 0.3, bulk_stress=sigma) for sign in (1.0, -1.0))
+    assert here.energy_lost == pytest.approx(there.energy_lost, rel=1e-12)
+    x = np.array(here.edges)
+    slip = here.slip(x)
+    assert slip == pytest.approx(-there.slip(-x), rel=1e-12, abs=1e-13 * np.abs(slip).max())
 
 
 PAIRS = st.tuples(st.integers(-90, 90), st.integers(-100, 100)).map(lambda pair: (pair[0] / 100, pair[1] / 100))

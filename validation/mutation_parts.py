@@ -209,7 +209,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "a cycle counts one branch",
         partial(
             number,
-            _instead(history.History, "step_energy", lambda right, self, k: right(self, k) * (0.5 if k else 1.0)),
+            _instead(history.History, "_step_energies", lambda right, self, k: [W / (2 if j else 1) for j, W in zip(k, right(self, k))]),
             _cycle,
             _true_cycle,
         ),
