@@ -20,10 +20,12 @@ from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, Interval
 from .panels import CHOP, Panels
+from .profile import Profile
 from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 from .slope_density import PanelDensity, SlopeDensity, TransformDensity
+from .unseen import between_pieces, between_points, on_pieces
 from .widest import widest_contact
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
@@ -40,20 +42,29 @@ LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
 HUGE = 1e300  # stands for an open end of the bracket
+LOOKS = 4  # at a function between the points that resolved it, each after breaks where the last one found it to change unseen
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact, and whether its symmetry halved the search."""
+    """The found contact, whether its symmetry halved the search, and the breaks that a function's slope needs beside the declared ones."""
 
     edges: Edges
     symmetric: bool
+    seen: tuple[float, ...] = ()
+
+    def slope(self, profile: Profile) -> Slope:
+        """H of the profile as it is pressed: with these breaks, and tilted."""
+        return _broken(profile.pieces, self.seen).tilted(self.edges.tilt)
 
 
-def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
-    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it."""
-    found = _contact(scene, tol, economy)
+def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY, seen: tuple[float, ...] | None = None) -> Normal:
+    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it.
+
+    `seen` are the breaks found in a larger contact of the same profile, which need not be looked for again.
+    """
+    found = _contact(scene, tol, economy, seen)
     ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
@@ -64,10 +75,18 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
     return found
 
 
-def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+def _broken(slope: Slope, places: tuple[float, ...]) -> Slope:
+    for x in places:
+        slope = slope.split_at(x)
+    return slope
+
+
+def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None) -> Normal:
     profile = scene.profile
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
+    looks = 0 if profile.convex or seen is not None else LOOKS
+    seen = seen or ()
     lo, hi = _first_window(scene)
     ends = profile.domain
     carried = 0.0  # the largest load that the last window carried
@@ -75,7 +94,8 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
-            found = _searched(scene, refined(profile.pieces, lo, hi, _resolution(tol)), economy)
+            resolved = refined(_broken(profile.pieces, seen), lo, hi, _resolution(tol))
+            found = _searched(scene, resolved, economy)
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
             if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
@@ -95,13 +115,40 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
         fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
         # A window that had to grow again after it was fitted belongs to a profile that is not convex: it stays
         if hi - lo <= WINDOW * (contact.x2 - contact.x1) or fitted == (lo, hi) or settled or shrunk >= MOST_SHRUNK:
-            return found
+            found = replace(found, seen=seen)
+            more = _unseen(found, resolved, scene, tol, economy) if looks else ()
+            if not more:
+                return found
+            looks -= 1
+            seen += more if profile.axis is None else (*more, *(2.0 * profile.axis - x for x in more))
+            continue
         shrunk += 1
         lo, hi = fitted
 
 
+def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]) -> tuple[float, ...]:
+    """Where the slope needs a break that it does not have: by the pieces that gave the edges, and by what will give the pressure."""
+    slope, contact = found.slope(scene.profile), found.edges.contact
+    series = None if scene.epsilon or "transform" not in economy else _series(slope, contact, _resolution(tol))
+    places, known = between_pieces(slope, resolved, contact), [on_pieces(slope, resolved, contact)]
+    if series is not None:
+        known.append(lambda x: chebyshev.evaluate(series, contact.s(x)))
+    else:
+        resolved = refined(slope, contact.x1, contact.x2, _resolution(tol))
+        places += between_pieces(slope, resolved, contact)
+        known.append(on_pieces(slope, resolved, contact))
+    return places + between_points(slope, known, contact)
+
+
 def contact_under(
-    load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, *, near: Interval | None = None
+    load: float,
+    tilt: float,
+    scene: Scene,
+    tol: float,
+    economy: Collection[str] = ECONOMY,
+    *,
+    near: Interval | None = None,
+    seen: tuple[float, ...] | None = None,
 ) -> Normal:
     """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
     profile = scene.profile
@@ -110,7 +157,7 @@ def contact_under(
         contact = search.symmetric_near(load, near)
         if contact is not None:
             return Normal(search.finished(contact, load, 0.0, (False, False)), True)
-    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy)
+    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen)
 
 
 def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:
@@ -118,7 +165,7 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
-    declared = scene.profile.pieces.tilted(edges.tilt)
+    declared = normal.slope(scene.profile)
     if scene.epsilon:
         slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
         geometry = SlidingGeometry(slope, contact, scene.epsilon, keep_zero="zero panels" not in economy)

@@ -104,7 +104,7 @@ class Solution:
 
     def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
         density = pressure(found, scene, self.tol, self.economy)
-        slope = scene.profile.pieces.tilted(found.edges.tilt)
+        slope = found.slope(scene.profile)
         if not ("convexity" in self.economy and slope_rises(density, slope)):
             verify_inequalities(density, slope)
         return density
@@ -162,7 +162,7 @@ class Solution:
 
     @property
     def _slope(self) -> Slope:
-        return self.scene.profile.pieces.tilted(self.normal.edges.tilt)
+        return self.normal.slope(self.scene.profile)
 
     # -- answers ------------------------------------------------------------------------------------------------------
 
