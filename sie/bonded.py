@@ -28,6 +28,7 @@ from .errors import ContactError
 from .interval import Interval
 from .jacobi_density import JacobiDensity
 from .scene import Scene
+from .validity import notes
 
 Array = NDArray[Any]
 Complex = NDArray[np.complex128]
@@ -141,4 +142,5 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
         lowest_gap=0.0,
         abscissae=0.0,
         tol=tol,
+        notes=notes(np.array([edges.tilt]), float(values.real.max()) / scene.Estar),
     )

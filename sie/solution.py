@@ -53,6 +53,7 @@ class Solution:
     stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
+    notes        sentences on what half-plane elasticity leaves out here: large slopes, large pressures
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -290,6 +291,13 @@ class Solution:
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, 0.0)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on strains that are not small: where the slope in the contact exceeds 0.2 or the pressure E*/4; () elsewhere."""
+        if self.scene.bonded or "certificate" in self.__dict__:
+            return self.certificate.notes
+        return certificate(self.slope_density, self._slope, self.tol).notes
 
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""

@@ -5,8 +5,8 @@ A function is known by its values at some points only. Two things tell that it c
     its values at the points of a low-discrepancy sequence, {start + k (√5 - 1)/2} over the contact, differ from the resolved ones;
     two neighbouring pieces differ where they meet: the function jumps between the end of a piece and the first point on it.
 
-The digits of the contact's edges determine where the sequence starts, so no profile can be made to agree with it. The largest gap between
-SAMPLES of its points is 3.5e-4 of the contact (Sós 1957, three gaps); what is narrower may stay unseen.
+The digits of the contact's edges determine where the sequence starts, so no profile can be made to agree with it. SAMPLES is a Fibonacci
+number: the largest gap between so many points is 2.9e-4 of the contact (Sós 1957, three gaps); what is narrower may stay unseen.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 import zlib
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,10 +27,11 @@ from .slope import Slope
 Array = NDArray[np.float64]
 Known = Callable[[Array], Array]
 
-SAMPLES = 4096
+SAMPLES = 4181
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 MISSED = 32.0 * EPS  # of the largest slope: what differs by more was not seen
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
+CLOSER = 129  # points about the worst
 MOST = 64  # places that are looked at more closely at once
 FIRST_POINT = 0.003  # of a piece's length: the first of 17 Chebyshev points lies nearer to its end
 CLOSE = 512.0  # ulp: a piece so short belongs to a jump, a kink or a cusp
@@ -37,20 +39,20 @@ JUMP = 0.25  # of the difference between two pieces, from one double to the next
 BISECTIONS = 200
 
 
-def scattered(contact: Interval) -> Array:
+def scattered(contact: Interval, start_at: int = 0) -> Array:
     """Points inside the contact, ascending: SAMPLES of the low-discrepancy sequence that its edges determine."""
     start = zlib.crc32(np.array([contact.x1, contact.x2]).tobytes()) / 2.0**32
-    fractions = np.sort((start + GOLDEN * np.arange(SAMPLES)) % 1.0)
+    fractions = np.sort((start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0)
     x = contact.x1 + (contact.x2 - contact.x1) * fractions
     return x[(x > contact.x1) & (x < contact.x2)]
 
 
-def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval) -> tuple[Array, Array]:
+def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, start_at: int = 0) -> tuple[Array, Array]:
     """(x, how far the worst of some resolutions is from H) on scattered points; 0 where that may be rounding.
 
     Of H, that is, of the function's own making, and of x.
     """
-    x = scattered(contact)
+    x = scattered(contact, start_at)
     if len(x) < 2:
         return x, np.zeros(len(x))
     H = slope(x)
@@ -60,6 +62,18 @@ def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval) -> tup
     steep = np.maximum(np.append(rises, 0.0), np.append(0.0, rises))
     allowed = MISSED * float(np.abs(H).max()) + _noise(slope, contact) + STEEPER * np.spacing(np.abs(x).max()) * steep
     return x, np.where(difference > allowed, difference, 0.0)
+
+
+def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interval) -> float:
+    """The largest |H - known(x)| beyond rounding, at points that did not serve `between_points`, or difference between two pieces."""
+    pieces = _common_ends(slope, resolved, contact)
+    apart = float(pieces.difference[pieces.apart].max(initial=0.0))
+    x, missed = misfit(slope, [known], contact, SAMPLES)
+    if not missed.any():
+        return apart
+    worst = int(np.argmax(missed))
+    near = np.linspace(x[max(worst - 1, 0)], x[min(worst + 1, len(x) - 1)], CLOSER)
+    return max(apart, float(missed[worst]), float(np.abs(slope(near) - known(near)).max()))
 
 
 def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval) -> tuple[float, ...]:
@@ -77,19 +91,34 @@ def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval
 
 def between_pieces(slope: Slope, resolved: Slope, contact: Interval) -> tuple[float, ...]:
     """Breaks where two pieces of its resolution, which no break tells apart, differ at their common end."""
-    (lo, hi), c = _expanded(slope, resolved, contact)
-    left, right = c.sum(axis=1)[:-1], (c @ (-1.0) ** np.arange(c.shape[1]))[1:]
-    length, ulp = hi - lo, np.spacing(np.maximum(np.abs(lo), np.abs(hi)))
-    steep = np.abs(c[:, 1:]) @ np.arange(1.0, c.shape[1]) ** 2 / (0.5 * length)
-    rounding = STEEPER * ulp * np.minimum(steep, np.abs(c).sum(axis=1) / length)
-    allowed = MISSED * float(np.abs(c).sum(axis=1).max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
-    near = np.maximum(FIRST_POINT * length, np.minimum(length, CLOSE * ulp))
+    lo, hi, difference, apart = _common_ends(slope, resolved, contact)
+    length = hi - lo
+    near = np.maximum(FIRST_POINT * length, np.minimum(length, CLOSE * np.spacing(np.maximum(np.abs(lo), np.abs(hi)))))
     places: list[float] = []
-    for j in np.flatnonzero((np.abs(left - right) > allowed) & ~np.isin(hi[:-1], slope.breaks))[:MOST].tolist():
+    for j in np.flatnonzero(apart)[:MOST].tolist():
         bracket = (float(hi[j] - near[j]), float(hi[j] + near[j + 1]))
-        jump = _jump(slope, *bracket, float(abs(left[j] - right[j])))
+        jump = _jump(slope, *bracket, float(difference[j]))
         places += bracket if jump is None else [jump]
     return _new(places, slope, contact)
+
+
+class _CommonEnds(NamedTuple):
+    """Pieces [lo, hi] (K,), how far two neighbours differ at their common end (K - 1,), and where that is more than rounding."""
+
+    lo: Array
+    hi: Array
+    difference: Array
+    apart: NDArray[np.bool_]
+
+
+def _common_ends(slope: Slope, resolved: Slope, contact: Interval) -> _CommonEnds:
+    (lo, hi), c = _expanded(slope, resolved, contact)
+    difference = np.abs(c.sum(axis=1)[:-1] - (c @ (-1.0) ** np.arange(c.shape[1]))[1:])
+    length, size = hi - lo, np.abs(c).sum(axis=1)
+    steep = np.minimum(np.abs(c) @ np.arange(c.shape[1]) ** 2 / (0.5 * length), size / length)
+    rounding = STEEPER * np.spacing(np.maximum(np.abs(lo), np.abs(hi))) * steep
+    allowed = MISSED * float(size.max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
+    return _CommonEnds(lo, hi, difference, (difference > allowed) & ~np.isin(hi[:-1], slope.breaks))
 
 
 def on_pieces(slope: Slope, resolved: Slope, contact: Interval) -> Known:
