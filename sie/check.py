@@ -3,13 +3,15 @@
     residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak       the integral equation (1)
     equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)              the equation is blind to C/w(x): these are not
     inequalities  p >= 0 in contact, gap >= 0 outside
-    resolution    E*/2 |h' - its resolution| / peak                      of a slope that is a function
-    edges         what is wrong with the edges, as a load ΔP             for smooth edges by the conditions that fix them
+    resolution    E*/2 |h' - its resolution| / peak                      of a function
+    edges         ΔP/(π r peak), ΔP the load that wrong edges carry      by their conditions
 
 The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope: nothing of the closed forms is used.
-The resolution is compared at points of a low-discrepancy sequence (`unseen`). An edge x2 that is off by δ carries ΔP = G r JR δ too much
-(`edges`), and leaves ΔP/(π w(x)) in the pressure, w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next to the edge that is
-p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if x2 is kept as a double; of ΔP the rounding of ∫H dφ is a part.
+The resolution is compared at points of a low-discrepancy sequence (`unseen`). An edge x2 that is
+off by δ carries ΔP = G r JR δ too much (`edges`), and leaves ΔP/(π w(x)) in the pressure,
+w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next to the edge that is p(x) δ/(2 d), d
+the distance from it. δ is at least half an ulp of x2, if x2 is kept as a double; the rounding of
+∫H dφ is a part of ΔP.
 """
 
 from __future__ import annotations
@@ -37,12 +39,13 @@ Array = NDArray[np.float64]
 Intervals = tuple[tuple[float, float], ...]
 
 PROMISE = (
-    "At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges sqrt(r/d)) of its peak, or of "
-    "p(x) where that is larger, but for errors below 1e-15 of the peak, for what one ulp of x changes, and for what a "
-    "function does on less than 3e-4 of the contact."
+    "At a distance d from the nearer edge the pressure is wrong by at most "
+    "3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors "
+    "below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less "
+    "than 5e-4 of the contact."
 )
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
-LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value on a piece
+LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
 SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
 EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
@@ -53,7 +56,8 @@ TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
-AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))  # from an edge, in half-widths
+# Distances from an edge, in half-widths.
+AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
 FEW_ULP = 1e8  # of the edges' doubles: in a smaller contact a node may be a point between
 TOGETHER = 2**17  # entries of a matrix that are computed at once
@@ -65,19 +69,23 @@ SCANNED = 600  # points in contact at which the pressure's sign is looked at, at
 class Certificate:
     """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
 
-    At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges sqrt(r/d)) of its peak, or of p(x) where
-    that is larger, but for errors below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less than
-    3e-4 of the contact.
+    At a distance d from the nearer edge the pressure is wrong by at most
+    3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below
+    1e-15 of the peak, for what one ulp of x changes, and for what a function does on less than
+    5e-4 of the contact.
 
     abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
     implied         the error of the pressure that would leave this residual
-    resolution      how much a function differs from its resolution where that had not been compared with it, as a pressure
-    edges           what the load and rounding leave unknown of the edges, as the error of the pressure at a distance r from them
+    resolution      how far a function is from its resolution at points of its own, as a pressure
+    edges           what the load and rounding leave unknown of the edges, as an error of the
+                    pressure at a distance r from them
     error           the estimated relative error of the pressure: the largest of these
     tension, overlap    the intervals of x where p < 0 in contact and gap < 0 outside, as closely as these were scanned
-    notes           sentences on what the equations leave out: strains that are not small. They do not count for `ok`
+    notes           sentences on what the equations leave out: strains that are not small; they do
+                    not count for `ok`
 
-    Where dissimilar bodies slide, with the exponents 1/2 ± ε at the edges, the root is (r/d)^(1/2 + |ε|).
+    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is
+    (r/d)^(1/2 + |ε|).
     """
 
     residual: float
@@ -226,7 +234,10 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 
 def _load_on_edges(density: SlopeDensity, slope: Slope) -> float:
-    """ΔP, by which the edges miss their conditions: measured, by rounding of the integrals, and by that of the edges to doubles."""
+    """ΔP, by which smooth edges miss their conditions.
+
+    As measured, by rounding of the integrals, and by that of the edges to doubles.
+    """
     contact, r, e = density.contact, density.contact.r, density.epsilon
     G = density.half_modulus * math.cos(math.pi * e)
     k = sliding_moments(slope, contact, e) if e else moments(slope, contact)
@@ -364,8 +375,8 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
 def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
     """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the nodes, as a stress.
 
-    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p itself must not excuse itself. `change` is
-    that of H in one ulp between the nodes.
+    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p
+    itself must not excuse itself. `change` is that of H in one ulp between the nodes.
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]
@@ -417,6 +428,10 @@ def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
     """
     if slope.functions:
         return False
-    x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf))) if not slope.continuous else x
+    if not slope.continuous:
+        x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf)))
     left, right = density.contact.from_left(x) < 0.0, density.contact.from_right(x) < 0.0
-    return all(bool((sign * gap_slope(x[side], density, slope) >= 0.0).all()) for sign, side in ((-1.0, left), (1.0, right)) if side.any())
+    for sign, side in ((-1.0, left), (1.0, right)):
+        if side.any() and not (sign * gap_slope(x[side], density, slope) >= 0.0).all():
+            return False
+    return True

@@ -55,8 +55,13 @@ def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
 
 
 def real_values(name: str, function: Callable[..., Any], x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What a user's function of an array returns, as floats of x's shape; ValueError unless it is real numbers of that shape, or one."""
+    """What a user's function of an array returns, as floats of x's shape.
+
+    ValueError unless it returns real numbers of that shape, or one.
+    """
     returned = of_arrays(name, function, x)
+    if type(returned) is np.ndarray and returned.dtype == x.dtype and returned.shape == x.shape:
+        return returned
     try:
         values = np.asarray(returned)
     except ValueError:

@@ -45,7 +45,9 @@ class Rule(NamedTuple):
 def composite_rule(
     contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0, *, resolution: Slope | None = None
 ) -> Rule:
-    """The composite rule; `also` are places inside to be treated as breaks, `resolution` the slope with its functions resolved there.
+    """The composite rule; `also` are places inside to be treated as breaks.
+
+    `resolution` is the slope with its functions resolved in the contact.
 
     Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
     edges take the powers ψ^(±2ε) of sliding into their weights.

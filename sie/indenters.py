@@ -294,11 +294,12 @@ class FromFunction(Profile):
     h = 0 at x = 0, or at the end of the domain nearest to it. Raises ValueError if the function does not return finite real numbers of
     its argument's shape.
 
-    A function is known by its values at some points. What resolves it is compared with it at 4181 points of the contact that no function
-    can know beforehand, and a jump, a kink, a cusp or a narrow feature that was not declared is found there and resolved like one that
-    was. Sampling cannot find what happens (a bump, a dent, two jumps, nan) on less than 3e-4 of the contact, nor what is below 32 ulp
-    of the largest slope, or 8 times the roughness of the function's own rounding. A jump's place is known to one ulp of x. Where the
-    function has such places, declare breaks around them.
+    A function is known by its values at some points. What resolves it is compared with it at 2584
+    points of the contact that no function can know beforehand, and a jump, a kink, a cusp or a
+    narrow feature that was not declared is found and resolved like one that was. Sampling cannot
+    find what happens (a bump, a dent, two jumps, nan) on less than 5e-4 of the contact, nor what is
+    below 32 ulp of the largest slope or 8 times the roughness of the function's own rounding. The
+    place of a jump is known to one ulp of x. Declare breaks around such places.
     """
 
     function: Vectorised

@@ -25,7 +25,7 @@ from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 from .slope_density import PanelDensity, SlopeDensity, TransformDensity
-from .unseen import between_pieces, between_points, on_pieces
+from .unseen import Pieces, between_pieces, between_points, expanded
 from .widest import widest_contact
 
 # What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
@@ -42,17 +42,18 @@ LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100
 HUGE = 1e300  # stands for an open end of the bracket
-LOOKS = 4  # at a function between the points that resolved it, each after breaks where the last one found it to change unseen
+# Looks at a function between the points that resolved it, each with the breaks that the last added.
+LOOKS = 4
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact, whether its symmetry halved the search, and the breaks that a function's slope needs beside the declared ones."""
+    """The found contact, and whether its symmetry halved the search."""
 
     edges: Edges
     symmetric: bool
-    seen: tuple[float, ...] = ()
+    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
 
     def slope(self, profile: Profile) -> Slope:
         """H of the profile as it is pressed: with these breaks, and tilted."""
@@ -127,17 +128,22 @@ def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[flo
 
 
 def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]) -> tuple[float, ...]:
-    """Where the slope needs a break that it does not have: by the pieces that gave the edges, and by what will give the pressure."""
+    """Where the slope needs a break that it does not have.
+
+    By the pieces that gave the edges, and by what will give the pressure.
+    """
     slope, contact = found.slope(scene.profile), found.edges.contact
-    series = None if scene.epsilon or "transform" not in economy else _series(slope, contact, _resolution(tol))
-    places, known = between_pieces(slope, resolved, contact), [on_pieces(slope, resolved, contact)]
-    if series is not None:
-        known.append(lambda x: chebyshev.evaluate(series, contact.s(x)))
-    else:
+    pieces = expanded(slope, resolved, contact)
+    places = between_pieces(slope, pieces, contact)
+    transform = not scene.epsilon and "transform" in economy
+    series = _series(slope, contact, _resolution(tol)) if transform else None
+    if series is None:
         resolved = refined(slope, contact.x1, contact.x2, _resolution(tol))
-        places += between_pieces(slope, resolved, contact)
-        known.append(on_pieces(slope, resolved, contact))
-    return places + between_points(slope, known, contact)
+        final = expanded(slope, resolved, contact)
+        places += between_pieces(slope, final, contact)
+    else:
+        final = Pieces(np.array([contact.x1]), np.array([contact.x2]), series[None])
+    return places + between_points(slope, (pieces.H, final.H), contact)
 
 
 def contact_under(

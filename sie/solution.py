@@ -294,7 +294,7 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on strains that are not small: where the slope in the contact exceeds 0.2 or the pressure E*/4; () elsewhere."""
+        """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
         if self.scene.bonded or "certificate" in self.__dict__:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes

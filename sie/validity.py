@@ -1,6 +1,7 @@
-"""Where half-plane elasticity holds: small slopes and small pressures. Beyond, an answer is that of the equations, not of the bodies.
+"""Where half-plane elasticity holds: at small slopes and small pressures.
 
-Linear elasticity on the undeformed half-plane needs small strains. These are of the order of the slope, and of p/E*.
+Linear elasticity on the undeformed half-plane needs small strains. These are of the order of the
+slope, and of p/E*. Beyond, an answer is that of the equations and not of the bodies.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def notes(slopes: Array, pressure: float) -> tuple[str, ...]:
 
 
 def regular_points(density: SlopeDensity, slope: Slope, x: Array) -> NDArray[np.bool_]:
-    """Which x are not next to a sharp edge or a corner of the profile, where the pressure is infinite."""
+    """Which x are not next to a sharp edge or a corner, where the pressure is infinite."""
     contact = density.contact
     infinite = [edge for edge, k in zip(density.interval, (density.k1, density.k2), strict=True) if k]
     if not slope.continuous:
