@@ -26,7 +26,7 @@ SIZES = (17, 33)  # points a piece is tried with before it is split
 TAIL = 3  # the last coefficients that must have decayed
 # Points on no grid, where a settled series must agree with the function: what lies between the points is seen there, if not always.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
-MISSED = 1e3
+MISSED = 32.0  # times what the series itself may miss
 NEIGHBOURS, CLOSE = 12, 1e-6
 NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
@@ -113,7 +113,7 @@ def _degrees(
     s = np.concatenate((chebyshev.points(n), PROBES))
     x = middle[:, None] + half[:, None] * s
     values = function(x)
-    _refuse_non_finite(x, values)
+    refuse_non_finite(x, values)
     scale = max(scale, float(np.abs(values).max()))
     c = chebyshev.transform(values[:, :n])
     enough = tolerance.of(pieces, values, scale)
@@ -141,12 +141,12 @@ def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> 
     middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
     s = chebyshev.points(NEIGHBOURS)
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
-    _refuse_non_finite(middle[:, None] + 0.0 * s, values)
+    refuse_non_finite(middle[:, None] + 0.0 * s, values)
     left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
     return float(np.median(np.abs(left).max(axis=1)))
 
 
-def _refuse_non_finite(x: Array, values: Array) -> None:
+def refuse_non_finite(x: Array, values: Array) -> None:
     bad = ~np.isfinite(values)
     if bad.any():
         raise ValueError(

@@ -29,6 +29,7 @@ from .interval import Interval
 from .jacobi_density import JacobiDensity
 from .normal import refuse_out_of_scale
 from .scene import Scene
+from .validity import notes
 
 Array = NDArray[Any]
 Complex = NDArray[np.complex128]
@@ -160,4 +161,5 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
         lowest_gap=0.0,
         abscissae=0.0,
         tol=tol,
+        notes=notes(np.array([edges.tilt]), float(values.real.max()) / scene.Estar),
     )

@@ -3,8 +3,15 @@
     residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak       the integral equation (1)
     equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)              the equation is blind to C/w(x): these are not
     inequalities  p >= 0 in contact, gap >= 0 outside
+    resolution    E*/2 |h' - its resolution| / peak                      of a function
+    edges         ΔP/(π r peak), ΔP the load that wrong edges carry      by their conditions
 
 The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope: nothing of the closed forms is used.
+The resolution is compared at points of a low-discrepancy sequence (`unseen`). An edge x2 that is
+off by δ carries ΔP = G r JR δ too much (`edges`), and leaves ΔP/(π w(x)) in the pressure,
+w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next to the edge that is p(x) δ/(2 d), d
+the distance from it. δ is at least half an ulp of x2, if x2 is kept as a double; the rounding of
+∫H dφ is a part of ΔP.
 """
 
 from __future__ import annotations
@@ -19,15 +26,29 @@ from numpy.typing import NDArray
 from .adaptive import refined
 from .composite import Rule, angles, composite_rule, inner_breaks, position
 from .errors import InequalityError
-from .gap import gap
+from .gap import gap, gap_slope
 from .interval import EPS, Interval
+from .moments import moments
+from .sliding import sliding_moments
 from .slope import Slope
 from .slope_density import SlopeDensity
+from .unseen import largest_misfit
+from .validity import notes, regular_points
 
 Array = NDArray[np.float64]
 Intervals = tuple[tuple[float, float], ...]
 
+PROMISE = (
+    "At a distance d from the nearer edge the pressure is wrong by at most "
+    "3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors "
+    "below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less "
+    "than 5e-4 of the contact."
+)
+LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
+LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
+SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
 EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
+MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
 # Tension or overlap below this fraction of the peak is rounding.
@@ -35,7 +56,11 @@ TOLERATED = 1e-11
 FAR = 1e3  # half-widths, how far out the gap is looked at
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
+# Distances from an edge, in half-widths.
+AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
+FEW_ULP = 1e8  # of the edges' doubles: in a smaller contact a node may be a point between
+TOGETHER = 2**17  # entries of a matrix that are computed at once
 ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 
@@ -44,10 +69,23 @@ SCANNED = 600  # points in contact at which the pressure's sign is looked at, at
 class Certificate:
     """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
 
+    At a distance d from the nearer edge the pressure is wrong by at most
+    3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below
+    1e-15 of the peak, for what one ulp of x changes, and for what a function does on less than
+    5e-4 of the contact.
+
     abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
     implied         the error of the pressure that would leave this residual
+    resolution      how far a function is from its resolution at points of its own, as a pressure
+    edges           what the load and rounding leave unknown of the edges, as an error of the
+                    pressure at a distance r from them
     error           the estimated relative error of the pressure: the largest of these
     tension, overlap    the intervals of x where p < 0 in contact and gap < 0 outside, as closely as these were scanned
+    notes           sentences on what the equations leave out: strains that are not small; they do
+                    not count for `ok`
+
+    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is
+    (r/d)^(1/2 + |ε|).
     """
 
     residual: float
@@ -61,23 +99,26 @@ class Certificate:
     tension: Intervals = ()
     overlap: Intervals = ()
     shear: ShearCertificate | None = None
+    resolution: float = 0.0
+    edges: float = 0.0
+    notes: tuple[str, ...] = ()
 
     @property
     def error(self) -> float:
-        defects = (self.residual, self.implied, self.force, self.moment)
-        return max(2.0 * EPS, *(float("inf") if math.isnan(d) else d for d in defects))
+        defects = (self.residual, self.implied, self.force, self.moment, self.resolution, self.edges)
+        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in defects))
 
     @property
     def ok(self) -> bool:
         """Every defect within tol, but for what rounding of the abscissae explains."""
-        allowed = self.tol + EXPLAINED * self.abscissae
+        allowed = _allowed(self.tol, self.abscissae)
         if self.shear is not None and not self.shear.ok:
             return False
         return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
         numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {"error": self.error, "ok": self.ok}
-        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")}
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {"notes": list(self.notes)}
         return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
 
     def __str__(self) -> str:
@@ -89,14 +130,16 @@ class Certificate:
             ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
             ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
             ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("function against its resolution, as p / peak", f"{self.resolution:.1e}"),
+            ("edges, as p / peak at a distance r from them", f"{self.edges:.1e}"),
             ("estimated relative error of the pressure", f"{self.error:.1e}"),
         )
         for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
             rows += ((f"{name} for {_shown(intervals)}", ""),) if intervals else ()
-        verdict = f"{'' if self.ok else 'NOT '}certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
+        verdict = f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}" if self.ok else f"NOT certified to {self.tol:.0e}"
         rows += self.shear.rows if self.shear is not None else ()
         lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
-        return "\n".join([*lines, *(self.shear.remarks if self.shear is not None else ()), verdict])
+        return "\n".join([*lines, *(self.shear.remarks if self.shear is not None else ()), verdict, PROMISE, *self.notes])
 
 
 @dataclass(frozen=True)
@@ -119,11 +162,11 @@ class ShearCertificate:
 
     @property
     def error(self) -> float:
-        return max(2.0 * EPS, *(float("inf") if math.isnan(d) else d for d in (self.residual, self.equilibrium, self.excess)))
+        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in (self.residual, self.equilibrium, self.excess)))
 
     @property
     def ok(self) -> bool:
-        allowed = self.tol + EXPLAINED * self.abscissae
+        allowed = _allowed(self.tol, self.abscissae)
         return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
@@ -147,6 +190,10 @@ class ShearCertificate:
         return (f"slip: {self.kind}, in total displacements: with Q and σ in proportion the zones of slip would retreat on the way here",)
 
 
+def _allowed(tol: float, abscissae: float) -> float:
+    return tol + min(EXPLAINED * abscissae, MOST_EXPLAINED)
+
+
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
@@ -155,14 +202,20 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
-    rule = composite_rule(contact, slope, epsilon=density.epsilon)
+    resolved = refined(slope, contact.x1, contact.x2, EPS)
+    rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
     peak = float(p.max())
     P, r = density.resultant, contact.r
-    residual = _residual(density, slope, rule, p)
+    H, H_beside, H_at_edges = _slopes(slope, contact, rule.between)
+    residual = _residual(density, H, rule, p)
     outside, gaps = _gaps(density, slope)
-    of_force, of_equation = _rounding(density, slope, rule, p)
+    of_force, of_equation = _rounding(density, H_beside - H, rule, p)
+    regular = regular_points(density, slope, x)
+    bounded_peak = float(p[regular].max(initial=0.0))
+    unseen = largest_misfit(slope, density.resolved_slope, resolved, contact) if slope.functions else 0.0
+    resolution = max(density.half_modulus * unseen / peak, LEAST_OF_FUNCTION if slope.functions else 0.0)
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,
         implied=_implied(residual, contact, rule.between) / peak,
@@ -174,7 +227,31 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         tol=tol,
         tension=_below(x, p / peak),
         overlap=_below(outside, gaps),
+        resolution=resolution,
+        edges=_load_on_edges(density, resolved) / (math.pi * r * (bounded_peak or peak)),
+        notes=notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )
+
+
+def _load_on_edges(density: SlopeDensity, slope: Slope) -> float:
+    """ΔP, by which smooth edges miss their conditions.
+
+    As measured, by rounding of the integrals, and by that of the edges to doubles.
+    """
+    contact, r, e = density.contact, density.contact.r, density.epsilon
+    G = density.half_modulus * math.cos(math.pi * e)
+    k = sliding_moments(slope, contact, e) if e else moments(slope, contact)
+    rounding = SUMMED * r * (k.positive + k.negative)
+    edges = (
+        (density.k1, contact.x1, contact.tail1, k.I1 - k.I0, k.JL, 0.5 + e),
+        (density.k2, contact.x2, contact.tail2, k.I1 + k.I0, k.JR, 0.5 - e),
+    )
+    missed = 0.0
+    for singular, x, tail, K, J, share in edges:
+        if not singular:
+            kept = 0.0 if tail else 0.5 * math.ulp(x)  # a tail holds what rounding took
+            missed = max(missed, abs(density.resultant / G - r * K) + kept * (r * J + share * abs(k.I0)))
+    return G * (missed + rounding)
 
 
 def _finite(p: Array) -> Array:
@@ -258,19 +335,30 @@ def _scan(contact: Interval, slope: Slope) -> Array:
     return position(contact, (ends[:-1, None] + np.diff(ends)[:, None] * fractions).ravel())
 
 
-def _residual(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> Array:
+def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, Array]:
+    """H at points, one ulp further in, and at the edges."""
+    H = slope(np.concatenate((at, np.nextafter(at, contact.m), (contact.x1, contact.x2))))
+    return H[: len(at)], H[len(at) : 2 * len(at)], H[2 * len(at) :]
+
+
+def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
     """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
-    at, inner = rule.between, rule.inner
+    at, x, contact = rule.between, rule.x, density.contact
     values = density(at)
-    whole = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
-    integral = whole.copy()
-    for k in range(len(at)):
-        distance = at[k] - rule.x
-        distance[distance == 0.0] = np.inf  # a contact of a few ulp: the node is the point
-        integrand = p.copy()
-        integrand[inner] -= values[k]
-        integral[k] += (integrand / distance) @ rule.weight
-    return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * slope(at)
+    taken_out = np.ones(1) if rule.inner == slice(None) else np.zeros(len(x))
+    taken_out[rule.inner] = 1.0
+    integral = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
+    a_few_ulp = contact.r < FEW_ULP * max(math.ulp(contact.x1), math.ulp(contact.x2))
+    rows = max(TOGETHER // len(x), 1)
+    for k in range(0, len(at), rows):
+        some = slice(k, k + rows)
+        integrand = p - values[some, None] * taken_out
+        distance = at[some, None] - x
+        if a_few_ulp:
+            distance[distance == 0.0] = np.inf  # the node is the point
+        integrand /= distance
+        integral[some] += integrand @ rule.weight
+    return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:
@@ -285,10 +373,11 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
     return float(np.abs(np.sin(np.outer(grid, n)) @ r).max() + MISPLACED * abs(r[0]))
 
 
-def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tuple[float, float]:
+def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
     """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the nodes, as a stress.
 
-    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p itself must not excuse itself.
+    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p
+    itself must not excuse itself. `change` is that of H in one ulp between the nodes.
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]
@@ -300,14 +389,13 @@ def _rounding(density: SlopeDensity, slope: Slope, rule: Rule, p: Array) -> tupl
     moved[:-1] = np.maximum(moved[:-1], steps)
     at = rule.between
     near = np.clip(np.searchsorted(x, at), 1, len(x) - 1) - 1
-    step = np.nextafter(at, density.contact.m)
-    return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(slope(step) - slope(at))).max())
+    return float(weight @ moved), float((moved[near] + density.half_modulus * np.abs(change)).max())
 
 
 def _beside(contact: Interval, slope: Slope) -> Array:
     """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks among them."""
     lo, hi = slope.domain
-    distance = contact.r * np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
+    distance = contact.r * AHEAD
     outer = slope.breaks[np.isfinite(slope.breaks)]
     x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
     return x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
@@ -317,6 +405,8 @@ def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
     contact, r = density.contact, density.contact.r
     x = _beside(contact, slope)
+    if _opens_everywhere(x, density, slope):
+        return x, np.zeros(len(x))
     # A function may overflow out there; from where it opens that steeply on, the gap is not looked at
     outward = np.sign(x - contact.m)
     opens = ~(outward * slope(x) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))
@@ -330,3 +420,19 @@ def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
         density.resultant / density.half_modulus * 1e-3,
     )
     return x, values / scale
+
+
+def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
+    """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need not be integrated.
+
+    Between its breaks a polynomial slope does nothing unseen there; a function might.
+    """
+    if slope.functions:
+        return False
+    if not slope.continuous:
+        x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf)))
+    left, right = density.contact.from_left(x) < 0.0, density.contact.from_right(x) < 0.0
+    for sign, side in ((-1.0, left), (1.0, right)):
+        if side.any() and not (sign * gap_slope(x[side], density, slope) >= 0.0).all():
+            return False
+    return True

@@ -107,7 +107,31 @@ def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
     """What a user's function returns; ValueError, with the remedy, if it fails as functions of single numbers do."""
     try:
         return function(*arrays)
-    except (TypeError, ValueError) as problem:
+    except Exception as problem:  # whatever a user's function may raise
         count = "an array" if len(arrays) == 1 else f"{len(arrays)} arrays"
         remedy = f"make it a function of {count} by NumPy's functions, or by np.vectorize"
         raise ValueError(f"{name} fails when called with {count} ({problem}): {remedy}") from problem
+
+
+def real_values(name: str, function: Callable[..., Any], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What a user's function of an array returns, as floats of x's shape.
+
+    ValueError unless it returns real numbers of that shape, or one.
+    """
+    returned = of_arrays(name, function, x)
+    if type(returned) is np.ndarray and returned.dtype == x.dtype and returned.shape == x.shape:
+        return returned
+    try:
+        values = np.asarray(returned)
+    except ValueError:
+        values = np.asarray(None)  # rows of unequal length
+    if values.dtype.kind == "c":
+        one = complex(values.flat[np.argmax(np.abs(values.imag))]) if values.size else 0j
+        raise ValueError(f"{name} returned complex numbers, like {one:.6g}: it must be real; return the real part if that is what is meant")
+    if values.dtype.kind not in "fiu" or values.shape not in (x.shape, ()):
+        kind = "one value" if values.shape == () else f"an array of shape {values.shape}"
+        raise ValueError(
+            f"{name} returned {kind} of type {values.dtype} for floats of shape {x.shape}: "
+            "make it a function of an array of any shape, by NumPy's functions or by np.vectorize"
+        )
+    return np.broadcast_to(values.astype(float, copy=False), x.shape)

@@ -42,15 +42,20 @@ class Rule(NamedTuple):
     ends: Interval
 
 
-def composite_rule(contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0) -> Rule:
+def composite_rule(
+    contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0, *, resolution: Slope | None = None
+) -> Rule:
     """The composite rule; `also` are places inside to be treated as breaks.
+
+    `resolution` is the slope with its functions resolved in the contact.
 
     Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
     edges take the powers ψ^(±2ε) of sliding into their weights.
     """
     many = not slope.functions and len(inner_breaks(contact, slope)) > FEW_BREAKS
     also = np.zeros(0) if also is None else also
-    edges, large = _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also)
+    resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
+    edges, large = _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
     g, w = chebyshev.gauss_legendre(NODES)
     length = np.diff(edges)
     angle = edges[:-1, None] + length[:, None] * g
@@ -68,10 +73,9 @@ def composite_rule(contact: Interval, slope: Slope, also: Array | None = None, e
     return Rule(position(contact, angle), weight, position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
 
 
-def _panels(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
+def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
     """The ends of the panels, as angles from the right edge, and those of the largest."""
     levels = KINK_LEVELS if slope.continuous else LEVELS
-    resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
     towards = cut if len(cut) <= FEW_BREAKS else angles(contact, np.union1d(inner_breaks(contact, slope), also))
@@ -124,8 +128,9 @@ def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
 def _largest(x: Array, size: Array) -> list[int]:
     """The largest in each of POINTS parts of the contact, by angles x."""
     part = np.minimum((x * (POINTS / np.pi)).astype(int), POINTS - 1)
-    best = {part[i]: i for i in np.argsort(size) if size[i] >= COMPARABLE * size.max()}
-    return sorted(best.values())
+    ascending = np.argsort(size)
+    large = ascending[size[ascending] >= COMPARABLE * size.max()]
+    return sorted(dict(zip(part[large].tolist(), large.tolist(), strict=True)).values())
 
 
 def _balanced(edges: Array) -> Array:

@@ -5,13 +5,14 @@
            pandas.read_csv(file, comment="#")      numpy.loadtxt(file, delimiter=",", skiprows=5)
 
     JSON   sie, title, units {length, force, stress, moment}, scene (the code that rebuilds it), modulus E*, dundurs β        always
-           edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt                                     always
+           edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]                   always
            pressure {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}                                         if wanted
            gap {x: [..], gap: [..]}                                                                                  if wanted
            shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost if known, x: [..], q: [..],
                   slip: [..]}                                                                                        if wanted
            path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
-           check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, tol, tension, overlap, error, ok} if wanted
+           check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, resolution, edges, tol, tension, overlap,
+                  notes, error, ok}                                                                                  if wanted
            traces [{points, smoothing, averaged, separated, misfit, outliers [[x, off], ..],
                   gaps [{lo, hi, missing}, ..], mended {left_out, averaged, sorted}, tilt, aside,
                   pressure_error, inner_error, edge_errors [x1, x2]}, ..]          if check is wanted, of measured traces
@@ -38,6 +39,7 @@ from .history import Followed
 from .plan import UNASKED
 from .scenefile import SceneFile
 from .solution import Solution
+from .validity import notes
 
 Array = NDArray[np.float64]
 
@@ -93,6 +95,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "normal_load": solution.normal_load,
         "moment": solution.moment,
         "tilt": solution.tilt,
+        "notes": list(notes_of(solution, file)),
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
@@ -101,6 +104,17 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
     return out | {name: section(solution, points) for name, section in sections.items() if name in wanted(file)}
+
+
+def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
+    """The notes on strains that are not small.
+
+    Where nothing but the edges is wanted the pressure is not computed: its mean is looked at.
+    """
+    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
+        return solution.notes
+    slopes = solution.scene.profile.slope(np.linspace(*solution.edges, POINTS)) + solution.tilt
+    return notes(slopes, solution.normal_load / (2.0 * solution.half_width) / solution.scene.Estar)
 
 
 def _pressure(solution: Solution, points: int) -> dict[str, Any]:

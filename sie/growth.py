@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from . import chebyshev
 from .adaptive import refined
-from .edges import Search
+from .edges import Found, Search
 from .geometry import Geometry
 from .interval import EPS, Interval, two_sum
 from .ladder import Overwritten
@@ -209,7 +209,7 @@ class Growth:
 
     def _measured(self, y: float) -> tuple[float, float]:
         (contact, sharp, _), search, scene = self.contact(y), self._search, self._scene
-        edges = search.finished(contact, y, self._tilt, sharp)
+        edges = search.finished(Found(contact, sharp), y, self._tilt)
         p = pressure(Normal(edges, search.axis is not None), scene, self._tol)
         geometry = Geometry(search.slope, edges.contact, keep_zero=True)
         offset, angle, weight, _ = geometry.nodes(HEIGHTS)
@@ -320,8 +320,8 @@ class Growth:
         found = self._near(y)
         if found is None:
             search = self._search
-            contact, sharp = search.symmetric(y) if search.axis is not None else search.general(y)
-            found = Contact(contact, sharp, search.moments(contact))
+            contact, sharp, k = search.symmetric(y) if search.axis is not None else search.general(y)
+            found = Contact(contact, sharp, k or search.moments(contact))
         self._learn(y, found)
         return found
 

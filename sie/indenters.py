@@ -314,8 +314,15 @@ class FromFunction(Profile):
     domain   (lo, hi), the ends of the indenter, infinite by default; contact that reaches an end is sharp there
     parity   "even" if h(-x) = h(x): half the work
 
-    h = 0 at x = 0, or at the end of the domain nearest to it. Raises ValueError if the function does not return finite numbers of its
-    argument's shape.
+    h = 0 at x = 0, or at the end of the domain nearest to it. Raises ValueError if the function does not return finite real numbers of
+    its argument's shape.
+
+    A function is known by its values at some points. What resolves it is compared with it at 2584
+    points of the contact that no function can know beforehand, and a jump, a kink, a cusp or a
+    narrow feature that was not declared is found and resolved like one that was. Sampling cannot
+    find what happens (a bump, a dent, two jumps, nan) on less than 5e-4 of the contact, nor what is
+    below 32 ulp of the largest slope or 8 times the roughness of the function's own rounding. The
+    place of a jump is known to one ulp of x. Declare breaks around such places.
     """
 
     function: Vectorised
@@ -362,14 +369,11 @@ class FromFunction(Profile):
             lo, hi = (lo, lo + 1.0) if np.isfinite(lo) else (hi - 1.0, hi) if np.isfinite(hi) else (-1.0, 1.0)
         x = lo + (hi - lo) * np.array([0.13, 0.29, 0.5, 0.61, 0.83])
         with np.errstate(all="ignore"):
-            values = np.asarray(checks.of_arrays("slope", self.function, x))
-        if values.shape not in (x.shape, ()) or values.dtype.kind not in "fiu":
-            raise ValueError(
-                f"slope returned shape {values.shape}, type {values.dtype} for floats of shape {x.shape}: it must be vectorised"
-            )
+            values = checks.real_values("slope", self.function, x)
+            checks.real_values("slope", self.function, x[:, None])
         if not np.isfinite(values).all():
-            bad = int(np.argmin(np.isfinite(np.broadcast_to(values, x.shape))))
-            raise ValueError(f"slope is {np.ravel(values)[bad % values.size]} at x = {x[bad]:.6g}: it must be finite, narrow the domain")
+            bad = int(np.argmin(np.isfinite(values)))
+            raise ValueError(f"slope is {values[bad]} at x = {x[bad]:.6g}: it must be finite, narrow the domain")
         if self.symmetric:
             if self.ends[0] != -self.ends[1] or set(self.declared) != {-b for b in self.declared}:
                 raise ValueError(

@@ -22,11 +22,13 @@ from .geometry import Geometry
 from .interval import EPS, Interval, interval_about
 from .panels import CHOP, Panels
 from .power_law import PowerLaw
+from .profile import Profile
 from .scene import Scene
 from .sliding import SlidingDensity, SlidingGeometry, SlidingPanels
 from .slope import Slope
 from .slope_density import PanelDensity, PowerDensity, SlopeDensity, TransformDensity
 from .smooth import smooth_contact
+from .unseen import Pieces, between_pieces, between_points, expanded
 from .widest import widest_contact
 
 Array = NDArray[np.float64]
@@ -48,6 +50,8 @@ HUGE = 1e300  # stands for an open end of the bracket
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
 SIZE, MOMENT = 1e120, 1e304  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
 NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
+# Looks at a function between the points that resolved it, each with the breaks that the last added.
+LOOKS = 4
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
@@ -61,11 +65,19 @@ class Normal:
     edges: Edges
     symmetric: bool
     series: Array | None = field(default=None, compare=False, repr=False)
+    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
+
+    def slope(self, profile: Profile) -> Slope:
+        """H of the profile as it is pressed: with these breaks, and tilted."""
+        return _broken(profile.pieces, self.seen).tilted(self.edges.tilt)
 
 
-def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> Normal:
-    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it."""
-    found = _within_scale(scene, tol, economy)
+def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY, seen: tuple[float, ...] | None = None) -> Normal:
+    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it.
+
+    `seen` are the breaks found in a larger contact of the same profile, which need not be looked for again.
+    """
+    found = _within_scale(scene, tol, economy, seen)
     ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
@@ -76,13 +88,13 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY)
     return found
 
 
-def _within_scale(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+def _within_scale(scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None) -> Normal:
     """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
     if scene.normal_load is not None and not 1.0 / checks.LARGEST <= scene.normal_load / scene.Estar <= checks.LARGEST:
         raise LoadError(f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {checks.REMEDY}")
     try:
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what that leaves is refused below
-            found = _contact(scene, tol, economy)
+            found = _contact(scene, tol, economy, seen)
     except ArithmeticError:
         raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
     edges = found.edges
@@ -107,15 +119,23 @@ def _asked(scene: Scene) -> str:
     return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
 
 
-def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
+def _broken(slope: Slope, places: tuple[float, ...]) -> Slope:
+    for x in places:
+        slope = slope.split_at(x)
+    return slope
+
+
+def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None) -> Normal:
     profile = scene.profile
     law = upright_law(scene, economy)
     if law is not None and _asks_for_no_tilt(scene, law.axis):
         return Normal(_of_power_law(law, scene), True)
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
-    smooth = _smooth(scene, tol, "symmetry" in economy) if "transform" in economy else None
-    if smooth is not None:
+    looks = 0 if profile.convex or seen is not None else LOOKS
+    seen = seen or ()
+    smooth = _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy) if "transform" in economy else None
+    if smooth is not None and not (looks and _unseen_by_series(smooth, profile)):
         return smooth
     lo, hi = _first_window(scene)
     ends = profile.domain
@@ -125,8 +145,8 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
     while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
-            slope = refined(profile.pieces, lo, hi, _resolution(tol))
-            found = _searched(scene, slope, economy, tilt)
+            resolved = refined(_broken(profile.pieces, seen), lo, hi, _resolution(tol))
+            found = _searched(scene, resolved, economy, tilt)
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
             if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
@@ -147,7 +167,13 @@ def _contact(scene: Scene, tol: float, economy: Collection[str]) -> Normal:
         fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
         # A window that had to grow again after it was fitted belongs to a profile that is not convex: it stays
         if hi - lo <= WINDOW * (contact.x2 - contact.x1) or fitted == (lo, hi) or settled or shrunk >= MOST_SHRUNK:
-            return found
+            found = replace(found, seen=seen)
+            more = _unseen(found, resolved, scene, tol, economy) if looks else ()
+            if not more:
+                return found
+            looks -= 1
+            seen += more if profile.axis is None else (*more, *(2.0 * profile.axis - x for x in more))
+            continue
         shrunk += 1
         lo, hi = fitted
         tilt = found.edges.tilt
@@ -178,11 +204,11 @@ def _of_power_law(law: PowerLaw, scene: Scene) -> Edges:
     return Edges(contact, P, contact.m * P, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
 
 
-def _smooth(scene: Scene, tol: float, symmetry: bool) -> Normal | None:
+def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | None:
     """The contact where one series resolves the slope, and no moment asks for the tilt."""
     if scene.moment is not None or scene.epsilon:
         return None
-    slope, G = scene.profile.pieces.tilted(scene.tilt), 0.5 * scene.Estar
+    slope, G = slope.tilted(scene.tilt), 0.5 * scene.Estar
     axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
     load = None if scene.normal_load is None else scene.normal_load / G
     found = smooth_contact(slope, load, scene.half_width, axis, _resolution(tol))
@@ -210,8 +236,42 @@ def _refuse_infinite_ends(slope: Slope) -> None:
         )
 
 
+def _unseen_by_series(found: Normal, profile: Profile) -> bool:
+    """Whether the slope does what the series of the contact does not show."""
+    assert found.series is not None
+    contact = found.edges.contact
+    series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])
+    return bool(between_points(found.slope(profile), (series.H,), contact))
+
+
+def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]) -> tuple[float, ...]:
+    """Where the slope needs a break that it does not have.
+
+    By the pieces that gave the edges, and by what will give the pressure.
+    """
+    slope, contact = found.slope(scene.profile), found.edges.contact
+    pieces = expanded(slope, resolved, contact)
+    places = between_pieces(slope, pieces, contact)
+    transform = not scene.epsilon and "transform" in economy
+    series = _series(slope, contact, _resolution(tol)) if transform else None
+    if series is None:
+        resolved = refined(slope, contact.x1, contact.x2, _resolution(tol))
+        final = expanded(slope, resolved, contact)
+        places += between_pieces(slope, final, contact)
+    else:
+        final = Pieces(np.array([contact.x1]), np.array([contact.x2]), series[None])
+    return places + between_points(slope, (pieces.H, final.H), contact)
+
+
 def contact_under(
-    load: float, tilt: float, scene: Scene, tol: float, economy: Collection[str] = ECONOMY, *, near: Interval | None = None
+    load: float,
+    tilt: float,
+    scene: Scene,
+    tol: float,
+    economy: Collection[str] = ECONOMY,
+    *,
+    near: Interval | None = None,
+    seen: tuple[float, ...] | None = None,
 ) -> Normal:
     """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
     profile = scene.profile
@@ -222,7 +282,7 @@ def contact_under(
         contact = search.symmetric_near(load, near)
         if contact is not None:
             return Normal(search.finished(Found(contact), load, 0.0), True)
-    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy)
+    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen)
 
 
 def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:
@@ -232,7 +292,7 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
     if normal.series is not None:
         return TransformDensity(*common, normal.series)
-    declared = scene.profile.pieces.tilted(edges.tilt)
+    declared = normal.slope(scene.profile)
     if scene.epsilon:
         slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
         geometry = SlidingGeometry(slope, contact, scene.epsilon, keep_zero="zero panels" not in economy)

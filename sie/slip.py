@@ -122,7 +122,7 @@ def _one_way(step: Step, sign: float) -> OneWay:
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
-    found = contact_under(load, tilt, scene, step.tol, step.economy, near=step.near)
+    found = contact_under(load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen)
     state = OneWay(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once

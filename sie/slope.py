@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from . import checks
 from .interval import EPS
 
 Array = NDArray[np.float64]
@@ -68,10 +69,8 @@ class FunctionTerm:
     def __call__(self, offset: Array) -> Array:
         """Values at t, given offset = t - shift."""
         with np.errstate(all="ignore"):  # who resolves the function refuses what is not finite, with the place
-            values: Array = np.asarray(self.function(self.sign * offset), dtype=float)
-        if values.shape != offset.shape:
-            values = np.broadcast_to(values, offset.shape)
-        return self.sign * values
+            values: Array = self.sign * checks.real_values("slope", self.function, self.sign * offset)
+        return values
 
 
 @dataclass(frozen=True, eq=False)

@@ -101,6 +101,10 @@ class SlopeDensity(Density):
     def _slope(self, x: Array) -> Array:
         """H inside the contact."""
 
+    def resolved_slope(self, x: Array) -> Array:
+        """H inside the contact, x ascending, as the pressure knows it: of a function its resolution."""
+        return self._slope(x)
+
     @property
     @abstractmethod
     def _slope_at_edges(self) -> tuple[float, float]:
@@ -378,6 +382,12 @@ class OnPanels(SlopeDensity):
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
 
+    def resolved_slope(self, x: Array) -> Array:
+        p, (lo, hi) = self.panels, self.panels.geometry.ends
+        k = np.clip(np.searchsorted(hi, x), 0, len(hi) - 1)
+        values: Array = chebyshev.evaluate(p.series.T[:, k], (x - lo[k]) / p.half_length[k] - 1.0)
+        return values
+
     @property
     def _slope_at_edges(self) -> tuple[float, float]:
         p, g = self.panels, self.panels.geometry
@@ -455,6 +465,9 @@ class PowerDensity(OnPanels):
 
     def _slope(self, x: Array) -> Array:
         return self.declared(x)
+
+    def resolved_slope(self, x: Array) -> Array:
+        return self._slope(x)
 
     @property
     def _slope_at_edges(self) -> tuple[float, float]:

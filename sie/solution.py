@@ -58,6 +58,7 @@ class Solution:
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
     trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
+    notes        sentences on what half-plane elasticity leaves out here: large slopes, large pressures
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -108,7 +109,7 @@ class Solution:
 
     def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
         density = pressure(found, scene, self.tol, self.economy)
-        slope = scene.profile.pieces.tilted(found.edges.tilt)
+        slope = found.slope(scene.profile)
         rises = found.series is not None or slope_rises(density, slope)
         if not ("convexity" in self.economy and rises):
             verify_inequalities(density, slope)
@@ -170,7 +171,7 @@ class Solution:
 
     @property
     def _slope(self) -> Slope:
-        return self.scene.profile.pieces.tilted(self.normal.edges.tilt)
+        return self.normal.slope(self.scene.profile)
 
     # -- answers ------------------------------------------------------------------------------------------------------
 
@@ -298,6 +299,13 @@ class Solution:
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
+        if self.scene.bonded or "certificate" in self.__dict__:
+            return self.certificate.notes
+        return certificate(self.slope_density, self._slope, self.tol).notes
 
     def check(self) -> Certificate:
         """The certificate of this answer, measured on points that were not used to find it."""

@@ -52,7 +52,7 @@ class Step:
 
     @property
     def slope(self) -> Slope:
-        return self.scene.profile.pieces.tilted(self.normal.edges.tilt)
+        return self.normal.slope(self.scene.profile)
 
     @property
     def normal_load(self) -> float:
@@ -303,7 +303,7 @@ class OneWay(_Slipping):
     @property
     def _tilted(self) -> Slope:
         """What p̂ answers to."""
-        return self.step.scene.profile.pieces.tilted(self.found.edges.tilt)
+        return self.found.slope(self.step.scene.profile)
 
     @cached_property
     def shear(self) -> Density:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .abscissae import SAME_PEAK, ceiling, peak
-from .export import energy_of, slipping, turning_points, wanted
+from .export import energy_of, notes_of, slipping, turning_points, wanted
 from .history import Followed
 from .scenefile import SceneFile, Units
 from .solution import Solution
@@ -31,7 +31,8 @@ def summary(solution: Solution, file: SceneFile) -> str:
     }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
     parts = [section(solution, file.units) for name, section in sections.items() if name in wanted(file)]
-    return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts])
+    noted = [] if "check" in wanted(file) else ["\n".join(notes_of(solution, file))]  # the certificate says them itself
+    return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts, *filter(None, noted)])
 
 
 def edges_summary(solution: Solution, units: Units) -> str:

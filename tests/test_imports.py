@@ -16,8 +16,8 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a module imports only from those before it.
 ORDER = (
     "quiet", "errors", "interval", "power_law", "checks", "files", "entries",
-    "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "geometry", "moments",
-    "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "superposition",
+    "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "unseen", "geometry", "moments",
+    "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "validity", "superposition",
     "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
     "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "polish", "edges", "widest",
     "smooth", "normal", "noise", "ladder", "growth", "gap", "composite",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 from unittest.mock import PropertyMock, patch
 
@@ -161,6 +161,10 @@ def _off_by(share: float) -> Callable[[Any], Any]:
     return lambda values: values * (1 + share)
 
 
+def _second_coefficient_off(density: Any) -> Any:
+    return replace(density, series=density.series * (1 + 1e-10 * (np.arange(len(density.series)) == 1)))
+
+
 REPLACED = (
     replaced("sign of β", "the edges' exponents the wrong way round", _property("epsilon", lambda e: -e), SLIDING, _sliding_hertz),
     replaced("β forgotten", "sliding of dissimilar bodies solved as similar", _property("epsilon", lambda e: 0.0), SLIDING, _sliding_hertz),
@@ -168,8 +172,7 @@ REPLACED = (
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
     replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
-             _times(normal, "smooth_contact", lambda s: s._replace(series=s.series * (1 + 1e-10 * (np.arange(len(s.series)) == 1)))),
-             SMOOTH),
+             _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)),
              SLIDING_RIM),
 )  # fmt: skip
