@@ -214,8 +214,9 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     of_force, of_equation = _rounding(density, H_beside - H, rule, p)
     regular = regular_points(density, slope, x)
     bounded_peak = float(p[regular].max(initial=0.0))
-    unseen = largest_misfit(slope, density.resolved_slope, resolved, contact) if slope.functions else 0.0
-    resolution = max(density.half_modulus * unseen / peak, LEAST_OF_FUNCTION if slope.functions else 0.0)
+    by_values = bool(slope.functions) and density.resolves
+    unseen = largest_misfit(slope, density.resolved_slope, resolved, contact) if by_values else 0.0
+    resolution = max(density.half_modulus * unseen / peak, LEAST_OF_FUNCTION if by_values else 0.0)
     return Certificate(
         residual=float(np.abs(residual).max()) / peak,
         implied=_implied(residual, contact, rule.between) / peak,

@@ -101,6 +101,8 @@ class SlopeDensity(Density):
     def _slope(self, x: Array) -> Array:
         """H inside the contact."""
 
+    resolves = True  # whether a slope that is a function is known by its values at some points only
+
     def resolved_slope(self, x: Array) -> Array:
         """H inside the contact, x ascending, as the pressure knows it: of a function its resolution."""
         return self._slope(x)
@@ -447,6 +449,7 @@ class PowerDensity(OnPanels):
     law: PowerLaw
     declared: Slope
     resolution: float
+    resolves = False
 
     @cached_property
     def panels(self) -> Panels:  # type: ignore[override]
@@ -465,9 +468,6 @@ class PowerDensity(OnPanels):
 
     def _slope(self, x: Array) -> Array:
         return self.declared(x)
-
-    def resolved_slope(self, x: Array) -> Array:
-        return self._slope(x)
 
     @property
     def _slope_at_edges(self) -> tuple[float, float]:

@@ -92,9 +92,10 @@ def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, start_
     difference = np.abs(H - resolutions[0](x))
     for known in resolutions[1:]:
         np.maximum(difference, np.abs(H - known(x)), out=difference)
-    allowed = MISSED * float(np.abs(H).max()) + _noise(slope, contact)
+    allowed = MISSED * float(np.abs(H).max())
     if difference.max() <= allowed:
         return x, np.zeros(len(x))
+    allowed += _noise(slope, contact)
     rises = np.abs(np.diff(H)) / np.diff(x)
     steep = np.maximum(np.append(rises, 0.0), np.append(0.0, rises))
     steeper = allowed + STEEPER * np.spacing(np.abs(x).max()) * steep

@@ -12,7 +12,8 @@ import sie
 
 
 def between(lo, hi):
-    return st.floats(lo, hi, allow_nan=False)
+    """Numbers of a size that contacts have: what the ends of the range of doubles do is tested apart."""
+    return st.floats(lo, hi, allow_nan=False).map(lambda v: v if abs(v) > 1e-100 else 0.0)
 
 
 def log_between(lo, hi):

@@ -76,11 +76,11 @@ def test_what_the_edges_leave_in_the_pressure_is_neither_nothing_nor_a_scare():
     assert 1e-17 < found.edges < 1e-14
 
 
-def test_edges_far_from_x_0_are_known_to_an_ulp_of_x():
-    """In a contact a thousand half-widths from x = 0 the edges are doubles of 1e-13 r."""
+def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
+    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is kept."""
     profile = sie.Parabola(1.0).shifted(1000.3)
     found = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check()
-    assert found.edges > 0.01 * math.ulp(1000.3)
+    assert found.edges < 0.1 * math.ulp(1000.3)
     assert found.ok
 
 

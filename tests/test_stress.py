@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 import strategies
 from hypothesis import given
-from hypothesis import strategies as st
 
 import sie
 from analytic import rounded_flat
@@ -185,7 +184,7 @@ def test_the_surface_takes_the_shape_of_a_rigid_punch():
     assert solution.surface_stress(x).gradients.yx == pytest.approx(-x / 50.0, abs=1e-16)
 
 
-@given(strategies.scenes(sharp=False), st.floats(0.0, 0.8))
+@given(strategies.scenes(sharp=False), strategies.between(0.0, 0.8))
 def test_the_surface_bears_the_tractions(scene, friction):
     solution = sliding(scene, friction) if scene.moment is None else sie.solve(scene)
     (x1, x2), r = solution.edges, solution.half_width
