@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from sie.check import PROMISE
+
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
@@ -25,6 +27,10 @@ def test_the_commands_install_extras_that_exist():
     assert extras == ["plot", "test", "peers"]  # the two commands, and what the validation races against
     assert set(extras) <= set(project["optional-dependencies"])
     assert "sie" in project["scripts"]
+
+
+def test_the_promise_of_the_certificate_is_the_one_that_is_printed():
+    assert f'"{PROMISE}"' in " ".join(README.split())
 
 
 def test_every_picture_is_in_the_repository():
