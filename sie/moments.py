@@ -199,7 +199,7 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
         size = size * farthest + abs(v)
     size *= 2.0 * angle
     sin = math.sin
-    for g, w in _rule(quadrature_order(degree) if angle > NARROW else 5 + degree + int(4.0 * angle)):
+    for g, w in _rule(5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
         y = base + width * sin(half_step) * sin(middle)
