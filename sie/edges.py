@@ -158,7 +158,8 @@ class Search:
 
         def at(distance: float) -> Interval:
             r, tail = two_sum(z - axis, distance)
-            return interval_about(axis, r).moved(-tail, tail)
+            contact = interval_about(axis, r)
+            return contact.moved(-tail, tail) if tail else contact
 
         if math.isfinite(hi):
             whole = Interval(*self.slope.domain)

@@ -98,7 +98,7 @@ def _within_scale(scene: Scene, tol: float, economy: Collection[str], seen: tupl
         raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
     edges = found.edges
     (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
-    apart = float(np.spacing(max(abs(x1), abs(x2))))
+    apart = math.ulp(max(abs(x1), abs(x2)))
     if not r >= PLACES * apart:
         raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
     refuse_out_of_scale(r, P, scene.Estar)
