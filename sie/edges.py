@@ -32,7 +32,7 @@ import numpy as np
 from .errors import ContactError, LoadError
 from .interval import EPS, Interval, interval_about, two_sum
 from .moments import Moments, moments
-from .polish import MAX_POLISHING, ROUNDINGS, Polish
+from .polish import MAX_POLISHING, ROUNDINGS, Bracket, Place, Polish
 from .sliding import sliding_moments
 from .slope import Slope
 from .touch import lowest_points
@@ -47,6 +47,8 @@ NEAR, NEAR_STEPS = 0.25, 5
 MAX_LOG_STEP = 20.0
 SMALLEST, HUGE = 1e-300, 1e300
 LEAP = 1e12  # where a load underflows, or falls before it was ever large enough
+PLACES = 64.0  # fewer places in a half-width do not show the pressure
+FIRST_STEP = 2.0**-6  # of the half-width: from there doubled, where a centre is looked for
 UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
 # While the root is not bracketed and the load is wrong by more than the factor OPEN, a step is at least the factor OPEN_STEP.
 OPEN = 0.1
@@ -156,7 +158,8 @@ class Search:
 
         def at(distance: float) -> Interval:
             r, tail = two_sum(z - axis, distance)
-            return interval_about(axis, r).moved(-tail, tail)
+            contact = interval_about(axis, r)
+            return contact.moved(-tail, tail) if tail else contact
 
         if math.isfinite(hi):
             whole = Interval(*self.slope.domain)
@@ -321,11 +324,81 @@ class Search:
             r = _logarithmic_root(carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load))
         except LoadError:
             return None
-        found = self._polish.balanced(interval_about(lever, r), target, lever, tilted)
+        guess = interval_about(lever, r)
+        if not sum(self._polish.rounding(guess, self.moments(guess), target)) <= target:
+            raise LoadError(
+                f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of the slope is more than the load shows: "
+                "lower the moment, or move the profile to where the load acts (shifted)"
+            )
+        found = self._polish.balanced(guess, target, lever, tilted)
         if found is None:
             return None
         contact, k, tilt = found
         return replace(self.finished(Found(contact, moments=k), load, tilt), moment=moment)
+
+    def of_half_width_under_moment(self, r: float, moment: float) -> Edges | None:
+        """The contact of half-width r with smooth edges, and its tilt, of those that have the moment the nearest to where the untilted
+        profile touches; None if none was found.
+
+        Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 - I0/2)) and
+        dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m, because P changes too.
+        """
+        (lo, hi), (z1, z2), scale = self.slope.domain, self.touch(), self.half_modulus * r
+        most = r / (PLACES * EPS)
+        low, high = max(lo + r, -most), min(hi - r, most)
+        if not low < high:
+            return None
+
+        def at(m: Place) -> tuple[float, float, Interval, Moments]:
+            """Of M/(G r): how much it exceeds what is given, and its derivative."""
+            contact = interval_about(m[0], r).moved(m[1], m[1])
+            k, centre = self.moments(contact), contact.m
+            excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
+            return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
+
+        centre = min(max(0.5 * (z1 + z2), low), high)
+        bracket = self._first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
+        if bracket is None:
+            return None
+        m, slope, earlier = bracket.middle(), math.copysign(1.0, at(bracket.high)[0]), [math.inf, math.inf]
+        for _ in range(MAX_POLISHING):
+            excess, rise, contact, k = at(m)
+            size = k.size1 + k.size2
+            rounding = ROUNDINGS * ((abs(m[0]) + r) * size + abs(moment) / scale)
+            missed = abs(excess) / rounding
+            wanted = two_sum(m[0], m[1] - excess / rise) if rise * slope > 0.0 else (math.inf, 0.0)
+            if missed > 1.0:
+                bracket.cut(m, above=excess * slope < 0.0)
+            place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
+            earlier.append(missed)
+            if place == m or earlier[-2] <= 1.0:  # after one more step
+                break
+            m = place
+        if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
+            return None  # nothing but rounding carries the load, or tells the centre
+        tilt = -k.I0 / math.pi
+        k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
+        return replace(self.finished(Found(contact, moments=k), None, tilt), moment=moment)
+
+    @staticmethod
+    def _first_change(
+        at: Callable[[float], tuple[float, float, Interval, Moments]], centre: float, bounds: tuple[float, float], r: float
+    ) -> Bracket | None:
+        """Two places, as near to the centre as doubled steps to both sides tell, between which the excess changes its sign under load."""
+        last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
+        step = FIRST_STEP * r
+        while last:
+            for side in [*last]:
+                place, excess, _, _, before = last[side]
+                new = min(max(centre + side * step, bounds[0]), bounds[1])
+                if new == place:
+                    del last[side]
+                    continue
+                last[side] = new, *at(new)
+                if excess * last[side][1] <= 0.0 and max(before.I1, last[side][4].I1) > 0.0:
+                    return Bracket((min(place, new), 0.0), (max(place, new), 0.0), (True, True))
+            step *= 2.0
+        return None
 
     # -- a prescribed half-width ----------------------------------------------------------------------------------------
 

@@ -85,10 +85,11 @@ class Interval(NamedTuple):
         """The same with the tails dropped where no distance to a break notices: what is printed is then what is used."""
         tails = [0.0, 0.0]
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
-            k = bisect_left(breaks, x)
-            nearest = min([self.x2 - self.x1, *(abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1])])
-            if abs(tail) > TAIL_MATTERS * nearest:
-                tails[i] = tail
+            if tail:
+                k = bisect_left(breaks, x)
+                nearest = min([self.x2 - self.x1, *(abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1])])
+                if abs(tail) > TAIL_MATTERS * nearest:
+                    tails[i] = tail
         return Interval(float(self.x1), float(self.x2), float(tails[0]), float(tails[1]))
 
 

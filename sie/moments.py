@@ -157,21 +157,21 @@ class _Cut(NamedTuple):
 
 
 def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
-    total: tuple[float, ...] = NOTHING
+    width, degree, total = 2.0 * contact.r, slope.degree, None
     for row in slope.rows:
-        cut = _cut(row, contact, lower)
-        if cut is None:
-            continue
-        total = tuple(map(float.__add__, total, _integrals(row.coefficients, cut, 2.0 * contact.r, slope.degree)))
-    found = Moments(*total)
+        cut = _cut(row, contact, lower, width)
+        if cut is not None:
+            more = _integrals(row.coefficients, cut, width, degree)
+            total = tuple(map(float.__add__, total, more)) if total else more
+    found = Moments(*total) if total else NOTHING
     return found if slope.continuous else _with_jumps(found, slope, contact, lower)
 
 
-def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
+def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut | None:
     """The piece within the contact (right of `lower`), None if nothing of it is."""
     if lower is not None and row.hi <= lower:
         return None
-    width, start, tail = 2.0 * contact.r, row.lo, 0.0
+    start, tail = row.lo, 0.0
     if lower is not None and start < lower:
         start = lower
     lo_left, lo_right = contact.from_left(start), contact.from_right(start)
@@ -192,14 +192,14 @@ def _cut(row: Row, contact: Interval, lower: float | None) -> _Cut | None:
 
 
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
-    I0 = I1 = C2 = JR = JL = positive = negative = 0.0
+    I0 = I1 = C2 = J_near = J_far = positive = negative = 0.0
     base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
     farthest, size = max(abs(base), abs(base + cut.length)), 0.0
     for v in c:
         size = size * farthest + abs(v)
     size *= 2.0 * angle
     sin = math.sin
-    for g, w in _rule(quadrature_order(degree) if angle > NARROW else 5 + degree + int(4.0 * angle)):
+    for g, weight in _rule(5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
         y = base + width * sin(half_step) * sin(middle)
@@ -210,16 +210,18 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
         at = middle + sign * half_step
         near = 2.0 * sin(0.5 * at) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one
         cos_phi, sin_phi = sin(at), sign * (near - 1.0)
-        wH, wdH = angle * w * H, angle * w * dH
+        w = angle * weight
+        wH, wdH = w * H, w * dH
         I0 += wH
         I1 += wH * sin_phi
         C2 += wH * cos_phi * cos_phi
-        JR += wdH * (near if sign > 0.0 else 2.0 - near)
-        JL += wdH * (2.0 - near if sign > 0.0 else near)
+        J_near += wdH * near
+        J_far += wdH * (2.0 - near)
         if wH > 0.0:
             positive += wH
         else:
             negative -= wH
+    JR, JL = (J_near, J_far) if sign > 0.0 else (J_far, J_near)
     _, right_of_lo, left_of_hi, _ = cut.roots
     return I0, I1, C2, JR, JL, positive, negative, size * right_of_lo * right_of_lo, size * left_of_hi * left_of_hi
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from . import chebyshev, checks
 from .adaptive import NOISE, ROUGHEST, refined, rounding_noise
-from .edges import Edges, Found, Search
+from .edges import PLACES, Edges, Found, Search
 from .errors import ContactError, LoadError
 from .geometry import Geometry
 from .interval import EPS, Interval, interval_about
@@ -47,7 +47,6 @@ LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
-PLACES = 64.0  # fewer places in a half-width do not show the pressure
 SIZE, MOMENT = 1e120, 1e304  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
 NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 # Looks at a function between the points that resolved it, each with the breaks that the last added.
@@ -99,7 +98,7 @@ def _within_scale(scene: Scene, tol: float, economy: Collection[str], seen: tupl
         raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
     edges = found.edges
     (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
-    apart = float(np.spacing(max(abs(x1), abs(x2))))
+    apart = math.ulp(max(abs(x1), abs(x2)))
     if not r >= PLACES * apart:
         raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
     refuse_out_of_scale(r, P, scene.Estar)
@@ -341,23 +340,34 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         return search.finished(found, scene.normal_load, tilt)
 
     if scene.moment is not None and scene.normal_load is not None:
-        _refuse_outside(scene.moment, scene.normal_load, slope.domain)
+        _refuse_outside(scene.moment, scene.normal_load, slope.domain, scene.profile.domain)
     if scene.moment is None:
         return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
     search, at_fixed_width = Search(slope, G, epsilon=epsilon, keep_zero=keep_zero), scene.half_width is not None
     edges = None
     if scene.normal_load is not None and epsilon == 0.0 and (axis is None or scene.moment != axis * scene.normal_load):
         edges = search.under_moment(scene.normal_load, scene.moment)
+    if scene.half_width is not None and epsilon == 0.0 and not scene.moment == axis == 0.0:
+        edges = search.of_half_width_under_moment(scene.half_width, scene.moment)
+        if edges is None and np.isinf(scene.profile.domain).all():
+            raise LoadError(
+                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found that has the moment {scene.moment:.6g}: "
+                "give a smaller moment, or a larger half_width"
+            )
     edges = edges or _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
-def _refuse_outside(moment: float, load: float, domain: tuple[float, float]) -> None:
-    if not domain[0] < moment / load < domain[1]:
-        raise LoadError(
-            f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
-            f"not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to below the load times that length"
-        )
+def _refuse_outside(moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]) -> None:
+    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or beyond the indenter."""
+    if window[0] < moment / load < window[1]:
+        return
+    acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
+    if domain[0] < moment / load < domain[1]:
+        raise LoadError(f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: lower the moment")
+    raise LoadError(
+        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to below the load times that length"
+    )
 
 
 def _tilt_of_moment(

@@ -48,7 +48,7 @@ ROUNDINGS = 16.0 * EPS
 # r JR may vary like a power of the distance to the next break, or to where the profile touches first.
 VARIES = 4.0
 CLOSE = 0.25  # a step longer than this part of the distance to the next break follows what the break adds
-FARTHEST = 0.5  # of r, a step
+FARTHEST = 0.75  # of r, a step inwards
 STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
@@ -75,8 +75,9 @@ class Bracket:
         """The place wanted; the middle if it is out of bounds, or if Newton's steps are slow and both bounds known."""
         if self.low < wanted < self.high and not (slow and all(self.cuts)):
             return wanted
-        if not math.isfinite(self.low[0] + self.high[0]):
-            return wanted
+        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
+
+    def middle(self) -> Place:
         return two_sum(self.low[0], 0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1])
 
 
@@ -103,7 +104,7 @@ class Polish:
     def both(self, contact: Interval, target: float, left_sharp: bool) -> tuple[Interval, Moments, bool]:
         """The contact that carries target = P/G, its moments, and whether the residuals came down to rounding."""
         lo, hi = self.slope.domain
-        left, right = Bracket((lo, 0.0), (contact.m, 0.0)), Bracket((contact.m, 0.0), (hi, 0.0))
+        left, right = Bracket((lo, 0.0), (contact.x2, contact.tail2)), Bracket((contact.x1, contact.tail1), (hi, 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -130,6 +131,11 @@ class Polish:
             if not left_sharp:
                 x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
             x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
+            most = FARTHEST * r  # inwards: the edges must not pass each other
+            if contact.from_left(x1) + tail1 > most:
+                x1, tail1 = two_sum(contact.x1, most + contact.tail1)
+            if contact.from_right(x2) - tail2 > most:
+                x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
             moved = Interval(x1, x2, tail1, tail2)
             if moved == contact:
                 break

@@ -4,6 +4,7 @@ The truth is `validation.kinks`: the conditions of the edges in 100 digits, with
 """
 
 import contextlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie import normal, polish
+from sie import edges, normal, polish
 from sie.edges import Search
 from validation import kinks
 from validation.kinks import Shape, Trial, mp
@@ -168,3 +169,51 @@ def test_the_edges_move_with_the_load_as_their_uncertainty_says():
     assert moves[0] == pytest.approx((light.x1 - heavy.x1) / 2e-5, rel=1e-4)
     assert moves[1] == pytest.approx((heavy.x2 - light.x2) / 2e-5, rel=1e-4)
     assert min(np.subtract(polish.uncertainty(contact, k, 0.2), polish.uncertainty(contact, alone, 0.2))) > 0.0
+
+
+TINY = straight([29.238249670088848], [[-0.04199447921947186, 0.0010454147804437085], [-0.05185657725793592, 0.0013828587081438938]])
+
+
+def test_a_contact_much_narrower_than_the_first_guess_is_found_beside_a_kink():
+    """The left edge lies right of the middle of the contact from which both edges are polished."""
+    scene = sie.Scene(
+        profile=TINY.profile, modulus=0.8, normal_load=2.7856825138523804e-18 * 0.8 / 0.8093449815863573, tilt=0.011428380927743514
+    )
+    meeting = replace(TINY, jumps=frozenset(TINY.profile.breaks))  # its pieces do not meet but for rounding
+    found = kinks.outcome(Trial(meeting, scene, 29.238249670088848, 0.0))
+    assert not found.refused
+    assert found.edges <= kinks.PROMISE
+
+
+@pytest.mark.parametrize(
+    ("profile", "r", "tilt"),
+    [
+        (sie.RoundedFlat(1.0, 1.0), 0.2, 0.05), (sie.RoundedFlat(1.0, 1.0), 0.2, -0.4), (sie.RoundedFlat(0.5, 2.0), 0.7, 0.1),
+        (sie.Wedge(0.3), 0.8, 0.05), (sie.Parabola(1.0).shifted(-3.0), 0.5, 0.2), (sie.Power(2.5, 0.75), 0.6, 0.3),
+        (sie.FromFunction("sinh(x) + x**2/4"), 0.6, 0.3), (UNEQUAL.profile, 0.4, -1.2),
+    ],
+)  # fmt: skip
+def test_a_half_width_with_the_moment_of_a_tilt_gives_that_moment(profile, r, tilt):
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=r, tilt=tilt))
+    turned = tilted.with_(tilt=0.0, moment=tilted.moment)
+    assert turned.half_width == pytest.approx(r, rel=1e-14)
+    assert turned.pressure.moment == pytest.approx(tilted.moment, rel=1e-12)
+
+
+def test_a_flat_base_wider_than_the_contact_is_pressed_by_its_rim():
+    """Untilted it touches as a whole: the tilt follows from the moment."""
+    tilted = sie.solve(sie.Scene(profile=FLAT.profile, modulus=1.0, half_width=0.2, tilt=-0.05))
+    turned = tilted.with_(tilt=0.0, moment=tilted.moment)
+    assert turned.edges == pytest.approx(tilted.edges, rel=1e-13)
+    assert turned.tilt == pytest.approx(-0.05, rel=1e-12)
+
+
+@pytest.mark.parametrize("moment", [-1e16, 1e20, 1e100, -1e200])
+@pytest.mark.parametrize("given", [{"normal_load": 0.3}, {"half_width": 0.8}], ids=["load", "half-width"])
+@pytest.mark.parametrize("profile", [sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Power(2.5, 0.75)])
+def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(profile, given, moment, monkeypatch):
+    evaluated, right = [], edges.moments
+    monkeypatch.setattr(edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how))
+    with pytest.raises(sie.ContactError):
+        _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, moment=moment, **given)).edges
+    assert len(evaluated) <= 5000
