@@ -60,6 +60,7 @@ SCAN = 40
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
 FEW_ULP = 1e8  # of the edges' doubles: in a smaller contact a node may be a point between
+RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 TOGETHER = 2**17  # entries of a matrix that are computed at once
 ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
@@ -187,7 +188,7 @@ class ShearCertificate:
     def remarks(self) -> tuple[str, ...]:
         if self.advancing:
             return (f"slip: {self.kind}",)
-        return (f"slip: {self.kind}, in total displacements: with Q and σ in proportion the zones of slip would retreat on the way here",)
+        return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
 
 
 def _allowed(tol: float, abscissae: float) -> float:
