@@ -238,9 +238,10 @@ def test_small_slopes_and_pressures_carry_no_note():
 
 
 @pytest.mark.parametrize(("load", "noted"), [(0.01, False), (0.1, True)])
-def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(load, noted):
+@pytest.mark.parametrize("given", [{}, {"friction": math.inf, "dundurs": 0.05}], ids=["frictionless", "bonded"])
+def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(load, noted, given):
     """Where it is infinite some pressure exceeds any bound."""
-    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load))
+    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load, **given))
     assert bool(solution.notes) is noted
 
 
