@@ -29,8 +29,9 @@ FEW_BREAKS = 40
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
 # What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
 # (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of the
-# profile, and with fewer levels for the x ln|x| under a corner of the slope.
-LEVELS, KINK_LEVELS = 22, 9
+# profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
+# corner of the slope.
+LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
 LONGEST = np.pi / 32  # of a panel where there are many
 POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
@@ -128,7 +129,7 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
     """
     powers = [f.function for f in slope.functions if isinstance(f.function, PowerSlope)]
     if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:
-        return KINK_LEVELS if slope.continuous else LEVELS
+        return LEVELS if not slope.continuous else ROOT_LEVELS if also.size else KINK_LEVELS
     a = min(power.exponent for power in powers) - 1.0
     return math.ceil(max(math.log(EPS ** (-1.0 / (a + 1.0)) / NODES**2) / -math.log(GRADING), 0.0))
 
