@@ -29,7 +29,7 @@ from .interval import Interval
 from .jacobi_density import JacobiDensity
 from .normal import refuse_out_of_scale
 from .scene import Scene
-from .validity import notes
+from .validity import BESIDE, notes
 
 Array = NDArray[Any]
 Complex = NDArray[np.complex128]
@@ -152,6 +152,7 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
     residual = principal / np.pi + 1j * scene.beta * values - 0.5 * scene.Estar * edges.tilt
     P, peak = complex(edges.normal_load, scene.tangential_load), np.abs(values).max()
     moment = weight @ (phi * left) + x1 * (weight @ phi)
+    highest = float(phi.real[np.minimum(right, left) > BESIDE * edges.contact.r].max())
     return Certificate(
         residual=float(np.abs(residual).max() / peak),
         implied=found.error,
@@ -161,5 +162,5 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
         lowest_gap=0.0,
         abscissae=0.0,
         tol=tol,
-        notes=notes(np.array([edges.tilt]), float(values.real.max()) / scene.Estar),
+        notes=notes(np.array([edges.tilt]), highest / scene.Estar),
     )

@@ -28,7 +28,7 @@ from .composite import Rule, angles, composite_rule, inner_breaks, position
 from .errors import InequalityError
 from .gap import gap, gap_slope
 from .interval import EPS, Interval
-from .moments import moments
+from .moments import Moments, moments
 from .sliding import sliding_moments
 from .slope import Slope
 from .slope_density import SlopeDensity
@@ -60,6 +60,7 @@ SCAN = 40
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
 FEW_ULP = 1e8  # of the edges' doubles: in a smaller contact a node may be a point between
+RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 TOGETHER = 2**17  # entries of a matrix that are computed at once
 ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
 SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
@@ -187,7 +188,7 @@ class ShearCertificate:
     def remarks(self) -> tuple[str, ...]:
         if self.advancing:
             return (f"slip: {self.kind}",)
-        return (f"slip: {self.kind}, in total displacements: with Q and σ in proportion the zones of slip would retreat on the way here",)
+        return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
 
 
 def _allowed(tol: float, abscissae: float) -> float:
@@ -202,7 +203,7 @@ def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
 
 def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     contact = density.contact
-    resolved = refined(slope, contact.x1, contact.x2, EPS)
+    resolved = refined(slope, contact.x1, contact.x2, EPS) if density.resolves else slope
     rule = composite_rule(contact, slope, epsilon=density.epsilon, resolution=resolved)
     x, weight = rule.x, rule.weight
     p = _finite(density(x))
@@ -229,19 +230,19 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         tension=_below(x, p / peak),
         overlap=_below(outside, gaps),
         resolution=resolution,
-        edges=_load_on_edges(density, resolved) / (math.pi * r * (bounded_peak or peak)),
+        edges=_load_on_edges(density, resolved, rule) / (math.pi * r * (bounded_peak or peak)),
         notes=notes(np.concatenate((H, H_at_edges)), bounded_peak / (2.0 * density.half_modulus)),
     )
 
 
-def _load_on_edges(density: SlopeDensity, slope: Slope) -> float:
+def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     """ΔP, by which smooth edges miss their conditions.
 
     As measured, by rounding of the integrals, and by that of the edges to doubles.
     """
     contact, r, e = density.contact, density.contact.r, density.epsilon
     G = density.half_modulus * math.cos(math.pi * e)
-    k = sliding_moments(slope, contact, e) if e else moments(slope, contact)
+    k = _moments(density, slope, rule)
     rounding = SUMMED * r * (k.positive + k.negative)
     edges = (
         (density.k1, contact.x1, contact.tail1, k.I1 - k.I0, k.JL, 0.5 + e),
@@ -253,6 +254,27 @@ def _load_on_edges(density: SlopeDensity, slope: Slope) -> float:
             kept = 0.0 if tail else 0.5 * math.ulp(x)  # a tail holds what rounding took
             missed = max(missed, abs(density.resultant / G - r * K) + kept * (r * J + share * abs(k.I0)))
     return G * (missed + rounding)
+
+
+def _moments(density: SlopeDensity, slope: Slope, rule: Rule) -> Moments:
+    if not density.resolves:
+        return _by_rule(slope, density.contact, rule)
+    if density.epsilon:
+        return sliding_moments(slope, density.contact, density.epsilon)
+    return moments(slope, density.contact)
+
+
+def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
+    """The moments of a slope that no polynomials resolve, without C2 and the sizes.
+
+    With ψ from the right edge 1 + sin φ = 2 cos²(ψ/2), and r JR = ∫cot(ψ/2) dH, r JL = ∫tan(ψ/2) dH.
+    """
+    H, psi = slope(rule.x), rule.angle
+    HdF = H * rule.weight / (contact.r * np.sin(psi))
+    middle, dH = 0.25 * (psi[1:] + psi[:-1]), H[:-1] - H[1:]
+    JR, JL = (float(dH @ steep) / contact.r for steep in (1.0 / np.tan(middle), np.tan(middle)))
+    positive, negative = float(np.maximum(HdF, 0.0).sum()), -float(np.minimum(HdF, 0.0).sum())
+    return Moments(positive - negative, float(HdF @ np.cos(psi)), 0.0, JR, JL, positive, negative, 0.0, 0.0)
 
 
 def _finite(p: Array) -> Array:
@@ -426,14 +448,28 @@ def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
 def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
     """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need not be integrated.
 
-    Between its breaks a polynomial slope does nothing unseen there; a function might.
+    Between its breaks a polynomial slope or a power does nothing unseen there; a function might.
     """
-    if slope.functions:
+    if slope.functions and density.resolves:
         return False
-    if not slope.continuous:
+    if not (slope.functions or slope.continuous):
         x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf)))
+    if _slope_rises_outwards(x, density, slope):
+        return True
     left, right = density.contact.from_left(x) < 0.0, density.contact.from_right(x) < 0.0
     for sign, side in ((-1.0, left), (1.0, right)):
         if side.any() and not (sign * gap_slope(x[side], density, slope) >= 0.0).all():
             return False
     return True
+
+
+def _slope_rises_outwards(x: Array, density: SlopeDensity, slope: Slope) -> bool:
+    """Whether H rises from smooth edges on, over x beside the contact: then the gap opens.
+
+    For p >= 0 in contact 1/π∫p/(x - t) dt falls outwards, from its value E*/2 H at the edge.
+    """
+    x1, x2 = density.interval
+    if (density.k1 and x.min(initial=x1) < x1) or (density.k2 and x.max(initial=x2) > x2):
+        return False
+    H = slope(np.sort(np.concatenate((x, (x1, x2)))))
+    return bool((H[1:] >= H[:-1]).all())

@@ -7,6 +7,7 @@ is graded for as many levels as the jumps there ask for, which for a smooth spli
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from . import chebyshev
 from .adaptive import refined
 from .interval import EPS, Interval
+from .power_law import PowerSlope
 from .sliding import edge_rule
 from .slope import Slope
 
@@ -25,17 +27,24 @@ NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is roundin
 GRADING = 0.25
 FEW_BREAKS = 40
 TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
-LEVELS = 26  # GRADING**LEVELS is rounding, for the logarithm under a corner of the profile ...
-KINK_LEVELS = 14  # ... and its square is, for the x ln|x| under a corner of the slope
+# What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
+# (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of the
+# profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
+# corner of the slope.
+LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
 LONGEST = np.pi / 32  # of a panel where there are many
 POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
 
 
 class Rule(NamedTuple):
-    """Nodes x, weights of ∫ dx, and ends of large panels, which no node is near; `inner` nodes, in `ends`, are not next to an edge."""
+    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels, which no node is near.
+
+    `inner` nodes, in `ends`, are not next to an edge.
+    """
 
     x: Array
+    angle: Array
     weight: Array
     between: Array
     inner: slice
@@ -67,15 +76,15 @@ def composite_rule(
             weight[k] = length[k] * w / g**power
     angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
     if not epsilon:
-        return Rule(position(contact, angle), weight, position(contact, large), slice(None), contact)
+        return Rule(position(contact, angle), angle, weight, position(contact, large), slice(None), contact)
     large = large[(large > edges[1]) & (large < edges[-2])]
     x2, x1 = position(contact, edges[[1, -2]]).tolist()
-    return Rule(position(contact, angle), weight, position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
+    return Rule(position(contact, angle), angle, weight, position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
 
 
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
     """The ends of the panels, as angles from the right edge, and those of the largest."""
-    levels = KINK_LEVELS if slope.continuous else LEVELS
+    levels = _levels_of_few(slope, also)
     cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
     towards = cut if len(cut) <= FEW_BREAKS else angles(contact, np.union1d(inner_breaks(contact, slope), also))
@@ -111,6 +120,18 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
         cuts += [cut[at] - GRADING**level * length[at], cut[at] + GRADING**level * length[at + 1]]
     every = np.unique(np.concatenate(cuts))
     return _balanced(every[(every >= 0.0) & (every <= np.pi)]), chosen
+
+
+def _levels_of_few(slope: Slope, also: Array) -> int:
+    """How often the panels at the breaks are graded where these are few.
+
+    Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which asks for fewer.
+    """
+    powers = [f.function for f in slope.functions if isinstance(f.function, PowerSlope)]
+    if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:
+        return LEVELS if not slope.continuous else ROOT_LEVELS if also.size else KINK_LEVELS
+    a = min(power.exponent for power in powers) - 1.0
+    return math.ceil(max(math.log(EPS ** (-1.0 / (a + 1.0)) / NODES**2) / -math.log(GRADING), 0.0))
 
 
 def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:

@@ -43,6 +43,8 @@ from .validity import notes
 
 Array = NDArray[np.float64]
 
+NEED_SHEAR = {"shear", "stress", "yield", "tension", "check"}
+
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
     """What a scene file asks for: the contact, if it does not say."""
@@ -107,12 +109,14 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
 
 
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """The notes on strains that are not small.
+    """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
 
     Where nothing but the edges is wanted the pressure is not computed: its mean is looked at.
     """
-    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
+    if NEED_SHEAR & set(wanted(file)):
         return solution.notes
+    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
+        return solution.strain_notes
     slopes = solution.scene.profile.slope(np.linspace(*solution.edges, POINTS)) + solution.tilt
     return notes(slopes, solution.normal_load / (2.0 * solution.half_width) / solution.scene.Estar)
 

@@ -263,7 +263,7 @@ class Track(Slip):
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
-        return all(virgin.advancing for _, virgin in self._terms)
+        return not self.history.unit[1] or all(virgin.advancing for _, virgin in self._terms)
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import checks
 from .bonded import Component, bonded_certificate, bonded_contact
-from .check import Certificate, certificate, slope_rises, verify_inequalities
+from .check import RETREAT, Certificate, certificate, slope_rises, verify_inequalities
 from .density import ZERO, Density, on_line, zero_or_nan
 from .edges import Edges
 from .errors import ContactError, LoadError
@@ -58,7 +58,8 @@ class Solution:
     elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
     check()      Certificate
     trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
-    notes        sentences on what half-plane elasticity leaves out here: large slopes, large pressures
+    notes        sentences on what the equations leave out here: large slopes and pressures, zones
+                 of slip that would retreat
     with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
 
     Asking raises ContactError where the scene has no answer that the package covers.
@@ -302,6 +303,18 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
+        """`strain_notes` and `slip_notes`: sentences on what the equations leave out here."""
+        return *self.strain_notes, *self.slip_notes
+
+    @property
+    def slip_notes(self) -> tuple[str, ...]:
+        """A sentence on zones of slip that would retreat, so that the way to the loads matters."""
+        if not self.sheared or self.tangential.advancing:
+            return ()
+        return (f"note: slip is found in total displacements: {RETREAT}",)
+
+    @property
+    def strain_notes(self) -> tuple[str, ...]:
         """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
         if self.scene.bonded or "certificate" in self.__dict__:
             return self.certificate.notes

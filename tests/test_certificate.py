@@ -1,13 +1,15 @@
 """What the certificate promises: no error far above its estimate, nothing unseen in a function."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
 import sie
-from sie import check, normal, unseen
+from sie import check, composite, gap, normal, slope_density, unseen
 from sie.check import PROMISE
+from sie.interval import interval_about
 from validation import reference
 from validation.reference import mp
 from validation.wrong import with_pressure
@@ -236,9 +238,10 @@ def test_small_slopes_and_pressures_carry_no_note():
 
 
 @pytest.mark.parametrize(("load", "noted"), [(0.01, False), (0.1, True)])
-def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(load, noted):
+@pytest.mark.parametrize("given", [{}, {"friction": math.inf, "dundurs": 0.05}], ids=["frictionless", "bonded"])
+def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(load, noted, given):
     """Where it is infinite some pressure exceeds any bound."""
-    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load))
+    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load, **given))
     assert bool(solution.notes) is noted
 
 
@@ -250,5 +253,36 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
         raise AssertionError("integrated")
 
     monkeypatch.setattr(check, "gap", refuse)
-    for profile in (sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Flat(1.0)):
+    powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
+    for profile in (sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Flat(1.0), *powers):
         assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap == 0.0
+
+
+@pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
+def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
+    """The closed form needs no pieces, and the rule of the certificate is graded to the axis."""
+
+    def refuse(*_):
+        raise AssertionError("resolved")
+
+    profile = sie.Power(exponent, 0.75).shifted(0.7)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
+    for module in (check, composite, gap, slope_density):
+        monkeypatch.setattr(module, "refined", refuse)
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
+@pytest.mark.parametrize("size", [1e-6, 1e-9])
+def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
+    """Of the right load and the law's own shape: the equation and the conditions of the edges tell."""
+    scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
+    right, wide = (sie.solve(scene) for _ in range(2))
+    p, r = right.pressure, right.half_width
+    contact = interval_about(0.0, r * (1.0 + size))
+    wide.__dict__["pressure"] = dataclasses.replace(p, contact=contact)
+    x = r * np.linspace(-0.95, 0.95, 401)
+    error = float(np.abs(wide.pressure(x) - p(x)).max() / p(x).max())
+    found = wide.check()
+    assert not found.ok
+    assert found.error >= error / SHARE

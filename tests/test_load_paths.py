@@ -10,7 +10,10 @@ from hypothesis import strategies as st
 from kalker import Mesh
 
 import sie
+from sie.export import as_dict
 from sie.ladder import Ladder
+from sie.scenefile import SceneFile
+from sie.summary import summary
 
 E, F, P = 2.0, 0.5, 0.375
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=E, normal_load=P, friction=F)
@@ -326,6 +329,7 @@ def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(mor
     assert (history[0].shear(x) == scene.shear(x)).all() and (history[0].slip(x) == scene.slip(x)).all()
     for solution in (history[0], scene):
         assert "retreat" in str(solution.check())
+        assert "retreat" in solution.notes[-1]
     with pytest.raises(sie.ContactError, match=r"step 1 .*retreat"):
         _ = history[1].stick
 
@@ -444,6 +448,19 @@ def test_where_zones_retreat_the_way_matters_and_the_certificate_says_so():
         errors.append(np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
     assert errors[0] < 3e-4
     assert errors[1] > 3.0 * errors[0]
+
+
+@pytest.mark.parametrize("sigma", [0.5, 0.0])
+def test_reports_without_a_certificate_note_zones_that_retreat(sigma):
+    """The text and the JSON: where the shear matters, and not where only the pressure is wanted."""
+    solution = sie.solve(sie.Scene(**fields(HERTZ), tangential_load=0.6 * FP, bulk_stress=sigma))
+
+    def reports(*want):
+        file = SceneFile(solution.scene, want=want)
+        return summary(solution, file), " ".join(as_dict(solution, file)["notes"])
+
+    assert all(("retreat" in report) is (sigma != 0.0) for report in (*reports(), *reports("stress")))
+    assert not any("retreat" in report for report in reports("pressure"))
 
 
 def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh():
