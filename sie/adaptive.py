@@ -32,7 +32,7 @@ NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of 
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
-MAX_PIECES = 20_000
+MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
 PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
 

@@ -133,7 +133,7 @@ class Density(ABC):
         return values
 
     def _everywhere(self, function: Callable[[Any], Any], z: Any, tail: Callable[[Any], Any]) -> Any:
-        near = np.abs(z) <= self._horizon
+        near = np.abs(z) <= self.horizon
         if near.all():
             return function(z)
         values = function(z[near])
@@ -143,7 +143,7 @@ class Density(ABC):
         return out
 
     @cached_property
-    def _horizon(self) -> float:
+    def horizon(self) -> float:
         """From here on the force is all that is left of a traction, and nothing of where it acts."""
         lo, hi = self.interval
         size = max(abs(lo), abs(hi), hi - lo)

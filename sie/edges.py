@@ -141,6 +141,10 @@ class Search:
 
     def touch(self) -> tuple[float, float]:
         """[z1, z2] where H = 0: the lowest points of the profile."""
+        return self._touch
+
+    @cached_property
+    def _touch(self) -> tuple[float, float]:
         if self.axis is not None:
             z = next((lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1])
             z = max(z, self.axis)
@@ -453,6 +457,8 @@ def _logarithmic_root(
         if f > best:
             best, best_u = f, u
         rising = 0.0 < f < math.inf and slope > 0.0
+        if rising and not 0.0 < target / f < math.inf:
+            raise OverflowError("the ratio is no double")
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
             return min(u * math.exp(step), limit)

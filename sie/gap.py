@@ -47,18 +47,25 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
 
 def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
     """gap'(x) at x beside the contact, all on one side."""
-    G, continued = density.gap_excess(x)
-    difference: Array = slope(x) - continued
+    opening: Array = slope(x)
+    near = np.abs(x) <= density.horizon  # beyond, the pressure is a force
+    opening[~near] -= density.hilbert(x[~near]) / density.half_modulus
+    if not near.any():
+        return opening
+    G, continued = density.gap_excess(x[near])
+    difference: Array = opening[near] - continued
     # On the piece that reaches the edge H is its own continuation; what is left there is rounding, and would hide G next to the edge
     own = np.abs(difference) <= 16.0 * EPS * (np.abs(continued) + density.slope_scale)
     difference[own] = 0.0
-    return difference + G
+    opening[near] = difference + G
+    return opening
 
 
 def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
     contact = density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
-    theta = 2.0 * np.arcsinh(np.sqrt(distance / (2.0 * contact.r)))
+    width = np.sqrt(2.0 * contact.r)  # its square root: a distance over the width may exceed all doubles
+    theta = 2.0 * np.arcsinh(np.sqrt(distance) / width)
     cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
     beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)  # no double is nearer to the edge
 
@@ -73,13 +80,14 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, mor
     def by_quadrature(start: Array, length: Array, nodes: int) -> Array:
         g, w = chebyshev.gauss_legendre(nodes)
         t = start[:, None] + length[:, None] * g
-        d = 2.0 * contact.r * np.sinh(0.5 * t) ** 2
+        root = width * np.sinh(0.5 * t)
+        d = root * root
         right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1
         at = np.maximum(right, beyond) if side > 0.0 else np.minimum(left, beyond)
         opening = side * gap_slope(at.ravel(), density, slope)
         if more is not None:
             opening = opening + more(at.ravel(), side)
-        values = opening.reshape(t.shape) * (contact.r * np.sinh(t))
+        values = opening.reshape(t.shape) * (root * (width * np.cosh(0.5 * t)))
         return length * (values @ w)
 
     until = np.concatenate(([0.0], np.cumsum(integral(cuts[:-1], np.diff(cuts)))))
@@ -100,6 +108,6 @@ def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slo
     pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS).breaks
     outside = -(contact.from_right(pieces) if side > 0.0 else contact.from_left(pieces))
     outside = outside[(outside > 0.0) & np.isfinite(outside)]
-    breaks = 2.0 * np.arcsinh(np.sqrt(outside / (2.0 * contact.r)))
+    breaks = 2.0 * np.arcsinh(np.sqrt(outside) / np.sqrt(2.0 * contact.r))
     cuts = np.unique(np.concatenate(([0.0], graded, even, breaks)))
     return cuts[(cuts < theta_max) | (cuts == 0.0)]

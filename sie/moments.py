@@ -54,6 +54,8 @@ NOTHING = Moments(*(0.0,) * 9)
 
 def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
     """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
+    if not contact.r < math.inf:
+        raise OverflowError("an edge of the contact is beyond all doubles")
     if slope.few and not keep_zero:
         return _of_few(slope, contact, lower)
     return _of_many(Geometry(slope, contact, lower, keep_zero))

@@ -73,6 +73,8 @@ UNITS = Units()
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
+# Each is solved and listed, within two seconds together.
+MOST_POINTS = 2000
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene needs three.
 DEEPEST = 20
 # What is not closed ends with the line, or with the file: so each character is looked at once.
@@ -229,6 +231,8 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
     both = [name for name in _PATH_REPLACES if name in loads]
     if both:
         raise ValueError(f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out")
+    if len(loads["path"]) > MOST_POINTS:
+        raise ValueError(f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: follow it in Python, by sie.follow")
     with _Naming("[load]"):
         points = Path(loads.pop("path")).points
     loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), points[-1], strict=True))

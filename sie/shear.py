@@ -190,7 +190,7 @@ class TwoSigns(Density):
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         z = checks.complexes("z", z)
         flat = z.ravel()
-        if not ((flat.imag > 0.0) & (np.abs(flat) <= self._horizon)).all():
+        if not ((flat.imag > 0.0) & (np.abs(flat) <= self.horizon)).all():
             return self.cauchy(z, side), self.cauchy_derivative(z, side)
         refuse_side(side)
         F, dF = np.empty((2, *flat.shape), dtype=complex)
@@ -203,36 +203,38 @@ class TwoSigns(Density):
     def _both_off_axis(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
         """(F, F') off the axis: they share the tail, which costs most."""
         scale, _, sign = self._side(right)
-        root, steep, tail, falling = self._tail(z, right)
+        pull, steep = self._pull(z, right)
         (F, dF), (N, dN) = self.pressure.potentials(z), self.formal.potentials(z)
-        factor = 2.0 * sign / np.pi * root
-        return scale * (F - N + factor * tail) + self.tau, scale * (dF - dN + factor * (steep * tail + falling))
+        return scale * (F - N + sign * pull) + self.tau, scale * (dF - dN + sign * steep)
 
     def _off_axis(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)
-        root, _, tail, _ = self._tail(z, right)
-        near: Complex = self.pressure.cauchy(z) - self.formal.cauchy(z) + 2.0 * sign / np.pi * root * tail
+        near: Complex = self.pressure.cauchy(z) - self.formal.cauchy(z) + sign * self._pull(z, right)[0]
         return scale * near + self.tau
 
     def _off_axis_derivative(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)
-        root, steep, tail, falling = self._tail(z, right)
-        pull = 2.0 * sign / np.pi * root * (steep * tail + falling)
-        near: Complex = self.pressure.cauchy_derivative(z) - self.formal.cauchy_derivative(z) + pull
+        steep = self._pull(z, right)[1]
+        near: Complex = self.pressure.cauchy_derivative(z) - self.formal.cauchy_derivative(z) + sign * steep
         return scale * near
 
-    def _tail(self, z: Complex, right: bool) -> tuple[Complex, Complex, Complex, Complex]:
-        """R(z), R'/R, and ∫_other side p/(|R| (z - t)) dt with its derivative."""
+    def _pull(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
+        """2 R(z)/π ∫_other side p/(|R| (z - t)) dt and its derivative.
+
+        Lengths are in half-widths of the stick zone: a pressure over the square of a length may exceed all doubles.
+        """
         _, other, _ = self._side(right)
         stick = self.zones.stick
-        left, right_ = stick.from_left(z), -stick.from_right(z)
-        weight = other.force / np.sqrt(other.inwards * (other.inwards + 2.0 * stick.r))
+        r = stick.r
+        left, right_, inwards = stick.from_left(z) / r, -stick.from_right(z) / r, other.inwards / r
+        weight = other.force / r / np.sqrt(inwards * (inwards + 2.0))
         # z - t for t at the distance `inwards` from the stick zone's end
         base, step = (left, 1.0) if right else (right_, -1.0)
         tail, falling = np.empty((2, *z.shape), dtype=complex)
         for start in range(0, len(z), ROWS):
             rows = slice(start, start + ROWS)
-            inverse = np.reciprocal(base[rows, None] + step * other.inwards)
+            inverse = np.reciprocal(base[rows, None] + step * inwards)
             tail[rows] = inverse @ weight
             falling[rows] = -(inverse * inverse) @ weight
-        return np.sqrt(left) * np.sqrt(right_), 0.5 * (1.0 / left + 1.0 / right_), tail, falling
+        root = 2.0 / np.pi * np.sqrt(left) * np.sqrt(right_)
+        return root * tail, root * (0.5 * (1.0 / left + 1.0 / right_) * tail + falling) / r

@@ -254,7 +254,8 @@ class SlidingPlane(Plane):
             T += row_w @ pole
             dT += row_w @ (pole * pole)
         less = np.expm1(p.at_left * lerch.log1p(r / s) + p.at_right * lerch.log1p(-r / s))  # ρ - 1
-        steep = (1.0 + less) * (r * (r - 2.0 * p.geometry.epsilon * s)) / (s * (s - r) * (s + r))
+        # Ratios, because the cube of a distance may exceed all doubles
+        steep = (1.0 + less) * ((r - 2.0 * p.geometry.epsilon * s) / s) * (r / (s - r) / (s + r))
         V = T * (1.0 + less) - p.I0 * (less + 1.0 if constant else less)
         return V, dT * (1.0 + less) + (T - p.I0) * steep
 

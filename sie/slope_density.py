@@ -205,7 +205,7 @@ class SlopeDensity(Density):
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         z = checks.complexes("z", z)
         flat = z.ravel()
-        if (flat.imag > 0.0).all() and (np.abs(flat) <= self._horizon).all():
+        if (flat.imag > 0.0).all() and (np.abs(flat) <= self.horizon).all():
             refuse_side(side)
             F, dF = self._both_in_upper(flat)
             return F.reshape(z.shape), dF.reshape(z.shape)

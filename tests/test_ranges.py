@@ -128,3 +128,30 @@ def test_a_contact_in_any_units_is_refused_or_the_same(name, length, stress):
     assert np.array(other.stick) / length == pytest.approx(np.array(one.stick), rel=1e-11)
     x = one.centre + one.half_width * POINTS
     assert other.pressure(length * x) / stress == pytest.approx(one.pressure(x), rel=1e-12, abs=1e-13)
+
+
+FAR = np.array([-1e300, -1e150, -1e-300, 0.0, 1e120, 1e300])
+SIZED = {
+    "two signs of slip": lambda L, E: {"friction": 0.3, "tangential_load": 0.01 * L * E, "bulk_stress": 0.1 * E},
+    "sliding of dissimilar bodies": lambda L, E: {"friction": 0.3, "sliding": 1, "dundurs": 0.2},
+}
+
+
+@pytest.mark.parametrize("name", SIZED)
+@pytest.mark.parametrize("length", [1e-100, 1e-60, 1.0, 1e60, 1e100])
+@pytest.mark.parametrize("modulus", [1e-100, 1.0, 1e100])
+def test_no_query_overflows_however_small_or_far_away(name, length, modulus):
+    given = {"modulus": modulus, "poisson": 0.3, "normal_load": length * modulus} | SIZED[name](length, modulus)
+    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(length, length), **given))
+    x = np.concatenate((length * np.linspace(-3.0, 3.0, 7), FAR))
+    for query in (solution.pressure, solution.shear, solution.gap):
+        assert not np.isnan(query(x)).any()
+    for y in (0.0, 1e-12 * length, length, 1e6 * length, 1e200):
+        stress = solution.stress(x, y)
+        assert np.isfinite([stress.xx, stress.yy, stress.xy]).all()
+
+
+@pytest.mark.parametrize("moment", [1e160, 1e200, -1e226, 1e260])
+def test_a_moment_that_moves_the_contact_beyond_doubles_is_refused(moment):
+    with pytest.raises(sie.ContactError, match="choose other units"):
+        _ = sie.solve(scene(PUNCH, normal_load=1e-47, moment=moment)).edges

@@ -283,3 +283,10 @@ def test_a_load_path_takes_the_place_of_the_loads():
 def test_a_load_path_that_means_nothing_is_refused(load, said):
     with pytest.raises(SceneFileError, match=said):
         parse(PAIR + PARABOLA + "[load]\n" + load)
+
+
+def test_a_path_longer_than_a_report_can_list_is_refused():
+    text = PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = {}\n"
+    most = [[1.0, 0.1 * (-1) ** k] for k in range(scenefile.MOST_POINTS)]
+    assert len(parse(text.format(most)).path) == len(most)
+    assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))
