@@ -46,8 +46,10 @@ Array = NDArray[np.float64]
 SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
 TAIL = 3
 FINE, COARSE = 1024.0 * EPS, 1e-11  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
-LONG = 1e-2  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
+LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
 NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
+NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
+NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
 FEW = 8  # so many breaks are cut at without trial
 MANY = 24  # a profile of so many breaks is a trace
@@ -73,9 +75,9 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """d ln r/d ln y for lo <= y <= hi, with t = ln(y/lo)/ln(hi/lo).
+    """d ln r/d ln y for lo <= y <= hi, with t = ln(y/lo)/ln(hi/lo), as a series in 2 t - 1.
 
-    A series in 2 sqrt(t) - 1 if an edge passes a break at lo (`kinked`), otherwise in 2 t - 1.
+    If an edge passes a break at lo (`kinked`), of sqrt(t) d ln r/d ln y in 2 sqrt(t) - 1.
     """
 
     lo: float
@@ -163,7 +165,7 @@ class Growth:
         """d ln r/d ln y at y (K, n) on the panels k."""
         panels = self._panels
         lo, hi, kinked = (np.array([getattr(p, name) for p in panels])[k][:, None] for name in ("lo", "hi", "kinked"))
-        t = np.clip(np.log1p((y - lo) / lo) / np.log1p((hi - lo) / lo), 0.0, 1.0)
+        t = np.clip(np.log1p((y - lo) / lo) / np.log1p((hi - lo) / lo), NEAREST, 1.0)
         s = 2.0 * np.where(kinked, np.sqrt(t), t) - 1.0
         width = max(len(p.series) for p in panels)
         series = np.zeros((len(panels), width))
@@ -172,7 +174,7 @@ class Growth:
         after = values = np.zeros(y.shape)  # Clenshaw (1955)
         for c in series.T[:0:-1]:
             values, after = c[k][:, None] + 2.0 * s * values - after, values
-        total: Array = series[k, :1] + s * values - after
+        total: Array = (series[k, :1] + s * values - after) / np.where(kinked, np.sqrt(t), 1.0)
         return total
 
     def _cuts(self) -> list[float]:
@@ -254,8 +256,11 @@ class Growth:
                     found.append(self._level_at(b, right, here))
         return max(y if max(limit, LOWEST * self.top) < y < level else 0.0 for y in found)
 
-    def _resolved(self, lo: float, hi: float, kinked: bool, whole: float = 0.0) -> list[Panel]:
-        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more."""
+    def _resolved(self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False) -> list[Panel]:
+        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more.
+
+        An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
+        """
         whole = whole or hi - lo
         inside = self._passed(lo, hi)
         cut = self._level_at(*inside[len(inside) // 2], self.contact(math.sqrt(lo) * math.sqrt(hi)).interval) if inside else 0.0
@@ -266,15 +271,17 @@ class Growth:
                 series, missed = self._series(lo, hi, kinked, n)
                 if hi - lo <= SHORTEST * lo:
                     return [Panel(lo, hi, kinked, series)]
-                enough = (COARSE if at_break else FINE) * whole / (hi - lo)
+                # Beside what a front of such a load turns into heat
+                enough = (COARSE if at_break else FINE) * min(whole, hi) / (hi - lo)
                 if missed <= enough or 0.25 * before <= missed <= NOISE:
                     return [Panel(lo, hi, kinked, series)]
                 if missed * (missed / before) ** 2 > enough:
                     break  # twice as many points would not do either
                 before = missed
         if not at_break:
-            cut = lo * (hi / lo) ** (0.25 if kinked else 0.5)
-        return self._resolved(lo, cut, kinked, whole) + self._resolved(cut, hi, at_break, whole)
+            cut = lo * (hi / lo) ** (0.25 if kinked else 0.75 if below else 0.5)
+        upper = self._resolved(cut, hi, at_break, whole, below)
+        return self._resolved(lo, cut, kinked, whole, at_break) + upper
 
     def _series(self, lo: float, hi: float, kinked: bool, n: int) -> tuple[Array, float]:
         """The series of a panel, and how large its last coefficients are."""
@@ -283,13 +290,15 @@ class Growth:
         y = lo * (hi / lo) ** (t * t if kinked else t)
         length = math.log1p((hi - lo) / lo)
         # The slope near where it is 0 is known to rounding of its larger values
-        scale = math.sqrt(self.top / hi)
-        if length > LONG and not kinked and (self._search.slope.functions or len(self._breaks) > FEW):
+        scale = max(NOISELESS * math.sqrt(self.top / hi), 1.0)
+        if length > LONG and (self._search.slope.functions or len(self._breaks) > FEW):
             contacts = [self.contact(level).interval for level in y.tolist()]
             series = chebyshev.transform(np.log([[c.r / contacts[-1].r for c in contacts]]))[0]
             missed = float(np.abs(series[-TAIL:]).max()) / scale / length
-            return np.polynomial.chebyshev.chebder(series) * (2.0 / length), missed
+            return np.polynomial.chebyshev.chebder(series) * ((1.0 if kinked else 2.0) / length), missed
         values = np.array([self._rate(level) for level in y.tolist()])
+        if kinked:
+            values = values * t
         series = chebyshev.transform(values[None, :])[0]
         scale *= float(np.abs(values).max())
         return series, float(np.abs(series[-TAIL:]).max()) / scale if scale else 0.0
@@ -338,7 +347,7 @@ class Growth:
             step1, step2 = (r * (k.I1 - k.I0) - target) / (r * k.JL), (target - r * (k.I1 + k.I0)) / (r * k.JR)
             d1, d2 = self._distances(contact)
             size = max(abs(step1) / d1, abs(step2) / d2)
-            if size <= SETTLED or previous * 0.25 <= size <= ASTRAY:
+            if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(self.top / y):
                 return Contact(contact, (False, False), k)
             if not size <= previous:
                 return None
