@@ -25,7 +25,7 @@ from .geometry import Geometry
 from .interval import Interval
 from .panels import FAR_FIELD, Panels
 from .potential import Plane, outer_series
-from .power_law import PowerLaw, PowerSlope
+from .power_law import Corner, PowerLaw, PowerSlope
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -36,6 +36,7 @@ CONTINUATION = 4.0
 # Powers below CUSP are steep on their axis; nearer to it than this fraction of the half-width,
 # what else there is to the pressure is straight to rounding.
 CUSP, BESIDE_CUSP = 2.0, 1e-9
+STRAIGHT = 2.9  # powers from here on are straight so near to an axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -338,6 +339,7 @@ class OnPanels(SlopeDensity):
     """H piece by piece: p = E*/(2π) V on the contact, F = -E*/(2π) V elsewhere (`panels`)."""
 
     panels: Panels
+    _potential_scale = -1.0 / np.pi  # F over V, where E*/2 = 1
 
     @property
     def slope_scale(self) -> float:
@@ -353,18 +355,25 @@ class OnPanels(SlopeDensity):
         return self.panels.on_contact(x) / np.pi
 
     @cached_property
-    def _cusps(self) -> dict[float, list[PowerLaw]]:
-        """The powers |x - axis|^m, m < CUSP, of the slope: too steep on the axis for pieces."""
-        cusps: dict[float, list[PowerLaw]] = {}
-        for term in self.panels.geometry.slope.functions:
+    def _cusps(self) -> dict[float, list[PowerLaw | Corner]]:
+        """Of each axis of a power below CUSP, too steep there for pieces: all that is not straight."""
+        slope, (lo, hi) = self.panels.geometry.slope, self.interval
+        cusps: dict[float, list[PowerLaw | Corner]] = {}
+        for term in slope.functions:
             f = term.function
-            if isinstance(f, PowerSlope) and 1.0 < f.exponent < CUSP:
+            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < term.shift < hi:
                 law = PowerLaw(f.exponent, f.coefficient, term.shift)
                 cusps.setdefault(term.shift, []).append(law)
-        lo, hi = self.interval
-        return {axis: laws for axis, laws in cusps.items() if lo < axis < hi}
+        for axis, laws in list(cusps.items()):
+            if min(law.exponent for law in laws if isinstance(law, PowerLaw)) >= CUSP:
+                del cusps[axis]
+                continue
+            corner = Corner(*slope.without_functions.corner(axis))
+            if corner.jump or corner.bend:
+                laws.append(corner)
+        return cusps
 
-    def _put_cusp(self, p: Array, x: Array, axis: float, laws: list[PowerLaw]) -> None:
+    def _put_cusp(self, p: Array, x: Array, axis: float, laws: list[PowerLaw | Corner]) -> None:
         """The pressure next to an axis: that of the powers alone, and a straight line."""
         b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
         close = BESIDE_CUSP * b
@@ -372,14 +381,34 @@ class OnPanels(SlopeDensity):
         if not at.size:
             return
 
-        y, ends = x[at] - axis, np.array([-close, close])
-        left, right = (self._by_pieces(axis + ends) - self._of_powers(laws, ends, b)).tolist()
-        rest = 0.5 * (left + right) + 0.5 * (right - left) * (y / close)
-        p[at] = self._of_powers(laws, y, b) + rest
+        y, ends = x[at] - axis, axis + np.array([-close, close])
+        beside = ends - axis  # of the rounded ends
+        left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
+        p[at] = self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
 
-    def _of_powers(self, laws: list[PowerLaw], y: Array, b: float) -> Array:
+    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
         """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
         return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
+
+    def _put_cusp_potential(self, F: Complex, dF: Complex | None, z: Complex, axis: float, laws: list[PowerLaw | Corner]) -> None:
+        """The same for the potential and its derivative at Im z > 0."""
+        b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+        close = BESIDE_CUSP * b
+        at = np.flatnonzero(np.abs(z - axis) < close)
+        if not at.size:
+            return
+
+        y, start = z[at] - axis, np.array([1j * close])
+        pieces = self._potential_scale * np.array(self._plane(np.asarray(axis + start)))
+        rest, steep = pieces - self._potentials_of_powers(laws, start, b)
+        values, derivatives = self._potentials_of_powers(laws, y, b)
+        F[at] = values + (rest + steep * (y - start))
+        if dF is not None:
+            dF[at] = derivatives + steep
+
+    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
+        """(F, F') of the powers alone, (2, n)."""
+        return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
 
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
@@ -401,10 +430,16 @@ class OnPanels(SlopeDensity):
         return V / np.pi, continued
 
     def _off_axis(self, z: Complex) -> Complex:
-        return self.panels.off_axis(z) / -np.pi
+        F: Complex = self._potential_scale * self.panels.off_axis(z)
+        for axis, laws in self._cusps.items():
+            self._put_cusp_potential(F, None, z, axis, laws)
+        return F
 
     def _corner(self, x: float) -> float:
-        at = (infinite for e, infinite in self.panels.jumps if e == x and x not in self._cusps)
+        if x in self._cusps:
+            jump = self.panels.geometry.slope.without_functions.corner(x)[0]
+            return math.copysign(1.0, jump) if jump else 0.0
+        at = (infinite for e, infinite in self.panels.jumps if e == x)
         return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
 
     @cached_property
@@ -413,11 +448,14 @@ class OnPanels(SlopeDensity):
 
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = self._plane(z)
-        return V / -np.pi, dV / -np.pi
+        F, dF = self._potential_scale * V, self._potential_scale * dV
+        for axis, laws in self._cusps.items():
+            self._put_cusp_potential(F, dF, z, axis, laws)
+        return F, dF
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = self._plane.far(z, constant=False)
-        return V / -np.pi, dV / -np.pi
+        return self._potential_scale * V, self._potential_scale * dV
 
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
