@@ -346,10 +346,9 @@ class OnPanels(SlopeDensity):
         return self.panels.scale
 
     def _regular(self, x: Array) -> Array:
-        p = self._by_pieces(x)
-        for axis, laws in self._cusps.items():
-            self._put_cusp(p, x, axis, laws)
-        return p
+        if not self._cusps:
+            return self._by_pieces(x)
+        return self._joined(x, self._by_pieces, self._beside_cusp, np.empty(x.shape))
 
     def _by_pieces(self, x: Array) -> Array:
         return self.panels.on_contact(x) / np.pi
@@ -373,18 +372,34 @@ class OnPanels(SlopeDensity):
                 laws.append(corner)
         return cusps
 
-    def _put_cusp(self, p: Array, x: Array, axis: float, laws: list[PowerLaw | Corner]) -> None:
-        """The pressure next to an axis: that of the powers alone, and a straight line."""
-        b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
-        close = BESIDE_CUSP * b
-        at = np.flatnonzero(np.abs(x - axis) < close)
-        if not at.size:
-            return
+    def _joined(self, place: Any, by_pieces: Any, beside_cusp: Any, out: Any) -> Any:
+        """`out`, with values of the pieces and, next to an axis, of its powers; none of both."""
+        left = np.ones(place.shape, dtype=bool)
+        for axis, laws in self._cusps.items():
+            b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+            at = np.abs(place - axis) < BESIDE_CUSP * b
+            if at.any():
+                out[..., at] = beside_cusp(place[at], axis, b, laws)
+                left &= ~at
+        if left.any():
+            out[..., left] = by_pieces(place[left])
+        return out
 
-        y, ends = x[at] - axis, axis + np.array([-close, close])
+    def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
+        """The pressure next to an axis: that of the powers alone, and a straight line."""
+        y, ends = x - axis, axis + BESIDE_CUSP * b * np.array([-1.0, 1.0])
         beside = ends - axis  # of the rounded ends
         left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
-        p[at] = self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+        return self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+
+    def _pair_beside_cusp(self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Complex:
+        """The same of the potential and its derivative, (2, n), at Im z > 0."""
+        y, start = z - axis, np.array([1j * BESIDE_CUSP * b])
+        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(laws, start, b)
+        out = self._potentials_of_powers(laws, y, b)
+        out[0] += rest + steep * (y - start)
+        out[1] += steep
+        return out
 
     def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
         """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
@@ -407,7 +422,7 @@ class OnPanels(SlopeDensity):
             dF[at] = derivatives + steep
 
     def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
-        """(F, F') of the powers alone, (2, n)."""
+        """(F, F') of the same, (2, n)."""
         return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
 
     def _slope(self, x: Array) -> Array:
@@ -430,9 +445,13 @@ class OnPanels(SlopeDensity):
         return V / np.pi, continued
 
     def _off_axis(self, z: Complex) -> Complex:
+        if not self._cusps:
+            return self._off_axis_by_pieces(z)
+        values: Complex = self._joined(z, self._off_axis_by_pieces, lambda *at: self._pair_beside_cusp(*at)[0], np.empty_like(z))
+        return values
+
+    def _off_axis_by_pieces(self, z: Complex) -> Complex:
         F: Complex = self._potential_scale * self.panels.off_axis(z)
-        for axis, laws in self._cusps.items():
-            self._put_cusp_potential(F, None, z, axis, laws)
         return F
 
     def _corner(self, x: float) -> float:
@@ -447,11 +466,16 @@ class OnPanels(SlopeDensity):
         return Plane(self.panels)
 
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
-        V, dV = self._plane(z)
-        F, dF = self._potential_scale * V, self._potential_scale * dV
-        for axis, laws in self._cusps.items():
-            self._put_cusp_potential(F, dF, z, axis, laws)
+        if not self._cusps:
+            V, dV = self._plane(z)
+            return self._potential_scale * V, self._potential_scale * dV
+        out = np.empty((2, *z.shape), dtype=complex)
+        F, dF = self._joined(z, self._pair_by_pieces, self._pair_beside_cusp, out)
         return F, dF
+
+    def _pair_by_pieces(self, z: Complex) -> Complex:
+        out: Complex = self._potential_scale * np.array(self._plane(z))
+        return out
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = self._plane.far(z, constant=False)
