@@ -30,7 +30,7 @@ from .interval import EPS, Interval
 from .moments import NOTHING, Moments, rises, sizes
 from .panels import Panels
 from .potential import Plane
-from .power_law import PowerLaw, PowerSlope
+from .power_law import Corner, PowerLaw
 from .slope import Slope
 from .slope_density import PanelDensity
 
@@ -273,23 +273,25 @@ class SlidingDensity(PanelDensity):
     def _by_pieces(self, x: Array) -> Array:
         return (self.panels.cos**2 / np.pi) * self.panels.on_contact(x)
 
-    def _of_powers(self, laws: list[PowerLaw], y: Array, b: float) -> Array:
+    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
         """As H and p are conjugate, 1/π PV∫p/(x - t) + p tan πε = H is met with H sin πε cos πε."""
-        slope = np.sum([PowerSlope(law.exponent, law.coefficient)(y) for law in laws], axis=0)
+        slope = np.sum([law.slope_at(y) for law in laws], axis=0)
         cos, sin = self.panels.cos, math.sin(math.pi * self.epsilon)
         return cos * cos * super()._of_powers(laws, y, b) + sin * cos * slope
+
+    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
+        """The same: Re((1 + i tan πε) F) = H."""
+        turn = self.panels.cos * np.exp(-1j * np.pi * self.epsilon)
+        out: Complex = turn * super()._potentials_of_powers(laws, y, b)
+        return out
 
     @cached_property
     def _plane(self) -> Plane:
         return SlidingPlane(self.panels)
 
-    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
-        V, dV = self._plane(z)
-        return (-self.panels.cos / np.pi) * V, (-self.panels.cos / np.pi) * dV
-
-    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
-        V, dV = self._plane.far(z, constant=False)
-        return (-self.panels.cos / np.pi) * V, (-self.panels.cos / np.pi) * dV
+    @property
+    def _potential_scale(self) -> float:  # type: ignore[override]
+        return -self.panels.cos / np.pi
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
@@ -308,9 +310,6 @@ class SlidingDensity(PanelDensity):
     def _beside(self, x: Array) -> tuple[Array, Array]:
         V, continued = self.panels.beside(x)
         return (self.panels.cos / np.pi) * V, continued
-
-    def _off_axis(self, z: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        return (-self.panels.cos / np.pi) * self.panels.off_axis(z)
 
     def _edge(self, ratio: Array, on_left: bool) -> Array:
         out: Array = ratio ** (0.5 - self.epsilon if on_left else 0.5 + self.epsilon)

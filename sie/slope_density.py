@@ -25,7 +25,7 @@ from .geometry import Geometry
 from .interval import Interval
 from .panels import FAR_FIELD, Panels
 from .potential import Plane, outer_series
-from .power_law import PowerLaw, PowerSlope
+from .power_law import Corner, PowerLaw, PowerSlope
 from .slope import Slope
 
 Array = NDArray[np.float64]
@@ -36,6 +36,7 @@ CONTINUATION = 4.0
 # Powers below CUSP are steep on their axis; nearer to it than this fraction of the half-width,
 # what else there is to the pressure is straight to rounding.
 CUSP, BESIDE_CUSP = 2.0, 1e-9
+STRAIGHT = 2.9  # powers from here on are straight so near to an axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -338,48 +339,91 @@ class OnPanels(SlopeDensity):
     """H piece by piece: p = E*/(2π) V on the contact, F = -E*/(2π) V elsewhere (`panels`)."""
 
     panels: Panels
+    _potential_scale = -1.0 / np.pi  # F over V, where E*/2 = 1
 
     @property
     def slope_scale(self) -> float:
         return self.panels.scale
 
     def _regular(self, x: Array) -> Array:
-        p = self._by_pieces(x)
-        for axis, laws in self._cusps.items():
-            self._put_cusp(p, x, axis, laws)
-        return p
+        if not self._cusps:
+            return self._by_pieces(x)
+        return self._joined(x, self._by_pieces, self._beside_cusp, np.empty(x.shape))
 
     def _by_pieces(self, x: Array) -> Array:
         return self.panels.on_contact(x) / np.pi
 
     @cached_property
-    def _cusps(self) -> dict[float, list[PowerLaw]]:
-        """The powers |x - axis|^m, m < CUSP, of the slope: too steep on the axis for pieces."""
-        cusps: dict[float, list[PowerLaw]] = {}
-        for term in self.panels.geometry.slope.functions:
+    def _cusps(self) -> dict[float, list[PowerLaw | Corner]]:
+        """Of each axis of a power below CUSP, too steep there for pieces: all that is not straight."""
+        slope, (lo, hi) = self.panels.geometry.slope, self.interval
+        cusps: dict[float, list[PowerLaw | Corner]] = {}
+        for term in slope.functions:
             f = term.function
-            if isinstance(f, PowerSlope) and 1.0 < f.exponent < CUSP:
+            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < term.shift < hi:
                 law = PowerLaw(f.exponent, f.coefficient, term.shift)
                 cusps.setdefault(term.shift, []).append(law)
-        lo, hi = self.interval
-        return {axis: laws for axis, laws in cusps.items() if lo < axis < hi}
+        for axis, laws in list(cusps.items()):
+            if min(law.exponent for law in laws if isinstance(law, PowerLaw)) >= CUSP:
+                del cusps[axis]
+                continue
+            corner = Corner(*slope.without_functions.corner(axis))
+            if corner.jump or corner.bend:
+                laws.append(corner)
+        return cusps
 
-    def _put_cusp(self, p: Array, x: Array, axis: float, laws: list[PowerLaw]) -> None:
+    def _joined(self, place: Any, by_pieces: Any, beside_cusp: Any, out: Any) -> Any:
+        """`out`, with values of the pieces and, next to an axis, of its powers; none of both."""
+        left = np.ones(place.shape, dtype=bool)
+        for axis, laws in self._cusps.items():
+            b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+            at = np.abs(place - axis) < BESIDE_CUSP * b
+            if at.any():
+                out[..., at] = beside_cusp(place[at], axis, b, laws)
+                left &= ~at
+        if left.any():
+            out[..., left] = by_pieces(place[left])
+        return out
+
+    def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
         """The pressure next to an axis: that of the powers alone, and a straight line."""
+        y, ends = x - axis, axis + BESIDE_CUSP * b * np.array([-1.0, 1.0])
+        beside = ends - axis  # of the rounded ends
+        left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
+        return self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+
+    def _pair_beside_cusp(self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Complex:
+        """The same of the potential and its derivative, (2, n), at Im z > 0."""
+        y, start = z - axis, np.array([1j * BESIDE_CUSP * b])
+        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(laws, start, b)
+        out = self._potentials_of_powers(laws, y, b)
+        out[0] += rest + steep * (y - start)
+        out[1] += steep
+        return out
+
+    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
+        """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
+        return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
+
+    def _put_cusp_potential(self, F: Complex, dF: Complex | None, z: Complex, axis: float, laws: list[PowerLaw | Corner]) -> None:
+        """The same for the potential and its derivative at Im z > 0."""
         b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
         close = BESIDE_CUSP * b
-        at = np.flatnonzero(np.abs(x - axis) < close)
+        at = np.flatnonzero(np.abs(z - axis) < close)
         if not at.size:
             return
 
-        y, ends = x[at] - axis, np.array([-close, close])
-        left, right = (self._by_pieces(axis + ends) - self._of_powers(laws, ends, b)).tolist()
-        rest = 0.5 * (left + right) + 0.5 * (right - left) * (y / close)
-        p[at] = self._of_powers(laws, y, b) + rest
+        y, start = z[at] - axis, np.array([1j * close])
+        pieces = self._potential_scale * np.array(self._plane(np.asarray(axis + start)))
+        rest, steep = pieces - self._potentials_of_powers(laws, start, b)
+        values, derivatives = self._potentials_of_powers(laws, y, b)
+        F[at] = values + (rest + steep * (y - start))
+        if dF is not None:
+            dF[at] = derivatives + steep
 
-    def _of_powers(self, laws: list[PowerLaw], y: Array, b: float) -> Array:
-        """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
-        return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
+    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
+        """(F, F') of the same, (2, n)."""
+        return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
 
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
@@ -401,10 +445,20 @@ class OnPanels(SlopeDensity):
         return V / np.pi, continued
 
     def _off_axis(self, z: Complex) -> Complex:
-        return self.panels.off_axis(z) / -np.pi
+        if not self._cusps:
+            return self._off_axis_by_pieces(z)
+        values: Complex = self._joined(z, self._off_axis_by_pieces, lambda *at: self._pair_beside_cusp(*at)[0], np.empty_like(z))
+        return values
+
+    def _off_axis_by_pieces(self, z: Complex) -> Complex:
+        F: Complex = self._potential_scale * self.panels.off_axis(z)
+        return F
 
     def _corner(self, x: float) -> float:
-        at = (infinite for e, infinite in self.panels.jumps if e == x and x not in self._cusps)
+        if x in self._cusps:
+            jump = self.panels.geometry.slope.without_functions.corner(x)[0]
+            return math.copysign(1.0, jump) if jump else 0.0
+        at = (infinite for e, infinite in self.panels.jumps if e == x)
         return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
 
     @cached_property
@@ -412,12 +466,20 @@ class OnPanels(SlopeDensity):
         return Plane(self.panels)
 
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
-        V, dV = self._plane(z)
-        return V / -np.pi, dV / -np.pi
+        if not self._cusps:
+            V, dV = self._plane(z)
+            return self._potential_scale * V, self._potential_scale * dV
+        out = np.empty((2, *z.shape), dtype=complex)
+        F, dF = self._joined(z, self._pair_by_pieces, self._pair_beside_cusp, out)
+        return F, dF
+
+    def _pair_by_pieces(self, z: Complex) -> Complex:
+        out: Complex = self._potential_scale * np.array(self._plane(z))
+        return out
 
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
         V, dV = self._plane.far(z, constant=False)
-        return V / -np.pi, dV / -np.pi
+        return self._potential_scale * V, self._potential_scale * dV
 
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:

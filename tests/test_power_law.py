@@ -172,3 +172,92 @@ def test_every_exponent_answers_all_of_a_contact(m):
     for answer in (solution.gap, solution.shear, solution.slip, lambda x: solution.stress(x, 0.1).j2):
         assert np.isfinite(answer(x)).all()
     assert solution.check().ok
+
+
+CUSPS = (1.002, 1.03, 1.1, 1.3, 1.5, 1.9)
+
+
+def potentials_of_unit_width(m, y):
+    """(F, F') at y from the axis, of flats F = dP/(π sqrt(y² - s²)) and dP = m P s^(m-1) ds; b = 1, over P."""
+    m, y = DIGITS.mpf(m), DIGITS.mpmathify(y)
+    F = DIGITS.hyp2f1(0.5, m / 2, m / 2 + 1, 1 / y**2) / (DIGITS.pi * y)
+    flat = 1 / (DIGITS.pi * DIGITS.sqrt(y - 1) * DIGITS.sqrt(y + 1))
+    return F, ((m - 1) * F - m * flat) / y
+
+
+@pytest.mark.parametrize("m", CUSPS)
+@pytest.mark.parametrize("axis", [0.0, 0.35, -40.0])
+def test_the_potential_of_a_cusp_is_right_at_every_depth_beneath_it(m, axis):
+    profile = sie.Power(m, 0.75).shifted(axis)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
+    peak, load = solution.pressure(axis), solution.normal_load
+    for depth in 10.0 ** np.array([-250, -100, -30, -16, -14, -12, -10, -9.1, -8.9, -7, -4, -1, 0, 3, 6]):
+        for across in (0.0, -0.7, 20.0):
+            z = axis + across * depth + 1j * depth
+            F, dF = potentials_of_unit_width(m, DIGITS.mpc(z.real - axis, depth))
+            found = solution.pressure.potentials(z)
+            assert abs(found[0] - complex(load * F)) <= 1e-13 * peak
+            assert depth * abs(found[1] - complex(load * dF)) <= 1e-13 * peak
+
+
+@pytest.mark.parametrize("axis", [0.0, 0.375])
+def test_a_wedge_on_the_axis_of_a_cusp_keeps_its_infinite_pressure(axis):
+    profile = (sie.Power(1.5, 0.3) + sie.Wedge(0.2)).shifted(axis)
+    both = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
+    alone = sie.solve(sie.Scene(profile=sie.Power(1.5, 0.3), modulus=2.0, half_width=1.0))
+    assert both.pressure(axis) == np.inf
+    for d in 2.0 ** np.array([-44, -40, -36, -33, -31, -30, -29, -10]):
+        exact = alone.pressure(d) + 0.4 / np.pi * np.arccosh(1.0 / d)
+        assert both.pressure(axis + d) == pytest.approx(exact, rel=1e-13)
+        assert both.pressure.cauchy(axis + 1j * d).real == pytest.approx(0.0, abs=1e-13 * exact)
+
+
+@pytest.mark.parametrize("other", [sie.Power(2.3, 1.0), sie.Power(1.2, 0.1), sie.Power(2.8, 1.0)])
+def test_powers_about_one_axis_add_up(other):
+    cusp = sie.Power(1.4, 0.3)
+    given = {"modulus": 2.0, "half_width": 1.0}
+    solve = [sie.solve(sie.Scene(profile=p, **given)).pressure for p in (cusp + other, cusp, other)]
+    x = np.array([0.0, *2.0 ** np.arange(-60.0, -1.0, 3.0)])
+    both, one, two = (p(x) for p in solve)
+    assert np.abs(both - one - two).max() <= 1e-13 * both.max()
+
+
+def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_seen_at_every_distance():
+    """p = E*/2 w(x)/π ∫ (H(t) - H(x))/(w(t) (t - x)) dt between the edges that were found."""
+    profile = sie.Power(1.3, 0.3) + sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 5.0)))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=1.0))
+    x1, x2 = map(DIGITS.mpf, solution.edges)
+    m, r = (x1 + x2) / 2, (x2 - x1) / 2
+
+    def slope(t):
+        return DIGITS.sign(t) * 1.3 * DIGITS.mpf(0.3) * abs(t) ** DIGITS.mpf(1.3 - 1) + t * (5 if t > 0 else 1)
+
+    for x in (2.0**-31, -(2.0**-31), 2.0**-34, -(2.0**-40)):
+        decades = [DIGITS.mpf(10) ** -k for k in range(1, 16)]
+        beside = [DIGITS.mpf(centre) + side * d for d in decades for centre in (0, x) for side in (-1, 1)]
+        cuts = sorted({x1, DIGITS.mpf(0), DIGITS.mpf(x), x2, *beside})
+        cuts = [DIGITS.asin(min(max((c - m) / r, -1), 1)) for c in cuts if x1 <= c <= x2]
+
+        def integrand(phi, x=x):
+            t = m + r * DIGITS.sin(phi)
+            return (slope(t) - slope(DIGITS.mpf(x))) / (t - x) if t != x else DIGITS.zero
+
+        exact = DIGITS.sqrt((x - x1) * (x2 - x)) / DIGITS.pi * DIGITS.quad(integrand, cuts)
+        assert solution.pressure(x) == pytest.approx(float(exact), rel=2e-13)
+
+
+@pytest.mark.parametrize("m", [1.02, 1.2, 1.7])
+@pytest.mark.parametrize("other", [sie.Parabola(1.0), sie.Wedge(0.1)])
+def test_beneath_the_axis_of_a_cusp_sliding_bodies_obey_their_law(m, other):
+    """On the surface the potential is hilbert - i p, with hilbert + p tan πε = E*/2 h'."""
+    profile = sie.Power(m, 0.75) + other
+    given = {"friction": 0.5, "sliding": -1, "dundurs": 0.3}
+    scene = sie.Scene(profile=profile, modulus=2.0, normal_load=0.5, **given)
+    pressure = sie.solve(scene).pressure
+    x = np.outer((-1.0, 1.0), 10.0 ** np.array([-120, -60, -20, -12, -9.1, -8, -3])).ravel()
+    F = pressure.cauchy(x + 1e-290j)
+    scale = np.abs(F)
+    assert (np.abs(-F.imag - pressure(x)) <= 1e-13 * scale).all()
+    law = F.real - F.imag * np.tan(np.pi * pressure.epsilon)
+    assert (np.abs(law - profile.slope(x)) <= 1e-13 * scale).all()
+    assert (np.abs(pressure.potentials(x + 1e-290j)[0] - F) <= 1e-13 * scale).all()
