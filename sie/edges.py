@@ -323,6 +323,12 @@ class Search:
             self.evaluations += 1
             return moments(self.slope.tilted(tilt), contact, keep_zero=self.keep_zero)
 
+        lost = LoadError(
+            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of the slope is more than the load shows: "
+            "lower the moment, or move the profile to where the load acts (shifted)"
+        )
+        if not math.isfinite(float(self.slope(lever))):
+            raise lost
         limit = min(lever - lo, hi - lever)
         try:
             r = _logarithmic_root(carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load))
@@ -330,10 +336,7 @@ class Search:
             return None
         guess = interval_about(lever, r)
         if not sum(self._polish.rounding(guess, self.moments(guess), target)) <= target:
-            raise LoadError(
-                f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of the slope is more than the load shows: "
-                "lower the moment, or move the profile to where the load acts (shifted)"
-            )
+            raise lost
         found = self._polish.balanced(guess, target, lever, tilted)
         if found is None:
             return None

@@ -217,3 +217,12 @@ def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(profile, 
     with pytest.raises(sie.ContactError):
         _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, moment=moment, **given)).edges
     assert len(evaluated) <= 5000
+
+
+def test_a_load_where_the_slope_of_a_polynomial_is_no_double_is_refused_at_once(monkeypatch):
+    evaluated, right = [], edges.moments
+    monkeypatch.setattr(edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how))
+    lopsided = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
+    with pytest.raises(sie.ContactError):
+        _ = sie.solve(sie.Scene(profile=lopsided, modulus=1.0, normal_load=0.3, moment=1e200)).edges
+    assert len(evaluated) <= 5000
