@@ -105,9 +105,13 @@ def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, start_
 def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interval) -> float:
     """The largest |H - known(x)| beyond rounding, or difference between two pieces.
 
-    At points that did not serve `between_points`.
+    At points that did not serve `between_points`. Two pieces that are both shorter than rounding
+    of the contact, as next to the axis of |x|^1.04, leave nothing in the pressure beside them.
     """
-    where, difference = _apart(slope, expanded(slope, resolved, contact), contact)
+    pieces = expanded(slope, resolved, contact)
+    where, difference = _apart(slope, pieces, contact)
+    length = pieces.hi - pieces.lo
+    where &= np.maximum(length[:-1], length[1:]) > EPS * contact.r
     apart = float(difference[where].max(initial=0.0))
     x, missed = misfit(slope, [known], contact, SAMPLES)
     if not missed.any():

@@ -220,6 +220,13 @@ def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_sa
     assert pressed(lambda x: [*x]).half_width == pytest.approx(pressed(lambda x: x).half_width, rel=1e-15)
 
 
+@pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
+def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
+    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which no pressure beside it feels."""
+    profile = sie.Power(exponent, 0.75)
+    assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
+
+
 # -- small strains ----------------------------------------------------------------------------------------------------
 
 
