@@ -178,7 +178,7 @@ def test_text_is_read_as_it_comes(text, encoding, tmp_path):
 def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, tmp_path):
     file = tmp_path / "trace.csv"
     file.write_text("".join(f"{x},{x * x}\n" for x in range(-20, 21)))
-    with pytest.raises(ValueError, match="scale = .*beyond the range of doubles: choose other units"):
+    with pytest.raises(ValueError, match=r"scale = .*beyond the range of doubles: choose other units"):
         sie.Sampled.read(file, scale=scale)
 
 
