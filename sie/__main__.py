@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import math
 import os
 import pathlib
 import sys
@@ -114,12 +115,12 @@ def _solution(file: SceneFile, tol: float) -> Solution:
 def _compare(arguments: argparse.Namespace) -> int:
     if arguments.mesh is None:
         raise ValueError("give the mesh result after the scene: sie compare scene.toml fem.csv, with columns x and p")
+    if not 0.0 < arguments.tol < math.inf:
+        raise ValueError(f"tol = {arguments.tol:g} is no positive number: give the l2 error that is let pass, relative")
     outputs = _outputs(arguments)
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
     mesh = read_mesh(arguments.mesh)
-    if not arguments.tol > 0.0:
-        raise ValueError(f"tol = {arguments.tol:g} is not positive: give the l2 error that is let pass, relative")
     solution = _solution(file, TOL)
     found = compare(solution, mesh, arguments.tol)
     contents = {path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()}

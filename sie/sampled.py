@@ -108,7 +108,11 @@ class Sampled(Profile):
             x, h = read_columns(path, tuple(columns), int(skip), keep_missing=mend)
         else:
             x, h = read_topography(path)
-        made = cls(factors[0] * x, factors[1] * h, smoothing, mend)
+        with np.errstate(over="ignore"):
+            scaled = factors[0] * x, factors[1] * h
+        if (np.isinf(scaled) & np.isfinite((x, h))).any():
+            raise ValueError(f"scale = {scale!r} takes the trace beyond the range of doubles: {checks.REMEDY}")
+        made = cls(*scaled, smoothing, mend)
         given = {
             "columns": (columns, (0, 1)),
             "scale": (scale, 1.0),

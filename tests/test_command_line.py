@@ -348,6 +348,7 @@ BAD = {
     "tolerance below rounding": (["solve", "scene.toml", "--tol", "1e-30"], "tol = 1e-30 is below 4.4e-16"),
     "tolerance nan": (["solve", "scene.toml", "--tol", "nan"], "tol is nan"),
     "tolerance inf": (["solve", "scene.toml", "--tol", "inf"], "tol = inf is infinite"),
+    "tolerance of a comparison": (["compare", "scene.toml", "fem.csv", "--tol", "inf"], "tol = inf is no positive number"),
     "no suffix": (["solve", "scene.toml", "--plot", "picture"], ".png"),
     "unknown suffix": (["solve", "scene.toml", "--plot", "out.xyz"], ".svg"),
     "output is a directory": (["solve", "scene.toml", "--csv", "."], "is a directory"),

@@ -174,6 +174,14 @@ def test_text_is_read_as_it_comes(text, encoding, tmp_path):
     assert sie.Sampled.read(file) == sie.Sampled(*zip(*TABLE, strict=True))
 
 
+@pytest.mark.parametrize("scale", [1e308, (1e308, 1.0), (1.0, -1e308)])
+def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, tmp_path):
+    file = tmp_path / "trace.csv"
+    file.write_text("".join(f"{x},{x * x}\n" for x in range(-20, 21)))
+    with pytest.raises(ValueError, match=r"scale = .*beyond the range of doubles: choose other units"):
+        sie.Sampled.read(file, scale=scale)
+
+
 def test_columns_scale_and_skip(tmp_path):
     file = tmp_path / "trace.txt"
     file.write_text("1 2 3\nno, height (um), x (um)\n" + "\n".join(f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE)))
