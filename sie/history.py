@@ -38,7 +38,7 @@ from .slip import slip
 from .slope_density import SlopeDensity
 from .solution import Solution, solve
 from .states import OneWay, Slip, Step
-from .superposition import Combination
+from .superposition import superposed
 
 Array = NDArray[np.float64]
 
@@ -322,7 +322,16 @@ class Track(Slip):
             return ZERO
         if len(terms) == 1 and terms[0][0] == 1.0:
             return terms[0][1].shear
-        return Combination(tuple((weight, virgin.shear) for weight, virgin in terms))
+        full = 0.0
+        rest: list[tuple[float, Density]] = []
+        for weight, virgin in terms:
+            if isinstance(virgin, OneWay) and virgin.thin is None:  # the pressure that all differences begin with is taken once
+                scale = weight * virgin.sign * virgin.friction
+                full += scale
+                rest.append((-scale, virgin.corrective))
+            else:
+                rest.append((weight, virgin.shear))
+        return superposed((full, self.history.plain(self.P).slope_density), *rest)
 
     def slip(self, x: Array) -> Array:
         """Since x came into contact."""

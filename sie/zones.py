@@ -45,6 +45,7 @@ NODES = 16  # on panels that are a quarter as long as the distance to what is si
 GRADING = 0.25
 LEVELS = 26  # GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
 ROWS = 4096  # abscissae at a time
+GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
 MAX_STEPS = 200
 MAX_SWEEPS = 60
 FIRST_STEP = 16.0
@@ -128,10 +129,21 @@ class Zone:
         """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its side away from the zone."""
         weight = self.force / np.sqrt(self.inwards * (self.inwards + 2.0 * rho))
         out = np.empty(distance.shape)
-        for start in range(0, len(distance), ROWS):
-            rows = slice(start, start + ROWS)
-            out[rows] = np.reciprocal(distance[rows, None] + self.inwards) @ weight
+        far = distance >= self.length
+        places, strength = self._gathered(weight) if far.any() else (self.inwards, weight)
+        for at, nodes, charge in ((np.flatnonzero(far), places, strength), (np.flatnonzero(~far), self.inwards, weight)):
+            for start in range(0, len(at), ROWS):
+                rows = at[start : start + ROWS]
+                out[rows] = np.reciprocal(distance[rows, None] + nodes) @ charge
         return out
+
+    def _gathered(self, weight: Array) -> tuple[Array, Array]:
+        """A few places in the zone and the weights there that act beyond its length like all: 1/(d + s) is a short series in s."""
+        u = chebyshev.points(GATHERED)
+        series = chebyshev.polynomials(GATHERED, 2.0 * self.inwards / self.length - 1.0)
+        series *= np.where(np.arange(GATHERED) == 0, 1.0, 2.0)[:, None] / GATHERED
+        strength: Array = chebyshev.polynomials(GATHERED, u).T @ (series @ weight)
+        return 0.5 * self.length * (1.0 + u), strength
 
 
 def zone(rim: Rim, length: float) -> Zone:

@@ -13,7 +13,9 @@ import sie
 from sie.export import as_dict
 from sie.ladder import Ladder
 from sie.scenefile import SceneFile
+from sie.states import rims
 from sie.summary import summary
+from sie.zones import zone
 
 E, F, P = 2.0, 0.5, 0.375
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=E, normal_load=P, friction=F)
@@ -121,6 +123,28 @@ def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_e
     assert len(history.states[-1].ladder.layers) == 10_000
     assert history.energy(9_999) > history.energy(9_998) > 0.0
     assert history.growth.evaluations < 500 and not history._virgin
+
+
+def test_the_shear_of_many_turning_points_takes_the_pressure_of_the_contact_once():
+    """Each corner is the difference of the same pressure and that of a smaller contact."""
+    k = np.arange(100)
+    history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 100) * (-1.0) ** k))
+    shear, pressure = history[-1].shear, history.plain(P).slope_density
+    corners = {id(part) for _, part in shear.bases}
+    assert sum(part is pressure for _, part in shear.terms) == 1
+    assert len(corners) <= len(history.states[-1].ladder.layers) + 1
+    x = np.linspace(*history[-1].edges, 41)
+    one_by_one = sum(weight * virgin.shear(x) for weight, virgin in history[-1].tangential._terms)
+    assert shear(x) == pytest.approx(one_by_one, abs=1e-14)
+
+
+@pytest.mark.parametrize("length", [1e-12, 1e-3, 0.3])
+def test_what_a_slip_zone_pulls_with_beyond_its_length_is_its_sum(length):
+    solved = sie.solve(sie.Scene(**fields(PUNCH)))
+    zone_ = zone(rims(solved.slope_density, solved.normal.slope(PUNCH.profile))[1], length)
+    distance = length * np.array([0.0, 1e-8, 0.3, 0.999, 1.0, 1.001, 3.0, 1e4])
+    weight = zone_.force / np.sqrt(zone_.inwards * (zone_.inwards + 0.8))
+    assert zone_.pull(distance, 0.4) == pytest.approx((weight / (distance[:, None] + zone_.inwards)).sum(axis=1), rel=1e-13)
 
 
 def test_nothing_is_solved_before_it_is_asked_for():
