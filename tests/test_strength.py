@@ -201,8 +201,10 @@ def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion)
     assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
 
 
-def test_an_incompressible_body_in_partial_slip_yields_beside_the_apex_of_a_wedge_in_some_direction():
-    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2, friction=0.5, tangential_load=0.04)
+@pytest.mark.parametrize("tension", [0.0, -0.05])
+def test_an_incompressible_body_in_partial_slip_yields_beside_the_apex_of_a_wedge_in_some_direction(tension):
+    given = {"friction": 0.5, "tangential_load": 0.04, "bulk_stress": tension}
+    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2, **given)
     solution = sie.solve(scene)
     angle = np.linspace(1e-3, np.pi - 1e-3, 20001)
     beside = np.sqrt(solution.stress(1e-13 * np.cos(angle), 1e-13 * np.sin(angle)).j2)
