@@ -134,7 +134,7 @@ def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[flo
     looks = 0 if profile.convex or seen is not None else LOOKS
     seen = seen or ()
     smooth = _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy) if "transform" in economy else None
-    if smooth is not None and not (looks and _unseen_by_series(smooth, profile)):
+    if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
         return smooth
     lo, hi = _first_window(scene)
     ends = profile.domain
@@ -235,12 +235,12 @@ def _refuse_infinite_ends(slope: Slope) -> None:
         )
 
 
-def _unseen_by_series(found: Normal, profile: Profile) -> bool:
+def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     """Whether the slope does what the series of the contact does not show."""
     assert found.series is not None
     contact = found.edges.contact
     series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])
-    return bool(between_points(found.slope(profile), (series.H,), contact))
+    return bool(between_points(found.slope(profile), (series.H,), contact, _resolution(tol)))
 
 
 def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]) -> tuple[float, ...]:
@@ -249,17 +249,18 @@ def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: C
     By the pieces that gave the edges, and by what will give the pressure.
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
+    accuracy = _resolution(tol)
     pieces = expanded(slope, resolved, contact)
-    places = between_pieces(slope, pieces, contact)
+    places = between_pieces(slope, pieces, contact, accuracy)
     transform = not scene.epsilon and "transform" in economy
-    series = _series(slope, contact, _resolution(tol)) if transform else None
+    series = _series(slope, contact, accuracy) if transform else None
     if series is None:
-        resolved = refined(slope, contact.x1, contact.x2, _resolution(tol))
+        resolved = refined(slope, contact.x1, contact.x2, accuracy)
         final = expanded(slope, resolved, contact)
-        places += between_pieces(slope, final, contact)
+        places += between_pieces(slope, final, contact, accuracy)
     else:
         final = Pieces(np.array([contact.x1]), np.array([contact.x2]), series[None])
-    return places + between_points(slope, (pieces.H, final.H), contact)
+    return places + between_points(slope, (pieces.H, final.H), contact, accuracy)
 
 
 def contact_under(

@@ -34,7 +34,7 @@ Known = Callable[[Array], Array]
 
 SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
-MISSED = 32.0 * EPS  # of the largest slope: what differs by more was not seen
+MISSED = 32.0  # times what the resolution may miss of the largest slope: what differs by more was not seen
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
 MOST = 64  # places that are looked at more closely at once
@@ -79,10 +79,12 @@ def scattered(contact: Interval, start_at: int = 0) -> Array:
     return x[(x > contact.x1) & (x < contact.x2)]
 
 
-def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, start_at: int = 0) -> tuple[Array, Array]:
-    """(x, how far the worst of some resolutions is from H) on scattered points; 0 where that may be rounding.
+def misfit(
+    slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS, start_at: int = 0
+) -> tuple[Array, Array]:
+    """(x, how far the worst of some resolutions is from H) on scattered points.
 
-    Of H, that is, of the function's own making, and of x.
+    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own making, and of x.
     """
     x = scattered(contact, start_at)
     if len(x) < 2:
@@ -92,7 +94,7 @@ def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, start_
     difference = np.abs(H - resolutions[0](x))
     for known in resolutions[1:]:
         np.maximum(difference, np.abs(H - known(x)), out=difference)
-    allowed = MISSED * float(np.abs(H).max())
+    allowed = MISSED * tol * float(np.abs(H).max())
     if difference.max() <= allowed:
         return x, np.zeros(len(x))
     allowed += _noise(slope, contact)
@@ -113,7 +115,7 @@ def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interva
     length = pieces.hi - pieces.lo
     where &= np.maximum(length[:-1], length[1:]) > EPS * contact.r
     apart = float(difference[where].max(initial=0.0))
-    x, missed = misfit(slope, [known], contact, SAMPLES)
+    x, missed = misfit(slope, [known], contact, start_at=SAMPLES)
     if not missed.any():
         return apart
     worst = int(np.argmax(missed))
@@ -121,12 +123,14 @@ def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interva
     return max(apart, float(missed[worst]), float(np.abs(slope(near) - known(near)).max()))
 
 
-def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval) -> tuple[float, ...]:
+def between_points(
+    slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS
+) -> tuple[float, ...]:
     """Breaks around what a resolution of the slope has missed.
 
     Of neighbouring points that were missed the worst, and the points beside them.
     """
-    x, missed = misfit(slope, resolutions, contact)
+    x, missed = misfit(slope, resolutions, contact, tol)
     low = np.concatenate(([False], missed > 0.0, [False]))
     starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:])
     runs = sorted(
@@ -140,10 +144,10 @@ def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval
     return _new(places, slope, contact)
 
 
-def between_pieces(slope: Slope, pieces: Pieces, contact: Interval) -> tuple[float, ...]:
+def between_pieces(slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS) -> tuple[float, ...]:
     """Breaks where two pieces of a resolution differ at their common end, which is no break."""
     lo, hi, _ = pieces
-    apart, difference = _apart(slope, pieces, contact)
+    apart, difference = _apart(slope, pieces, contact, tol)
     length = hi - lo
     near = np.maximum(
         FIRST_POINT * length,
@@ -157,7 +161,7 @@ def between_pieces(slope: Slope, pieces: Pieces, contact: Interval) -> tuple[flo
     return _new(places, slope, contact)
 
 
-def _apart(slope: Slope, pieces: Pieces, contact: Interval) -> tuple[NDArray[np.bool_], Array]:
+def _apart(slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS) -> tuple[NDArray[np.bool_], Array]:
     """(where two neighbouring pieces differ by more than rounding, by how much), (K - 1,) each."""
     lo, hi, c = pieces
     difference = np.abs(c.sum(axis=1)[:-1] - (c @ (-1.0) ** np.arange(c.shape[1]))[1:])
@@ -166,7 +170,7 @@ def _apart(slope: Slope, pieces: Pieces, contact: Interval) -> tuple[NDArray[np.
     length, size = hi - lo, np.abs(c).sum(axis=1)
     steep = np.minimum(np.abs(c) @ np.arange(c.shape[1]) ** 2 / (0.5 * length), size / length)
     rounding = STEEPER * np.spacing(np.maximum(np.abs(lo), np.abs(hi))) * steep
-    allowed = MISSED * float(size.max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
+    allowed = MISSED * tol * float(size.max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
     return (difference > allowed) & ~np.isin(hi[:-1], slope.breaks), difference
 
 

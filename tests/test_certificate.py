@@ -293,3 +293,13 @@ def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
     found = wide.check()
     assert not found.ok
     assert found.error >= error / SHARE
+
+
+@pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
+def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
+    """What a coarse resolution misses everywhere is no feature that it has not seen."""
+    wave = sie.FromFunction(lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even")
+    coarse, fine = (sie.solve(sie.Scene(profile=wave, modulus=1.0, half_width=0.5), tol=t) for t in (tol, 1e-13))
+    x = np.linspace(-0.49, 0.49, 101)
+    assert not coarse.normal.seen
+    assert np.abs(coarse.pressure(x) - fine.pressure(x)).max() <= tol * fine.pressure(x).max()

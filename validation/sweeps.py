@@ -16,6 +16,7 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat
+from sie.material import SIMILAR
 
 from .measures import largest
 from .principal import context
@@ -165,7 +166,7 @@ def gap(width: float) -> Outcome:
 
 def coupling(beta_f: float) -> Outcome:
     """Sliding Hertz, tan πε = -βf: p = (E* cos πε/2R)(c2-x)^(1/2-ε)(c1+x)^(1/2+ε), c1, c2 = w(1 ∓ 2ε) (Hills, Nowell & Sackfield 1993)."""
-    friction = max(2.0, 2.5 * abs(beta_f))
+    friction = min(max(2.0, 2.5 * abs(beta_f)), abs(beta_f) / (2.0 * SIMILAR))  # bodies of a smaller β are similar
     scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, dundurs=beta_f / friction, friction=friction, sliding=1, half_width=1.0)
     solution = sie.solve(scene)
     e = -mp.atan(mp.mpf(beta_f)) / mp.pi
