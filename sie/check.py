@@ -17,6 +17,7 @@ the distance from it. δ is at least half an ulp of x2, if x2 is kept as a doubl
 from __future__ import annotations
 
 import math
+import textwrap
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -44,6 +45,7 @@ PROMISE = (
     "below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less "
     "than 5e-4 of the contact."
 )
+WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
 SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
@@ -140,7 +142,8 @@ class Certificate:
         verdict = f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}" if self.ok else f"NOT certified to {self.tol:.0e}"
         rows += self.shear.rows if self.shear is not None else ()
         lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
-        return "\n".join([*lines, *(self.shear.remarks if self.shear is not None else ()), verdict, PROMISE, *self.notes])
+        remarks = self.shear.remarks if self.shear is not None else ()
+        return "\n".join([*lines, *remarks, verdict, *textwrap.wrap(PROMISE, WIDE), *self.notes])
 
 
 @dataclass(frozen=True)

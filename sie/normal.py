@@ -382,7 +382,7 @@ def _tilt_of_moment(
     low, high = -math.inf, math.inf
     best = edges_at(tilt)
     edges = best
-    left = MAX_TILTS
+    left, missed = MAX_TILTS, [math.inf, math.inf]
     while left > 0:
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
@@ -392,8 +392,12 @@ def _tilt_of_moment(
             break
         falls = _fall_of_moment(edges, search, at_fixed_width)
         new = tilt + excess / falls if falls > 0.0 else math.inf
-        if not low < new < high:
-            new = 0.5 * (low + high) if math.isfinite(low + high) else tilt
+        missed.append(abs(excess))
+        astray = missed[-1] > 0.5 * missed[-3]  # Newton's steps run to and fro across a part that is nearly flat
+        if math.isfinite(low + high) and (astray or not low < new < high):
+            new = 0.5 * (low + high)
+        elif not low < new < high:
+            new = tilt
         if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
             break
         tilt, tried, spent = _carried(edges_at, new, best.tilt, left)

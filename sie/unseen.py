@@ -79,9 +79,7 @@ def scattered(contact: Interval, start_at: int = 0) -> Array:
     return x[(x > contact.x1) & (x < contact.x2)]
 
 
-def misfit(
-    slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS, start_at: int = 0
-) -> tuple[Array, Array]:
+def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS, start_at: int = 0) -> tuple[Array, Array]:
     """(x, how far the worst of some resolutions is from H) on scattered points.
 
     0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own making, and of x.
@@ -123,9 +121,7 @@ def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interva
     return max(apart, float(missed[worst]), float(np.abs(slope(near) - known(near)).max()))
 
 
-def between_points(
-    slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS
-) -> tuple[float, ...]:
+def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS) -> tuple[float, ...]:
     """Breaks around what a resolution of the slope has missed.
 
     Of neighbouring points that were missed the worst, and the points beside them.

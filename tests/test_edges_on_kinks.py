@@ -52,6 +52,20 @@ def test_an_edge_beside_a_kink_is_right_to_rounding():
     assert max(found.edges, found.pressure) <= kinks.PROMISE
 
 
+def test_a_moment_is_met_where_tilting_moves_the_contact_across_a_straight_part_of_the_profile():
+    """Newton's steps for the tilt run to and fro between both sides of it."""
+    breaks = (-0.9414274571584791, 1.0774521785565838, 1.375368804641461, 1.3936751617452114)
+    rows = (
+        (-0.619583920921905, 0.375790832873566), (-0.8172227922082222, 0.1658555162610117), (-0.6385214048871684,),
+        (-4.193920775974172, 2.5850516305798035), (-4.373284932726633, 2.7137503127948572),
+    )  # fmt: skip
+    moment = 0.0007652261035979348
+    given = {"profile": sie.Piecewise(breaks, rows), "modulus": 0.6455188178465567, "normal_load": 0.0005699239351927894}
+    solution = sie.solve(sie.Scene(**given, moment=moment))
+    assert solution.moment == pytest.approx(moment, rel=1e-13)
+    assert solution.check().ok
+
+
 @pytest.mark.parametrize(("kind", "asked"), kinks.ASKED, ids=lambda v: v.replace(" ", "-"))
 @settings(max_examples=4)
 @given(seed=st.integers(0, 2**32))
