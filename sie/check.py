@@ -61,7 +61,6 @@ SCAN = 40
 # Distances from an edge, in half-widths.
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
-FEW_ULP = 1e8  # of the edges' doubles: in a smaller contact a node may be a point between
 RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 TOGETHER = 2**17  # entries of a matrix that are computed at once
 ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
@@ -369,21 +368,22 @@ def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, A
 
 def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
     """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
-    at, x, contact = rule.between, rule.x, density.contact
+    at, x = rule.between, rule.x
     values = density(at)
     taken_out = np.ones(1) if rule.inner == slice(None) else np.zeros(len(x))
     taken_out[rule.inner] = 1.0
     integral = values * np.log(rule.ends.from_left(at) / rule.ends.from_right(at))
-    a_few_ulp = contact.r < FEW_ULP * max(math.ulp(contact.x1), math.ulp(contact.x2))
     rows = max(TOGETHER // len(x), 1)
     for k in range(0, len(at), rows):
         some = slice(k, k + rows)
         integrand = p - values[some, None] * taken_out
         distance = at[some, None] - x
-        if a_few_ulp:
-            distance[distance == 0.0] = np.inf  # the node is the point
         integrand /= distance
-        integral[some] += integrand @ rule.weight
+        summed = integrand @ rule.weight
+        if not np.isfinite(summed).all():
+            integrand[distance == 0.0] = 0.0  # the node is the point: on a panel of a few ulp
+            summed = integrand @ rule.weight
+        integral[some] += summed
     return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
 
 

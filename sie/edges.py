@@ -378,7 +378,8 @@ class Search:
                 bracket.cut(m, above=excess * slope < 0.0)
             place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
             earlier.append(missed)
-            if place == m or earlier[-2] <= 1.0:  # after one more step
+            within = bracket.low < wanted < bracket.high
+            if place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within):  # after one more step, if there is one
                 break
             m = place
         if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):

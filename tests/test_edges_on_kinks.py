@@ -91,8 +91,10 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
 
     newton = polish.Polish(search.slope, evaluate)
     off = (0.2 if inside else -0.2) * settled.r
-    _, k, done = newton.both(settled.moved(off, -off), target, left_sharp=False)
-    if trial.scene.profile.convex:
+    start = settled.moved(off, -off)
+    first = search.moments(start)
+    _, k, done = newton.both(start, target, left_sharp=False)
+    if trial.scene.profile.convex and min(first.JL, first.JR) > 0.0:  # on a straight part there is no derivative
         assert done
     if done:
         rounding = newton.rounding(evaluations[-1], k, target)

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, make_smoothing_spline
 
@@ -381,6 +381,7 @@ def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
 
 
 @given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
+@example(3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506)  # an edge within some ulp of a point of the trace
 @settings(max_examples=20)
 def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
     try:
