@@ -405,22 +405,6 @@ class OnPanels(SlopeDensity):
         """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
         return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
 
-    def _put_cusp_potential(self, F: Complex, dF: Complex | None, z: Complex, axis: float, laws: list[PowerLaw | Corner]) -> None:
-        """The same for the potential and its derivative at Im z > 0."""
-        b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
-        close = BESIDE_CUSP * b
-        at = np.flatnonzero(np.abs(z - axis) < close)
-        if not at.size:
-            return
-
-        y, start = z[at] - axis, np.array([1j * close])
-        pieces = self._potential_scale * np.array(self._plane(np.asarray(axis + start)))
-        rest, steep = pieces - self._potentials_of_powers(laws, start, b)
-        values, derivatives = self._potentials_of_powers(laws, y, b)
-        F[at] = values + (rest + steep * (y - start))
-        if dF is not None:
-            dF[at] = derivatives + steep
-
     def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
         """(F, F') of the same, (2, n)."""
         return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
