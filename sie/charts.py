@@ -12,14 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import checks
-from .density import Density
-from .field import Stress, Tractions
-from .indenters import Parabola, RoundedFlat
-from .scene import Scene
+from . import arguments
+from .problem.scene import Scene
+from .profiles.shapes import Parabola, RoundedFlat
 from .solution import Solution, solve
-from .strength import YieldPoint, peak_tension
-from .superposition import superposed
+from .stress.half_plane import Stress, Tractions
+from .stress.yield_limit import YieldPoint, peak_tension
+from .traction.base import Density
+from .traction.combination import superposed
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ FRICTIONS = tuple(0.0125 * k for k in range(41))  # "each little cross correspon
 
 def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solution:
     """The punch of a/b = ratio in full sliding, b = E* = R = 1 (a parabola for ratio 0). ValueError unless 0 <= ratio < 1."""
-    if not 0.0 <= checks.finite("ratio", ratio) < 1.0:
+    if not 0.0 <= arguments.finite("ratio", ratio) < 1.0:
         raise ValueError(f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged flat")
     profile = RoundedFlat(ratio, 1.0) if ratio else Parabola(1.0)
     return _sliding(solve(Scene(profile=profile, modulus=1.0, half_width=1.0, poisson=poisson)), friction)

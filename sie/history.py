@@ -26,19 +26,19 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .density import ZERO, Density
+from .contact.normal import ECONOMY, Normal
 from .errors import ContactError, LoadError
-from .growth import Growth
-from .interval import EPS, Interval
-from .ladder import Overwritten
-from .normal import ECONOMY, Normal
-from .path import Path, direction, states
-from .scene import Scene
-from .slip import slip
-from .slope_density import SlopeDensity
+from .friction.dissipation import Growth
+from .friction.memory import Overwritten
+from .friction.partial_slip import slip
+from .friction.states import OneWay, Slip, Step
+from .numerics.interval import EPS, Interval
+from .problem.load_path import Path, direction, states
+from .problem.scene import Scene
 from .solution import Solution, solve
-from .states import OneWay, Slip, Step
-from .superposition import superposed
+from .traction.base import ZERO, Density
+from .traction.combination import superposed
+from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 

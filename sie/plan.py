@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from .normal import ECONOMY, upright_law
-from .scene import Scene
-from .slip import sheared
+from .contact.normal import ECONOMY, upright_law
+from .friction.partial_slip import sheared
+from .problem.scene import Scene
 
 # What can be asked for, and the stages of `Solution` that answer it.
 WANTS: dict[str, tuple[str, ...]] = {

@@ -11,27 +11,27 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import checks
-from .bonded import Component, bonded_certificate, bonded_contact
-from .check import RETREAT, Certificate, certificate, slope_rises, verify_inequalities
-from .density import ZERO, Density, on_line, zero_or_nan
-from .edges import Edges
+from . import arguments
+from .cauchy.density import JacobiDensity
+from .certificate.pressure_check import RETREAT, Certificate, certificate, slope_rises, verify_inequalities
+from .certificate.shear_check import shear_certificate
+from .certificate.trace_noise import TraceReport, trace_reports
+from .contact.edges import Edges
+from .contact.gap import gap
+from .contact.normal import ECONOMY, Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
-from .field import Stress, Tractions
-from .gap import gap
-from .jacobi_density import JacobiDensity
-from .material import Elastic
-from .noise import TraceReport, trace_reports
-from .normal import ECONOMY, Normal, normal_contact, pressure
-from .sampled import explained, traces_in
-from .scene import Scene
-from .slip import refuse_sliding, sheared, slip
-from .slipcheck import shear_certificate
-from .slope import Slope
-from .slope_density import SlopeDensity
-from .states import Slip, Step
-from .strength import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
-from .superposition import scaled
+from .friction.full_stick import Component, bonded_certificate, bonded_contact
+from .friction.partial_slip import refuse_sliding, sheared, slip
+from .friction.states import Slip, Step
+from .problem.material import Elastic
+from .problem.scene import Scene
+from .profiles.sampled import explained, traces_in
+from .profiles.slope import Slope
+from .stress.half_plane import Stress, Tractions
+from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .traction.base import ZERO, Density, on_line, zero_or_nan
+from .traction.combination import scaled
+from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
@@ -296,7 +296,7 @@ class Solution:
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
-        x = checks.reals("x", x)
+        x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
@@ -375,7 +375,7 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     """
     if not isinstance(scene, Scene):
         raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
-    tol = checks.tolerance(tol)
+    tol = arguments.tolerance(tol)
     unknown = set(economy) - ECONOMY
     if unknown:
         raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from .errors import ContactError
-from .scene import Scene
+from .problem.scene import Scene
 from .solution import Solution, solve
 from .workers import outcomes
 

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import sie
-from sie import collocation, jacobi, kernel, question, system
-from sie.jacobi import Weight
-from sie.system import System
+from sie.cauchy import formulation, kernel, solver, system
+from sie.cauchy.system import System
+from sie.numerics import jacobi
+from sie.numerics.jacobi import Weight
 
 mp = mpmath.mp.clone()
 mp.dps = 40
@@ -269,7 +270,7 @@ def test_a_kernel_without_a_short_series_is_called_once_for_each_size(monkeypatc
     tried, calls = [], []
     attempt = System.attempt
     monkeypatch.setattr(System, "attempt", lambda of, unknown: tried.append(of.sizes) or attempt(of, unknown))
-    monkeypatch.setattr(collocation, "LARGEST", 200)
+    monkeypatch.setattr(solver, "LARGEST", 200)
 
     def k(x, t):
         calls.append(x.shape)
@@ -296,7 +297,7 @@ def test_a_series_that_agrees_on_its_grid_only_is_refused():
 
 
 def test_a_short_series_costs_few_nodes():
-    assert sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve().n == (question.SMALLEST,)
+    assert sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve().n == (formulation.SMALLEST,)
 
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
@@ -413,8 +414,8 @@ def noisy(x):
 @pytest.mark.parametrize("k", [None, smooth_kernel])
 @pytest.mark.parametrize(("g", "error"), [(noisy, 1e-7), (np.abs, 1e-2)])
 def test_what_does_not_settle_is_refused_with_the_best_density(g, error, k, monkeypatch):
-    monkeypatch.setattr(collocation, "LARGEST", 400)
-    monkeypatch.setattr(collocation, "LARGEST_TRANSFORM", 400)
+    monkeypatch.setattr(solver, "LARGEST", 400)
+    monkeypatch.setattr(solver, "LARGEST_TRANSFORM", 400)
     equation = sie.CauchyEquation((-1.0, 1.0), g, k=k, total=0.0)
     with pytest.raises(sie.ContactError, match=r"did not settle to tol = 1\.0e-13.*raise tol") as caught:
         equation.solve()
@@ -436,14 +437,14 @@ ROUGH = {
 
 @pytest.mark.parametrize("k", ROUGH.values(), ids=ROUGH)
 def test_a_kernel_with_a_kink_or_a_weak_singularity_is_refused_before_large_systems(k, monkeypatch):
-    largest, system_of = 0, collocation.System
+    largest, system_of = 0, solver.System
 
     def counted(problem, sizes, series=None):
         nonlocal largest
         largest = max(largest, *sizes)
         return system_of(problem, sizes, series)
 
-    monkeypatch.setattr(collocation, "System", counted)
+    monkeypatch.setattr(solver, "System", counted)
     equation = sie.CauchyEquation((-1.0, 1.0), 1.0, k=k, total=0.0)
     with pytest.raises(sie.ContactError, match="did not settle") as caught:
         equation.solve()
@@ -468,9 +469,9 @@ def test_the_potential_vanishes_at_infinity():
 
 
 def test_a_step_is_given_up_before_a_gauss_jacobi_rule_fills_the_memory(monkeypatch):
-    sizes, attempt = [], collocation.attempt
-    monkeypatch.setattr(collocation, "attempt", lambda problem, n, *more: sizes.append(n) or attempt(problem, n, *more))
-    monkeypatch.setattr(collocation, "LARGEST_RULE", 300)
+    sizes, attempt = [], solver.attempt
+    monkeypatch.setattr(solver, "attempt", lambda problem, n, *more: sizes.append(n) or attempt(problem, n, *more))
+    monkeypatch.setattr(solver, "LARGEST_RULE", 300)
     with pytest.raises(sie.ContactError, match="not smooth"):
         sie.CauchyEquation((-1.0, 1.0), lambda x: np.sign(x - 0.1), a=0.3, total=0.0).solve()
     assert max(sizes) <= (300,)

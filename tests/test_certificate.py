@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 import sie
-from sie import check, composite, gap, normal, slope_density, unseen
-from sie.check import PROMISE
-from sie.interval import interval_about
+from sie.certificate import pressure_check, quadrature
+from sie.certificate.pressure_check import PROMISE
+from sie.contact import gap, normal
+from sie.numerics.interval import interval_about
+from sie.profiles import unresolved
+from sie.traction import of_slope
 from validation import reference
 from validation.reference import mp
 from validation.wrong import with_pressure
@@ -89,7 +92,7 @@ def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
 def test_the_same_promise_is_printed_and_documented():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
     assert PROMISE in " ".join(str(found).split())
-    assert PROMISE in " ".join(sie.check.Certificate.__doc__.split())
+    assert PROMISE in " ".join(pressure_check.Certificate.__doc__.split())
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
@@ -167,18 +170,18 @@ def test_the_certificate_sees_what_the_solver_did_not(name, monkeypatch):
 
 def test_the_certificate_s_points_are_not_those_of_the_solver():
     contact = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
-    assert not np.isin(unseen.scattered(contact, unseen.SAMPLES), unseen.scattered(contact)).any()
+    assert not np.isin(unresolved.scattered(contact, unresolved.SAMPLES), unresolved.scattered(contact)).any()
 
 
 def test_no_gap_between_the_scattered_points_is_wider_than_the_documentation_says():
     contact = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
-    assert np.diff(unseen.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
+    assert np.diff(unresolved.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
 
 
 def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
     one = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
     other = one._replace(x2=math.nextafter(one.x2, 9.0))
-    assert np.abs(unseen.scattered(one)[:9] - unseen.scattered(other)[:9]).max() > 1e-9
+    assert np.abs(unresolved.scattered(one)[:9] - unresolved.scattered(other)[:9]).max() > 1e-9
 
 
 def test_nan_on_a_thousandth_of_the_contact_is_refused_where_it_is():
@@ -259,7 +262,7 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
     def refuse(*_):
         raise AssertionError("integrated")
 
-    monkeypatch.setattr(check, "gap", refuse)
+    monkeypatch.setattr(pressure_check, "gap", refuse)
     powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
     for profile in (sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Flat(1.0), *powers):
         assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap == 0.0
@@ -274,7 +277,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
-    for module in (check, composite, gap, slope_density):
+    for module in (pressure_check, quadrature, gap, of_slope):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 

@@ -12,11 +12,11 @@ import pytest
 
 import sie
 from sie import __main__ as command
-from sie import abscissae, files, scenefile, summary
-from sie.__main__ import main
-from sie.check import Certificate
-from sie.indenters import profile_kinds
+from sie.certificate.pressure_check import Certificate
+from sie.cli import main
+from sie.io import files, report, sample_points, scene_file
 from sie.plan import WANTS
+from sie.profiles.shapes import profile_kinds
 
 KINDS = list(profile_kinds())
 
@@ -25,7 +25,7 @@ KINDS = list(profile_kinds())
 def scene(tmp_path, monkeypatch):
     """The name of a scene file in the current directory."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(scenefile.example("rounded-flat"))
+    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
     return "scene.toml"
 
 
@@ -44,7 +44,7 @@ def solved(monkeypatch):
 
 def example(kind, tmp_path):
     path = tmp_path / f"{kind}.toml"
-    path.write_text(scenefile.example(kind))
+    path.write_text(scene_file.example(kind))
     return str(path)
 
 
@@ -78,19 +78,19 @@ def test_each_example_is_solved_and_certified_from_the_command_line(kind, tmp_pa
 def test_the_summary_says_edges_load_peak_and_certificate(scene, capsys):
     main(["solve", scene])
     out = capsys.readouterr().out
-    solution = sie.solve(scenefile.read(scene).scene)
+    solution = sie.solve(scene_file.read(scene).scene)
     assert f"x1 = {solution.edges[0]:.6g} mm, smooth" in out
     assert "normal load     500 N/mm" in out
-    assert f"peak pressure   {abscissae.peak(solution)[0]:.6g} MPa at x = " in out
+    assert f"peak pressure   {sample_points.peak(solution)[0]:.6g} MPa at x = " in out
     assert str(solution.check()) in out
 
 
 def test_the_text_picture_is_the_pressure_column_by_column(scene):
-    solution = sie.solve(scenefile.read(scene).scene)
-    rows = [line.split("│")[1] for line in summary.text_picture(solution, scenefile.UNITS).splitlines() if "│" in line]
-    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(summary.COLUMNS)]) / 8.0 / summary.ROWS
-    x = np.linspace(*solution.edges, 2 * summary.COLUMNS + 1)[1::2]
-    assert np.abs(heights * abscissae.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
+    solution = sie.solve(scene_file.read(scene).scene)
+    rows = [line.split("│")[1] for line in report.text_picture(solution, scene_file.UNITS).splitlines() if "│" in line]
+    heights = np.array([sum(" ▁▂▃▄▅▆▇█".index(row[k]) for row in rows) for k in range(report.COLUMNS)]) / 8.0 / report.ROWS
+    x = np.linspace(*solution.edges, 2 * report.COLUMNS + 1)[1::2]
+    assert np.abs(heights * sample_points.ceiling(solution) / solution.pressure(x) - 1.0).max() < 0.05
     assert (heights == heights[::-1]).all()
 
 
@@ -132,7 +132,7 @@ def test_the_scene_may_follow_what_is_wanted(word, before, name, scene, capsys):
 
 
 def test_a_scene_from_standard_input_may_follow_what_is_wanted():
-    assert run("solve", "--want", "edges", "-", input=scenefile.example("wedge")).returncode == 0
+    assert run("solve", "--want", "edges", "-", input=scene_file.example("wedge")).returncode == 0
 
 
 def test_wanting_the_edges_of_a_convex_profile_computes_no_pressure(scene, solved, capsys):
@@ -161,7 +161,7 @@ def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path,
     path = example(kind, tmp_path)
     assert main(["solve", path, "--json"]) == 0
     found = strict(capsys.readouterr().out)
-    solution = sie.solve(scenefile.read(path).scene)
+    solution = sie.solve(scene_file.read(path).scene)
     assert tuple(found["edges"]) == solution.edges and tuple(found["sharp"]) == solution.sharp
     for name in ("half_width", "centre", "normal_load", "moment", "tilt"):
         assert found[name] == getattr(solution, name)
@@ -177,7 +177,7 @@ def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv
     """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not known."""
     monkeypatch.chdir(tmp_path)
     path = example("sliding", tmp_path)
-    solution = sie.solve(scenefile.read(path).scene)
+    solution = sie.solve(scene_file.read(path).scene)
     assert main(["solve", path, "--want", "shear", "--csv", "out.csv"]) == 0
     assert "Q = 12 N/mm; f P = 12" in capsys.readouterr().out
     with open("out.csv", encoding="utf-8") as lines:
@@ -191,7 +191,7 @@ def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv
 
 def test_the_shear_of_bonded_bodies_is_told(tmp_path):
     flat = sie.Scene(profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0, friction=np.inf, tangential_load=3.0)
-    told = summary.shear_summary(sie.solve(flat), scenefile.UNITS)
+    told = report.shear_summary(sie.solve(flat), scene_file.UNITS)
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 
 
@@ -219,7 +219,7 @@ def test_json_in_a_file_is_what_would_be_printed(scene, tmp_path, capsys):
 def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
     path, out = example(kind, tmp_path), tmp_path / "out.csv"
     main(["solve", path, "--csv", str(out), "--points", "50"])
-    file = scenefile.read(path)
+    file = scene_file.read(path)
     solution = sie.solve(file.scene)
     text = out.read_text(encoding="utf-8").splitlines()
     assert [line.startswith("#") for line in text[:5]] == [True] * 4 + [False]
@@ -245,7 +245,7 @@ def test_csv_tells_the_unit_of_every_column(kind, says, tmp_path, capsys):
 
 def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0))
-    x = abscissae.inside(solution, 100)
+    x = sample_points.inside(solution, 100)
     assert ((x >= 0.999) & (x <= 1.0)).sum() >= 10
     assert len(x) == pytest.approx(100, abs=10)
 
@@ -262,7 +262,7 @@ def test_shear_is_told_and_written_with_its_zones(tmp_path, monkeypatch, capsys)
     monkeypatch.chdir(tmp_path)
     path = example("partial-slip", tmp_path)
     assert main(["solve", path, "--want", "shear", "check", "--csv", "out.csv", "--json", "out.json"]) == 0
-    solution = sie.solve(scenefile.read(path).scene)
+    solution = sie.solve(scene_file.read(path).scene)
     out = capsys.readouterr().out
     assert f"stick           from {solution.stick[0][0]:.6g} to {solution.stick[0][1]:.6g} mm" in out
     assert "shear equation (12)" in out and "slip: one sign" in out
@@ -280,7 +280,7 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
     monkeypatch.chdir(tmp_path)
     path = example("fretting-cycle", tmp_path)
     assert main(["solve", path, "--want", "shear", "--json", "out.json"]) == 0
-    file = scenefile.read(path)
+    file = scene_file.read(path)
     history = sie.follow(file.scene, sie.Path(file.path))
     out = capsys.readouterr().out
     assert out.count("\n           500") == len(history)
@@ -291,7 +291,7 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
 
 def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    Path("bad.toml").write_text(scenefile.example("fretting-cycle").replace("[500.0, -50.0]", "[500.0, -400.0]"))
+    Path("bad.toml").write_text(scene_file.example("fretting-cycle").replace("[500.0, -50.0]", "[500.0, -400.0]"))
     for word in ("solve", "plan"):
         assert main([word, "bad.toml"]) == 2
         assert "step 3 of the path" in sentence(capsys)
@@ -303,13 +303,13 @@ def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monke
 def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
     assert main(["plan", scene, "--want", "edges"]) == 0
     out = capsys.readouterr().out
-    assert out.strip() == str(sie.plan(scenefile.read(scene).scene, ["edges"]))
+    assert out.strip() == str(sie.plan(scene_file.read(scene).scene, ["edges"]))
     assert "skip  pressure      not asked for" in out and "run   edges " in out
     assert all(not {"normal", "pressure"} & set(vars(solution)) for solution in solved)
 
 
 def test_a_plan_of_what_cannot_be_solved_is_refused_like_its_solution(scene, tmp_path, capsys):
-    (tmp_path / scene).write_text(scenefile.example("rounded-flat") + "friction = 0.5\ntangential_load = 1e6\n")
+    (tmp_path / scene).write_text(scene_file.example("rounded-flat") + "friction = 0.5\ntangential_load = 1e6\n")
     assert main(["solve", scene]) == 2
     said = sentence(capsys)
     assert main(["plan", scene]) == 2
@@ -319,7 +319,7 @@ def test_a_plan_of_what_cannot_be_solved_is_refused_like_its_solution(scene, tmp
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_example_is_printed_as_it_is(kind, capsys):
     assert main(["example", kind]) == 0
-    assert capsys.readouterr().out == scenefile.example(kind)
+    assert capsys.readouterr().out == scene_file.example(kind)
 
 
 def test_examples_are_listed_with_a_line_each(capsys):
@@ -367,10 +367,10 @@ def test_a_bad_request_is_one_sentence_and_exit_code_2(argv, said, scene, capsys
 
 BAD_SCENES = {
     "not TOML": "[load\n",
-    "unknown key": scenefile.example("wedge") + "normal_laod = 1.0\n",
-    "value": scenefile.example("wedge").replace("slope = 0.05", "slope = -0.05"),
-    "load that no single contact carries": scenefile.example("flat").replace("moment = 60.0", "moment = 600.0"),
-    "profile that lifts off": scenefile.example("polynomial").replace("0.010, 0.004, 0.001", "-0.010, 0.0, 0.001"),
+    "unknown key": scene_file.example("wedge") + "normal_laod = 1.0\n",
+    "value": scene_file.example("wedge").replace("slope = 0.05", "slope = -0.05"),
+    "load that no single contact carries": scene_file.example("flat").replace("moment = 60.0", "moment = 600.0"),
+    "profile that lifts off": scene_file.example("polynomial").replace("0.010, 0.004, 0.001", "-0.010, 0.0, 0.001"),
 }
 
 
@@ -446,7 +446,7 @@ def test_the_program_solves_a_scene_and_refuses_one(scene):
 
 
 def test_a_scene_may_come_from_standard_input():
-    found = run("solve", "-", "--want", "edges", input=scenefile.example("wedge"))
+    found = run("solve", "-", "--want", "edges", input=scene_file.example("wedge"))
     assert (found.returncode, found.stderr) == (0, "") and "half-width      1 mm" in found.stdout
 
 
@@ -476,8 +476,8 @@ def test_a_reader_that_leaves_early_is_no_error(scene):
 WITHOUT_MATPLOTLIB = """
 import sys
 sys.modules["matplotlib"] = None
-from sie.__main__ import main
-from sie.check import Certificate
+from sie.cli import main
+from sie.certificate.pressure_check import Certificate
 assert main(["solve", "scene.toml", "--csv", "out.csv"]) == 0
 assert not {"scipy", "mpmath"} & {name.split(".")[0] for name in sys.modules}
 sys.exit(main(["solve", "scene.toml", "--plot", "out.png"]))

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie import chebyshev, normal, solution
+from sie import solution
+from sie.contact import normal
+from sie.numerics import chebyshev
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
 SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
@@ -91,7 +93,7 @@ def test_full_sliding_of_similar_bodies_is_no_second_solve():
 
 
 def test_a_cauchy_equation_without_kernel_builds_no_matrix():
-    from sie import system  # noqa: PLC0415
+    from sie.cauchy import system  # noqa: PLC0415
 
     with counted(system.System, "matrix") as matrices:
         sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()

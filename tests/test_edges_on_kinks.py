@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie import edges, normal, polish
-from sie.edges import Search
+from sie.contact import edge_refinement, edges, normal
+from sie.contact.edges import Search
 from validation import kinks
 from validation.kinks import Shape, Trial, mp
 
@@ -89,7 +89,7 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
         evaluations.append(contact)
         return search.moments(contact)
 
-    newton = polish.Polish(search.slope, evaluate)
+    newton = edge_refinement.Polish(search.slope, evaluate)
     off = (0.2 if inside else -0.2) * settled.r
     start = settled.moved(off, -off)
     first = search.moments(start)
@@ -101,7 +101,7 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
         r = evaluations[-1].r
         assert abs(r * (k.I1 - k.I0) - target) <= rounding[0]
         assert abs(r * (k.I1 + k.I0) - target) <= rounding[1]
-    assert len(evaluations) <= polish.MAX_POLISHING
+    assert len(evaluations) <= edge_refinement.MAX_POLISHING
 
 
 def test_what_a_residual_is_rounded_by_is_what_it_differs_by_from_exact_integrals():
@@ -116,7 +116,7 @@ def test_what_a_residual_is_rounded_by_is_what_it_differs_by_from_exact_integral
             mp.mpf(contact.x1) + mp.mpf(contact.tail1), mp.mpf(contact.x2) + mp.mpf(contact.tail2), mp.mpf(trial.scene.tilt)
         )
         I0, I1 = exact.integral((1,), (0, 1))
-        allowed = [(polish.ROUNDINGS * size, sign) for size, sign in ((k.size1, -1), (k.size2, 1))]
+        allowed = [(edge_refinement.ROUNDINGS * size, sign) for size, sign in ((k.size1, -1), (k.size2, 1))]
         shares += [float(abs(k.I1 + sign * k.I0 - (I1 + sign * I0))) / most for most, sign in allowed]
     assert max(shares) <= 1.0
     assert max(shares) >= 0.01
@@ -181,10 +181,10 @@ def test_the_edges_move_with_the_load_as_their_uncertainty_says():
     contact = sie.solve(scene).normal.edges.contact
     k = Search(scene.profile.pieces.tilted(scene.tilt), 1.0).moments(contact)
     alone = k._replace(size1=0.0, size2=0.0)
-    moves = [off / (EPS + polish.ROUNDINGS) for off in polish.uncertainty(contact, alone, 0.2)]
+    moves = [off / (EPS + edge_refinement.ROUNDINGS) for off in edge_refinement.uncertainty(contact, alone, 0.2)]
     assert moves[0] == pytest.approx((light.x1 - heavy.x1) / 2e-5, rel=1e-4)
     assert moves[1] == pytest.approx((heavy.x2 - light.x2) / 2e-5, rel=1e-4)
-    assert min(np.subtract(polish.uncertainty(contact, k, 0.2), polish.uncertainty(contact, alone, 0.2))) > 0.0
+    assert min(np.subtract(edge_refinement.uncertainty(contact, k, 0.2), edge_refinement.uncertainty(contact, alone, 0.2))) > 0.0
 
 
 TINY = straight([29.238249670088848], [[-0.04199447921947186, 0.0010454147804437085], [-0.05185657725793592, 0.0013828587081438938]])

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie import scenefile
-from sie.__main__ import main
-from sie.grid import Grid, file_bytes
+from sie.cli import main
+from sie.io import scene_file
+from sie.io.stress_grid import Grid, file_bytes
 
 STEEL = sie.Elastic(210e3, 0.3)
 SCENE = sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=STEEL, normal_load=500.0, friction=0.3, tangential_load=150.0)
@@ -21,7 +21,7 @@ SCENE = sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=STEEL, normal_load=50
 @pytest.fixture
 def scene(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(scenefile.example("rounded-flat"))
+    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
     return "scene.toml"
 
 
@@ -79,7 +79,7 @@ def test_the_command_writes_the_field_and_the_contours(scene, tmp_path):
 
 def test_the_json_text_holds_the_numbers_of_the_solution(scene, capsys):
     main(["solve", scene, "--want", "stress,yield,tension", "--json"])
-    found, solution = json.loads(capsys.readouterr().out), sie.solve(scenefile.read(scene).scene)
+    found, solution = json.loads(capsys.readouterr().out), sie.solve(scene_file.read(scene).scene)
     assert found["yield"]["ratio"] == solution.elastic_limit().ratio
     assert found["tension"]["value"] == solution.peak_tension().value == 0.0
     assert found["stress"]["xx"][200] == float(solution.surface_stress(found["stress"]["x"][200]).xx)
@@ -103,7 +103,7 @@ def test_what_cannot_be_written_is_refused(arguments, words, scene, capsys):
 
 def test_the_picture_marks_the_contact_and_the_weakest_points():
     pytest.importorskip("matplotlib")
-    from sie.contours import contours  # noqa: PLC0415
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
 
     for solution in (sie.solve(SCENE), sie.solve(SCENE).with_(tangential_load=0.0, friction=0.0)):
         axes = contours(solution).axes[0]
@@ -121,7 +121,7 @@ def test_no_title_pushes_a_label_out_of_the_picture(title):
     pytest.importorskip("matplotlib")
     from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
 
-    from sie.contours import contours  # noqa: PLC0415
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
 
     figure = contours(sie.solve(SCENE), title=title)
     canvas = FigureCanvasAgg(figure)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from sie import files
-from sie.__main__ import main
+from sie.cli import main
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
 TRACE = "x,h\n" + "".join(f"{k / 10.0},{(k / 10.0) ** 2}\n" for k in range(-20, 21))
@@ -289,7 +289,7 @@ sys.meta_path.insert(0, Interrupting())
 @pytest.mark.parametrize("start", ["-m sie", "as a script"])
 def test_an_interruption_while_modules_are_imported_is_quiet(start, module, folder):
     (folder / "sitecustomize.py").write_text(IMPORTING)
-    (folder / "sie").write_text("import sys\nfrom sie.__main__ import main\nsys.exit(main())\n")
+    (folder / "sie").write_text("import sys\nfrom sie.cli import main\nsys.exit(main())\n")
     path = os.pathsep.join([str(folder), *(place for place in sys.path if place)])
     environment = os.environ | {"INTERRUPTED_IMPORT": module, "PYTHONPATH": path}
     begin = ["-m", "sie"] if start == "-m sie" else ["sie"]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.expression import NAMES, Expression
+from sie.profiles.expression import NAMES, Expression
 
 X = np.array([-2.0, 0.5, 3.0])
 

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from kalker import Mesh
 
 import sie
-from sie.export import as_dict
-from sie.ladder import Ladder
-from sie.scenefile import SceneFile
-from sie.states import rims
-from sie.summary import summary
-from sie.zones import zone
+from sie.friction.memory import Ladder
+from sie.friction.slip_zones import zone
+from sie.friction.states import rims
+from sie.io.export import as_dict
+from sie.io.report import summary
+from sie.io.scene_file import SceneFile
 
 E, F, P = 2.0, 0.5, 0.375
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=E, normal_load=P, friction=F)

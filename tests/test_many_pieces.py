@@ -8,14 +8,14 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import sie
-from sie import batched, panels
-from sie.composite import NODES, composite_rule
-from sie.geometry import Geometry
-from sie.interval import Interval
-from sie.moments import moments
-from sie.sliding import SlidingGeometry, SlidingPanels
-from sie.slope import Slope
-from sie.summation import LEAF, KernelSums
+from sie.certificate.quadrature import NODES, composite_rule
+from sie.contact.edge_integrals import moments
+from sie.numerics.cauchy_sums import LEAF, KernelSums
+from sie.numerics.interval import Interval
+from sie.profiles.slope import Slope
+from sie.traction import many_panels, panels
+from sie.traction.piece_quadrature import Geometry
+from sie.traction.sliding_panels import SlidingGeometry, SlidingPanels
 from validation import reference
 from validation.reference import mp
 
@@ -141,7 +141,7 @@ def test_jumps_of_a_slope_of_many_pieces_are_infinite_where_they_are():
 def test_moments_with_short_rules_are_those_of_long_ones(monkeypatch):
     slope = spline_slope(2000, 1e-4)
     short = moments(slope, CONTACT)
-    monkeypatch.setattr("sie.moments.MANY", 10**9)
+    monkeypatch.setattr("sie.contact.edge_integrals.MANY", 10**9)
     long = moments(slope, CONTACT)
     scale = long.positive + long.negative
     assert short[:3] == pytest.approx(long[:3], abs=1e-15 * scale)
@@ -225,8 +225,8 @@ def test_the_certificate_of_many_pieces_sees_a_wrong_pressure(monkeypatch):
     x = np.linspace(-2.0, 2.2, 400)
     scene = sie.Scene(profile=sie.Sampled(x, x * x / 2 + 0.05 * x**3 + 0.01 * x**4), modulus=1.0, normal_load=1.0)
     assert sie.solve(scene).check().error < 1e-14
-    right = batched._closed
-    monkeypatch.setattr(batched, "_closed", lambda *args: right(*args) * (1.0 + 1e-9))
+    right = many_panels._closed
+    monkeypatch.setattr(many_panels, "_closed", lambda *args: right(*args) * (1.0 + 1e-9))
     found = sie.solve(scene).check()
     assert not found.ok and found.error > 1e-11
 

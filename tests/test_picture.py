@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import sie
-from sie.scenefile import Units, example, parse
+from sie.io.scene_file import Units, example, parse
 
 matplotlib = pytest.importorskip("matplotlib")
-plot = pytest.importorskip("sie.plot")
+plot = pytest.importorskip("sie.plots.contact_plot")
 
 STEEL = sie.Elastic(210e3, 0.3)
 SCENES = {

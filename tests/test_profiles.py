@@ -11,7 +11,7 @@ from strategies import between, dyadic
 
 import sie
 from analytic import power
-from sie import slope
+from sie.profiles import slope
 
 INF = float("inf")
 

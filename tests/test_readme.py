@@ -4,9 +4,7 @@ import re
 import tomllib
 from pathlib import Path
 
-import pytest
-
-from sie.check import PROMISE
+from sie.certificate.pressure_check import PROMISE
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -38,10 +36,7 @@ def test_every_picture_is_in_the_repository():
         assert (ROOT / name).stat().st_size < 200_000
 
 
-@pytest.mark.parametrize("package", ["sie"])
-def test_the_architecture_names_every_file(package):
+def test_the_architecture_names_every_folder():
     architecture = README.split("## Architecture")[1]
-    small = {"errors", "checks", "__init__"}
-    for path in (ROOT / package).glob("*.py"):
-        if path.stem not in small:
-            assert re.search(rf"\b{path.stem}\b", architecture), f"{path.stem} is not in the README's architecture"
+    for folder in sorted(path.parent.name for path in (ROOT / "sie").glob("*/__init__.py")):
+        assert re.search(rf"\b{folder}/", architecture), f"{folder} is not in the README's architecture"

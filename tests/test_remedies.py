@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.scenefile import SceneFileError, parse
+from sie.io.scene_file import SceneFileError, parse
 
 PARABOLA, PUNCH, FLAT, WEDGE = sie.Parabola(1.0), sie.RoundedFlat(1.0, 2.0), sie.Flat(1.0), sie.Wedge(1.0)
 STEEL, ALLOY = sie.Elastic(210e3, 0.3), sie.Elastic(115e3, 0.32)

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, make_smoothing_spline
 
 import sie
-from sie import scenefile
-from sie.__main__ import main
-from sie.compare import read_mesh
+from sie.cli import main
+from sie.contact import normal
+from sie.io import scene_file
+from sie.io.mesh_comparison import read_mesh
 
 X = np.linspace(-2.0, 2.2, 211)
 H = 0.5 * X**2 + 0.03 * X**3 + 0.01 * X**4
@@ -90,7 +91,7 @@ def test_knots_that_are_left_out_change_less_than_a_thousandth_of_what_smoothing
     h = 0.5 * x * x + 1e-3 * rng.standard_normal(2001)
     few = sie.Sampled(x, h, 1e-2)
     assert len(few.pieces.breaks) < 1001
-    monkeypatch.setattr("sie.smoothing.ALL_KNOTS", 10_000)
+    monkeypatch.setattr("sie.profiles.splines.ALL_KNOTS", 10_000)
     every = sie.Sampled(x, h, 1e-2)
     assert len(every.pieces.breaks) == 2001
     assert np.abs(few.height(x) - every.height(x)).max() <= 1e-3 * np.abs(h - every.height(x)).max()
@@ -324,10 +325,10 @@ def test_what_no_smoothing_makes_one_patch_is_refused_as_is_what_is_no_trace():
 @pytest.mark.parametrize("load", [1e-3, 0.3, 5.0])
 def test_a_refused_trace_costs_one_search(load, monkeypatch):
     searches, smoothings = [], []
-    whole = sie.normal.normal_contact
+    whole = normal.normal_contact
     counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
     monkeypatch.setattr("sie.solution.normal_contact", counted)
-    monkeypatch.setattr("sie.sampled.cross_validated", smoothings.append)
+    monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
     rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
     with pytest.raises(sie.ContactError, match=r"least_smoothing|several patches"):
         pressed(rough, load).edges  # noqa: B018 -- computes it
@@ -438,7 +439,7 @@ def mesh(tmp_path, capsys):
         code = main(["compare", str(scene), str(file), *options])
         return code, *capsys.readouterr()
 
-    return sie.solve(scenefile.read(str(scene)).scene), run
+    return sie.solve(scene_file.read(str(scene)).scene), run
 
 
 def test_a_mesh_result_passes_or_fails_by_its_l2_error(mesh):

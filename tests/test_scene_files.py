@@ -6,9 +6,9 @@ import tomllib
 import pytest
 
 import sie
-from sie import scenefile
-from sie.indenters import profile_kinds
-from sie.scenefile import SceneFileError, example, parse, read
+from sie.io import scene_file
+from sie.io.scene_file import SceneFileError, example, parse, read
+from sie.profiles.shapes import profile_kinds
 
 KINDS = list(profile_kinds())
 PARABOLA = '[profile]\nkind = "parabola"\nradius = 10.0\n'
@@ -57,8 +57,8 @@ def test_each_example_is_ascii_so_that_any_shell_may_redirect_it(kind):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_file_may_set_exactly_the_parameters_of_the_profile(kind):
     parameters = inspect.signature(profile_kinds()[kind]).parameters.values()
-    assert set(scenefile._PARAMETERS[kind]) == {p.name for p in parameters}
-    assert scenefile._OPTIONAL.get(kind, set()) == {p.name for p in parameters if p.default is not p.empty}
+    assert set(scene_file._PARAMETERS[kind]) == {p.name for p in parameters}
+    assert scene_file._OPTIONAL.get(kind, set()) == {p.name for p in parameters if p.default is not p.empty}
 
 
 def test_the_showcase_still_works_with_its_commented_lines_switched_on():
@@ -287,6 +287,6 @@ def test_a_load_path_that_means_nothing_is_refused(load, said):
 
 def test_a_path_longer_than_a_report_can_list_is_refused():
     text = PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = {}\n"
-    most = [[1.0, 0.1 * (-1) ** k] for k in range(scenefile.MOST_POINTS)]
+    most = [[1.0, 0.1 * (-1) ** k] for k in range(scene_file.MOST_POINTS)]
     assert len(parse(text.format(most)).path) == len(most)
     assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import sie
 from analytic import rounded_flat
-from sie import maxima
+from sie.stress import peak_search
 from validation.reference import mp
 
 NU = 0.3
@@ -290,8 +290,8 @@ def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
 def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):
     """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not follow all of them."""
     counted = []
-    asked = maxima.potentials
-    monkeypatch.setattr(maxima, "potentials", lambda tractions, z: (counted.append(len(z)), asked(tractions, z))[1])
+    asked = peak_search.potentials
+    monkeypatch.setattr(peak_search, "potentials", lambda tractions, z: (counted.append(len(z)), asked(tractions, z))[1])
     scene = sie.Scene(profile=sie.Power(exponent, 0.139), modulus=1.0, poisson=poisson, normal_load=0.05, tilt=1.2e-3)
     sie.solve(scene).elastic_limit()
     assert sum(counted) <= 3e4

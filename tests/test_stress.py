@@ -10,8 +10,8 @@ from hypothesis import given
 
 import sie
 from analytic import rounded_flat
-from sie.density import Density
-from sie.field import Stress, Tractions
+from sie.stress.half_plane import Stress, Tractions
+from sie.traction.base import Density
 from validation import stress_reference as reference
 from validation.cases import CASES, SMOOTH_CASES, exact, solved
 from validation.reference import mp

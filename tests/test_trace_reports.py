@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import sie
-from sie import export, noise, scenefile, summary
+from sie.certificate import trace_noise
+from sie.io import export, report, scene_file
 
 X = np.linspace(-1.0, 1.0, 401)
 
@@ -56,7 +57,7 @@ def test_the_operator_is_the_derivative_of_pressure_and_edges(size, moment):
     slope = 0.3 - 0.4 * t + 1.5 * t * t
     ends = interval.m + interval.r * np.cos([np.pi - 1e-5, 1e-5])
     kappa = middle.pressure(ends) / 1e-5
-    regular, moved = noise._operator(angle, place, interval, kappa, middle.scene)
+    regular, moved = trace_noise._operator(angle, place, interval, kappa, middle.scene)
     turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
     difference = (upper.pressure(x) - lower.pressure(x)) / (2.0 * step)
     assert (regular + turned @ moved) @ slope == pytest.approx(difference, abs=1e-7)
@@ -256,8 +257,8 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     h[40] += 0.01
     h[200:220] = np.nan
     solution = solved(sie.Sampled(X, h, "gcv", mend=True))
-    file = scenefile.SceneFile(solution.scene, "", scenefile.Units(), ("check",), ())
-    text, parsed = summary.summary(solution, file), json.loads(export.json_text(solution, file))
+    file = scene_file.SceneFile(solution.scene, "", scene_file.Units(), ("check",), ())
+    text, parsed = report.summary(solution, file), json.loads(export.json_text(solution, file))
     for row in ("estimated relative error of the pressure", "noise estimate", "20 points without a value"):
         assert text.count(row) == 1
     (trace,) = parsed["traces"]

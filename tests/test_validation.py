@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import sie
-from sie import charts, files, summation
+from sie import charts
+from sie.io import files
+from sie.numerics import cauchy_sums
 from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, heat, labelled
@@ -209,8 +211,8 @@ def test_a_sweep_sees_an_answer_that_is_off():
 def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
     """Pieces without corners between them would never meet the sums over far ones."""
     assert sweeps.pieces(1000).error < 1e-13
-    right = summation._series
-    monkeypatch.setattr(summation, "_series", lambda *given: right(*given) * (1 + 1e-9))
+    right = cauchy_sums._series
+    monkeypatch.setattr(cauchy_sums, "_series", lambda *given: right(*given) * (1 + 1e-9))
     assert sweeps.pieces(1000).error > 1e-12
 
 

@@ -11,7 +11,7 @@ import strategies
 from hypothesis import given
 
 import sie
-from sie.normal import normal_contact, pressure
+from sie.contact.normal import normal_contact, pressure
 from validation.cases import BUMP, CASES, SINH, Case, solved
 
 

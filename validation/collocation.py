@@ -18,7 +18,7 @@ import mpmath
 import numpy as np
 
 import sie
-from sie.system import System
+from sie.cauchy.system import System
 
 from .figures import Figure, axes, draw, labelled, legend
 from .measures import largest

@@ -24,7 +24,8 @@ import mpmath
 import numpy as np
 
 import sie
-from sie.polish import MAX_POLISHING
+from sie.contact.edge_refinement import MAX_POLISHING
+from sie.numerics.interval import Interval
 
 from .measures import largest
 from .records import Claim, Doing, Record, Table
@@ -303,7 +304,7 @@ def _gap(contact: Exact, x: np.ndarray) -> np.ndarray:
 # -- the truth, next to the answer ----------------------------------------------------------------------------------------
 
 
-def truth(trial: Trial, found: sie.interval.Interval) -> tuple[Exact, Number]:
+def truth(trial: Trial, found: Interval) -> tuple[Exact, Number]:
     """The contact in 100 digits, with its tilt, and G r I1 over the load."""
     scene, shape = trial.scene, trial.shape
     G = mp.mpf(scene.Estar) / 2

@@ -17,7 +17,8 @@ import numpy as np
 
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
-from sie import normal, panels, sliding
+from sie.contact import normal
+from sie.traction import panels, sliding_panels
 
 from . import peers
 from .figures import Figure, axes, labelled, legend_above
@@ -173,7 +174,7 @@ REPLACED = (
     replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
-    replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)),
+    replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding_panels.SlidingPanels, "on_contact", _off_by(1e-11)),
              SLIDING_RIM),
 )  # fmt: skip
 

@@ -16,8 +16,13 @@ from scipy.interpolate import CubicSpline
 
 import sie
 from analytic import bonded_flat, cattaneo, cattaneo_rounded, hertz, interior, rounded_flat, sliding_rounded_flat
-from sie import field, history, ladder, sampled, sliding, slip, summation
-from sie.potential import Plane
+from sie import history
+from sie.friction import memory, partial_slip
+from sie.numerics import cauchy_sums
+from sie.profiles import sampled
+from sie.stress import half_plane
+from sie.traction import sliding_panels
+from sie.traction.potential import Plane
 
 Part = Callable[[], AbstractContextManager[Any]]
 
@@ -187,22 +192,22 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "sign of the slip zones",
         "slip against the load",
-        partial(number, _instead(slip, "_one_way", lambda f, s, g: f(s, -g)), _shear, _true_shear),
+        partial(number, _instead(partial_slip, "_one_way", lambda f, s, g: f(s, -g)), _shear, _true_shear),
     ),
     (
         "reduced load P - Q",
         "friction forgotten in P - Q/f",
-        partial(number, _instead(slip, "remaining", lambda _, f, P, Q: P - abs(Q)), _shear, _true_shear),
+        partial(number, _instead(partial_slip, "remaining", lambda _, f, P, Q: P - abs(Q)), _shear, _true_shear),
     ),
     (
         "reduced load off by 1e-10",
         "P - Q/f off in the tenth digit",
-        partial(number, _instead(slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)), _shear, _true_shear),
+        partial(number, _instead(partial_slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)), _shear, _true_shear),
     ),
     (
         "Masing's factor",
         "1 in place of 2 after a turn of the load",
-        partial(number, _property(ladder.Ladder, "corners", _once), _unloading, _true_unloading),
+        partial(number, _property(memory.Ladder, "corners", _once), _unloading, _true_unloading),
     ),
     (
         "energy of a branch",
@@ -222,7 +227,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "edge rule of similar bodies",
         "Gauss-Chebyshev weights next to frictional edges",
-        partial(number, _instead(sliding, "edge_rule", lambda right, n, power: right(n, -0.5)), _sliding, _true_sliding),
+        partial(number, _instead(sliding_panels, "edge_rule", lambda right, n, power: right(n, -0.5)), _sliding, _true_sliding),
     ),
     (
         "sign of β f in sliding",
@@ -238,14 +243,18 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "half the far-field terms",
         "moments of far pieces cut off",
-        partial(number, _instead(summation, "_series", _fewer_terms), _cut_parabola, _true_cut),
+        partial(number, _instead(cauchy_sums, "_series", _fewer_terms), _cut_parabola, _true_cut),
     ),
     (
         "far field off by 1e-9",
         "sums over far pieces",
-        partial(number, _instead(summation, "_series", lambda right, *a: right(*a) * (1 + 1e-9)), _cut_parabola, _true_cut),
+        partial(number, _instead(cauchy_sums, "_series", lambda right, *a: right(*a) * (1 + 1e-9)), _cut_parabola, _true_cut),
     ),
-    ("dropped Φ'", "stress inside without y Φ'", partial(number, _instead(field, "potentials", _no_derivative), _stress, _true_stress)),
+    (
+        "dropped Φ'",
+        "stress inside without y Φ'",
+        partial(number, _instead(half_plane, "potentials", _no_derivative), _stress, _true_stress),
+    ),
     (
         "sign of far stress",
         "the outer series with the other sign",

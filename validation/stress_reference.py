@@ -1,4 +1,4 @@
-"""Stresses in 40 digits, by quadrature of the slope alone: what `sie.field` is measured against.
+"""Stresses in 40 digits, by quadrature of the slope alone: what `sie.stress.half_plane` is measured against.
 
 From the potential F(z) = 1/π ∫p/(z - t) of `reference` (smooth edges; e the piece next to z, continued), differentiated under the integral:
 

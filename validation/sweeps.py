@@ -16,7 +16,7 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat
-from sie.material import SIMILAR
+from sie.problem.material import SIMILAR
 
 from .measures import largest
 from .principal import context
