@@ -1,5 +1,6 @@
 """Files are read if they are ordinary, written whole or not at all, and nothing that is read is overwritten."""
 
+import functools
 import os
 import signal
 import subprocess
@@ -8,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from sie import files
 from sie.cli import main
+from sie.io import files
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
 TRACE = "x,h\n" + "".join(f"{k / 10.0},{(k / 10.0) ** 2}\n" for k in range(-20, 21))
@@ -184,7 +185,7 @@ def test_a_scene_without_end_on_standard_input_is_refused():
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from sie import files
+from sie.io import files
 die = lambda *given, **named: os.kill(os.getpid(), signal.SIGKILL)
 setattr(*eval(sys.argv[1]), die)
 files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
@@ -285,7 +286,7 @@ sys.meta_path.insert(0, Interrupting())
 
 
 @posix
-@pytest.mark.parametrize("module", ["numpy", "sie.density", "sie.sweep", "sie.summary"])
+@pytest.mark.parametrize("module", ["numpy", "sie.traction.base", "sie.sweep", "sie.io.report"])
 @pytest.mark.parametrize("start", ["-m sie", "as a script"])
 def test_an_interruption_while_modules_are_imported_is_quiet(start, module, folder):
     (folder / "sitecustomize.py").write_text(IMPORTING)
@@ -294,7 +295,9 @@ def test_an_interruption_while_modules_are_imported_is_quiet(start, module, fold
     environment = os.environ | {"INTERRUPTED_IMPORT": module, "PYTHONPATH": path}
     begin = ["-m", "sie"] if start == "-m sie" else ["sie"]
     command = [sys.executable, *begin, "solve", "scene.toml"]
-    found = subprocess.run(command, env=environment, capture_output=True, check=False)
+    # A background job inherits that SIGINT is ignored.
+    heeded = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    found = subprocess.run(command, env=environment, capture_output=True, check=False, preexec_fn=heeded)
     assert (found.returncode, found.stdout, found.stderr) == (130, b"", b"")
 
 
