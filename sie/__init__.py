@@ -39,7 +39,16 @@ from .problem.material import RIGID, Elastic
 from .problem.scene import Scene
 from .profiles.base import Profile
 from .profiles.sampled import Sampled
-from .profiles.shapes import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
+from .profiles.shapes import (
+    Flat,
+    FromFunction,
+    Parabola,
+    Piecewise,
+    Polynomial,
+    Power,
+    RoundedFlat,
+    Wedge,
+)
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
 from .stress.fretting import Cycle

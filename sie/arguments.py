@@ -26,7 +26,9 @@ def real(name: str, value: Any) -> float:
     try:
         number = float(value)
     except OverflowError:
-        raise ValueError(f"{name} is a whole number beyond the range of doubles: {REMEDY}") from None
+        raise ValueError(
+            f"{name} is a whole number beyond the range of doubles: {REMEDY}"
+        ) from None
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r} is not a number: give a float") from None
     if math.isnan(number):
@@ -45,7 +47,9 @@ def measure(name: str, value: Any, largest: float = LARGEST) -> float:
     """A finite number that may be multiplied with others."""
     number = finite(name, value)
     if abs(number) > largest:
-        raise ValueError(f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}")
+        raise ValueError(
+            f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}"
+        )
     return number
 
 
@@ -54,7 +58,9 @@ def positive(name: str, value: Any, largest: float = LARGEST) -> float:
     if number <= 0.0:
         raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
     if number < 1.0 / largest:
-        raise ValueError(f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}")
+        raise ValueError(
+            f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}"
+        )
     return number
 
 
@@ -69,7 +75,9 @@ def tolerance(value: Any) -> float:
     """A relative accuracy that doubles can hold: below 1, and not below FINEST."""
     tol = positive("tol", value)
     if tol < FINEST:
-        raise ValueError(f"tol = {tol:g} is below {FINEST:.2g}, the rounding of doubles: give at least that")
+        raise ValueError(
+            f"tol = {tol:g} is below {FINEST:.2g}, the rounding of doubles: give at least that"
+        )
     if tol >= 1.0:
         raise ValueError(f"tol = {tol:g} lets any answer pass: give a relative accuracy below 1")
     return tol
@@ -110,10 +118,14 @@ def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
     except Exception as problem:  # whatever a user's function may raise
         count = "an array" if len(arrays) == 1 else f"{len(arrays)} arrays"
         remedy = f"make it a function of {count} by NumPy's functions, or by np.vectorize"
-        raise ValueError(f"{name} fails when called with {count} ({problem}): {remedy}") from problem
+        raise ValueError(
+            f"{name} fails when called with {count} ({problem}): {remedy}"
+        ) from problem
 
 
-def real_values(name: str, function: Callable[..., Any], x: NDArray[np.float64]) -> NDArray[np.float64]:
+def real_values(
+    name: str, function: Callable[..., Any], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """What a user's function of an array returns, as floats of x's shape.
 
     ValueError unless it returns real numbers of that shape, or one.
@@ -127,7 +139,9 @@ def real_values(name: str, function: Callable[..., Any], x: NDArray[np.float64])
         values = np.asarray(None)  # rows of unequal length
     if values.dtype.kind == "c":
         one = complex(values.flat[np.argmax(np.abs(values.imag))]) if values.size else 0j
-        raise ValueError(f"{name} returned complex numbers, like {one:.6g}: it must be real; return the real part if that is what is meant")
+        raise ValueError(
+            f"{name} returned complex numbers, like {one:.6g}: it must be real; return the real part if that is what is meant"
+        )
     if values.dtype.kind not in "fiu" or values.shape not in (x.shape, ()):
         kind = "one value" if values.shape == () else f"an array of shape {values.shape}"
         raise ValueError(

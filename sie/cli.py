@@ -44,14 +44,28 @@ from .solution import Solution, solve
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 COMMANDS = ("solve", "compare", "plan", "example")
-OPTIONS = ("--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol", "--help", "--version")
+OPTIONS = (
+    "--want",
+    "--plot",
+    "--csv",
+    "--json",
+    "--field",
+    "--grid",
+    "--points",
+    "--tol",
+    "--help",
+    "--version",
+)
 STANDARD = "-"
 MOST_POINTS = 10**6
 TOL = 1e-13
 # Letters that are printed at once. Of what is not buffered, Python passes over an error in the midst of one piece.
 PIECE = 4096
 # For a terminal without block elements.
-PLAIN = {ord(fancy): plain for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)}
+PLAIN = {
+    ord(fancy): plain
+    for fancy, plain in zip("▁▂▃▄▅▆▇█│└─↑∫", (*"..::--##|+-^", "int "), strict=True)
+}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -94,43 +108,66 @@ def _solve(arguments: argparse.Namespace) -> int:
     """Everything is checked, then everything is computed, then the files are written."""
     outputs = _outputs(arguments)
     if arguments.grid and not arguments.field:
-        raise ValueError("--grid says how many points --field writes: give --field FILE too, with one of the suffixes .csv, .npz, .vti")
+        raise ValueError(
+            "--grid says how many points --field writes: give --field FILE too, with one of the suffixes .csv, .npz, .vti"
+        )
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
     solution = _solution(file, arguments.tol)
-    contents = {path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()}
+    contents = {
+        path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()
+    }
     shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
     _give(contents, text)
     if not certified:
-        _complain(f"the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check")
+        _complain(
+            f"the certificate is not met to {solution.tol:.0e}: the answer is less accurate, see --want check"
+        )
     return CERTIFIED if certified else NOT_CERTIFIED
 
 
 def _solution(file: SceneFile, tol: float) -> Solution:
     """The solution of the scene, or of the last point of its path."""
-    return follow(file.scene, Path(file.path), tol=tol)[-1] if file.path else solve(file.scene, tol=tol)
+    return (
+        follow(file.scene, Path(file.path), tol=tol)[-1]
+        if file.path
+        else solve(file.scene, tol=tol)
+    )
 
 
 def _compare(arguments: argparse.Namespace) -> int:
     if arguments.mesh is None:
-        raise ValueError("give the mesh result after the scene: sie compare scene.toml fem.csv, with columns x and p")
+        raise ValueError(
+            "give the mesh result after the scene: sie compare scene.toml fem.csv, with columns x and p"
+        )
     if not 0.0 < arguments.tol < math.inf:
-        raise ValueError(f"tol = {arguments.tol:g} is no positive number: give the l2 error that is let pass, relative")
+        raise ValueError(
+            f"tol = {arguments.tol:g} is no positive number: give the l2 error that is let pass, relative"
+        )
     outputs = _outputs(arguments)
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
     mesh = read_mesh(arguments.mesh)
     solution = _solution(file, TOL)
     found = compare(solution, mesh, arguments.tol)
-    contents = {path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()}
+    contents = {
+        path: _compared(kind, path, solution, found, file) for kind, path in outputs.items()
+    }
     shown = contents.pop(pathlib.Path(STANDARD), None)
-    _give(contents, shown.decode() if shown is not None else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n")
+    _give(
+        contents,
+        shown.decode()
+        if shown is not None
+        else "\n\n".join([str(found), *(f"wrote {path}" for path in contents)]) + "\n",
+    )
     return CERTIFIED if found.ok else NOT_CERTIFIED
 
 
-def _compared(kind: str, path: pathlib.Path, solution: Solution, found: Comparison, file: SceneFile) -> bytes:
+def _compared(
+    kind: str, path: pathlib.Path, solution: Solution, found: Comparison, file: SceneFile
+) -> bytes:
     if kind == "json":
         return export.strict_json(found.as_dict()).encode()
     return _drawn(lambda: _overlay(solution, found, file), path)
@@ -165,11 +202,25 @@ def _example(arguments: argparse.Namespace) -> int:
 
 def _scene(arguments: argparse.Namespace) -> SceneFile:
     """The scene file, with --want in place of what the file wants."""
-    want = scene_file.wants("--want", [name for word in getattr(arguments, "want", None) or () for name in word.split(",") if name])
+    want = scene_file.wants(
+        "--want",
+        [
+            name
+            for word in getattr(arguments, "want", None) or ()
+            for name in word.split(",")
+            if name
+        ],
+    )
     if arguments.scene is None:
-        raise ValueError(f"give the scene file first: sie {arguments.command} scene.toml; `sie example` lists some to start from")
+        raise ValueError(
+            f"give the scene file first: sie {arguments.command} scene.toml; `sie example` lists some to start from"
+        )
     standard = arguments.scene == STANDARD
-    file = scene_file.parse(_standard_input(), "standard input") if standard else scene_file.read(arguments.scene)
+    file = (
+        scene_file.parse(_standard_input(), "standard input")
+        if standard
+        else scene_file.read(arguments.scene)
+    )
     return replace(file, want=want or export.wanted(file))
 
 
@@ -187,12 +238,18 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
         _check_picture(outputs["plot"])
     if "field" in outputs and outputs["field"].suffix[1:].lower() not in SUFFIXES:
         path = outputs["field"]
-        raise ValueError(f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}')
+        raise ValueError(
+            f'--field {path} has the suffix "{path.suffix}": use .{", .".join(SUFFIXES)}'
+        )
     for (first, path), (second, other) in combinations(outputs.items(), 2):
         if path == other == pathlib.Path(STANDARD):
-            raise ValueError("--csv and --json cannot both go to standard output: give one of them a file")
+            raise ValueError(
+                "--csv and --json cannot both go to standard output: give one of them a file"
+            )
         if files.same(_place(path), _place(other)):
-            raise ValueError(f"--{second} {other} would overwrite what --{first} writes: give another name")
+            raise ValueError(
+                f"--{second} {other} would overwrite what --{first} writes: give another name"
+            )
     for path in outputs.values():
         if path != pathlib.Path(STANDARD):
             files.writable(path)
@@ -204,14 +261,18 @@ def _place(path: pathlib.Path) -> int | pathlib.Path:
     return 1 if path == pathlib.Path(STANDARD) else path
 
 
-def _refuse_overwriting(arguments: argparse.Namespace, outputs: dict[str, pathlib.Path], file: SceneFile) -> None:
+def _refuse_overwriting(
+    arguments: argparse.Namespace, outputs: dict[str, pathlib.Path], file: SceneFile
+) -> None:
     """ValueError if an output, or what is printed, would go into a file that is read."""
     scene = 0 if arguments.scene == STANDARD else pathlib.Path(arguments.scene)
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
     if getattr(arguments, "mesh", None) is not None:
         read[pathlib.Path(arguments.mesh)] = "the mesh result"
     read |= dict.fromkeys(file.reads, "a trace that the scene reads")
-    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {"standard output": 1}
+    written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
+        "standard output": 1
+    }
     for place, what in read.items():
         for name, target in written.items():
             if os.path.isfile(place) and files.same(target, place):
@@ -221,7 +282,9 @@ def _refuse_overwriting(arguments: argparse.Namespace, outputs: dict[str, pathli
 def _check_picture(path: pathlib.Path) -> None:
     known = _pictures().suffixes()
     if path.suffix[1:].lower() not in known:
-        raise ValueError(f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: use .{", .".join(known)}')
+        raise ValueError(
+            f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: use .{", .".join(known)}'
+        )
 
 
 def _pictures() -> ModuleType:
@@ -236,7 +299,13 @@ def _pictures() -> ModuleType:
 # -- what is given back ------------------------------------------------------------------------------------------------
 
 
-def _content(kind: str, path: pathlib.Path, solution: Solution, file: SceneFile, arguments: argparse.Namespace) -> bytes:
+def _content(
+    kind: str,
+    path: pathlib.Path,
+    solution: Solution,
+    file: SceneFile,
+    arguments: argparse.Namespace,
+) -> bytes:
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
     if kind == "json":
@@ -326,7 +395,9 @@ class _Parser(argparse.ArgumentParser):
 def _arguments(argv: Sequence[str]) -> argparse.Namespace:
     if argv and not argv[0].startswith("-") and argv[0] not in COMMANDS:
         near = nearest(argv[0], COMMANDS)
-        remedy = f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
+        remedy = (
+            f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
+        )
         raise ValueError(f'there is no command "{argv[0]}": {remedy}')
     found, unknown = _parser().parse_known_args(argv)
     if unknown:
@@ -340,41 +411,108 @@ def _arguments(argv: Sequence[str]) -> argparse.Namespace:
 
 
 def _names_a_scene(word: str) -> bool:
-    return word not in WANTS and (word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word))
+    return word not in WANTS and (
+        word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word)
+    )
 
 
 def _parser() -> argparse.ArgumentParser:
     about = "Plane elastic contact: edges, pressure, gap and stress, with a certificate of their accuracy."
     parser = _Parser(prog="sie", description=about, allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="{solve,compare,plan,example}")
-    solving = commands.add_parser("solve", help="solve a scene and print, draw or write the answer", allow_abbrev=False)
-    comparing = commands.add_parser(
-        "compare", help="a mesh result against the exact one: error norms, best shift, a picture", allow_abbrev=False
+    commands = parser.add_subparsers(
+        dest="command", required=True, metavar="{solve,compare,plan,example}"
     )
-    planning = commands.add_parser("plan", help="what would be computed, what would be skipped, and why", allow_abbrev=False)
-    showing = commands.add_parser("example", help="print a commented scene file to start from", allow_abbrev=False)
+    solving = commands.add_parser(
+        "solve", help="solve a scene and print, draw or write the answer", allow_abbrev=False
+    )
+    comparing = commands.add_parser(
+        "compare",
+        help="a mesh result against the exact one: error norms, best shift, a picture",
+        allow_abbrev=False,
+    )
+    planning = commands.add_parser(
+        "plan", help="what would be computed, what would be skipped, and why", allow_abbrev=False
+    )
+    showing = commands.add_parser(
+        "example", help="print a commented scene file to start from", allow_abbrev=False
+    )
     for command in (solving, comparing, planning):
-        command.add_argument("scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input")
+        command.add_argument(
+            "scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input"
+        )
     for command in (solving, planning):
-        command.add_argument("--want", nargs="+", metavar="WHAT", help=f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})")
+        command.add_argument(
+            "--want",
+            nargs="+",
+            metavar="WHAT",
+            help=f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})",
+        )
     solving.add_argument(
-        "--plot", metavar="FILE", help="draw pressure, gap and shear, or with --want stress its contours: .png ... (needs Matplotlib)"
+        "--plot",
+        metavar="FILE",
+        help="draw pressure, gap and shear, or with --want stress its contours: .png ... (needs Matplotlib)",
     )
     solving.add_argument("--csv", metavar="FILE", help="write x, pressure, gap, shear, slip")
-    solving.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write all that is wanted; without FILE, print it")
-    solving.add_argument("--field", metavar="FILE", help="write the stress on a grid: .csv, .npz or .vti (ParaView)")
-    solving.add_argument("--grid", metavar="NXxNY", type=_grid, help=f"points of that grid ({SIZE[0]}x{SIZE[1]})")
-    solving.add_argument("--points", metavar="N", type=_points, default=POINTS, help="points in the contact, about (%(default)s)")
-    solving.add_argument("--tol", metavar="T", type=float, default=TOL, help="relative accuracy to certify (%(default)s)")
-    comparing.add_argument(
-        "mesh", nargs="?", metavar="fem.csv", help="columns x, depth y, and p, q, sxx, syy, sxy, szz or mises, named in the first line"
+    solving.add_argument(
+        "--json",
+        metavar="FILE",
+        nargs="?",
+        const=STANDARD,
+        help="write all that is wanted; without FILE, print it",
     )
-    comparing.add_argument("--tol", metavar="T", type=float, default=1e-2, help="l2 error, relative, that is let pass (%(default)s)")
-    comparing.add_argument("--plot", metavar="FILE", help="draw both and their difference (needs Matplotlib)")
-    comparing.add_argument("--json", metavar="FILE", nargs="?", const=STANDARD, help="write the norms; without FILE, print them")
-    showing.add_argument("name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list")
-    for command, run in ((solving, _solve), (comparing, _compare), (planning, _plan), (showing, _example)):
+    solving.add_argument(
+        "--field", metavar="FILE", help="write the stress on a grid: .csv, .npz or .vti (ParaView)"
+    )
+    solving.add_argument(
+        "--grid", metavar="NXxNY", type=_grid, help=f"points of that grid ({SIZE[0]}x{SIZE[1]})"
+    )
+    solving.add_argument(
+        "--points",
+        metavar="N",
+        type=_points,
+        default=POINTS,
+        help="points in the contact, about (%(default)s)",
+    )
+    solving.add_argument(
+        "--tol",
+        metavar="T",
+        type=float,
+        default=TOL,
+        help="relative accuracy to certify (%(default)s)",
+    )
+    comparing.add_argument(
+        "mesh",
+        nargs="?",
+        metavar="fem.csv",
+        help="columns x, depth y, and p, q, sxx, syy, sxy, szz or mises, named in the first line",
+    )
+    comparing.add_argument(
+        "--tol",
+        metavar="T",
+        type=float,
+        default=1e-2,
+        help="l2 error, relative, that is let pass (%(default)s)",
+    )
+    comparing.add_argument(
+        "--plot", metavar="FILE", help="draw both and their difference (needs Matplotlib)"
+    )
+    comparing.add_argument(
+        "--json",
+        metavar="FILE",
+        nargs="?",
+        const=STANDARD,
+        help="write the norms; without FILE, print them",
+    )
+    showing.add_argument(
+        "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
+    )
+    for command, run in (
+        (solving, _solve),
+        (comparing, _compare),
+        (planning, _plan),
+        (showing, _example),
+    ):
         command.set_defaults(run=run)
     return parser
 
@@ -385,7 +523,9 @@ def _grid(text: str) -> tuple[int, int]:
     except ValueError:
         nx = ny = 0
     if min(nx, ny) < 2 or nx * ny > MOST_POINTS:
-        raise argparse.ArgumentTypeError(f"{text} is not a grid of at least 2x2 and at most {MOST_POINTS} points, like 201x101")
+        raise argparse.ArgumentTypeError(
+            f"{text} is not a grid of at least 2x2 and at most {MOST_POINTS} points, like 201x101"
+        )
     return nx, ny
 
 

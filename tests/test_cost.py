@@ -48,17 +48,25 @@ def test_a_piecewise_polynomial_slope_needs_no_transform():
     assert not transforms
 
 
-@pytest.mark.parametrize(("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)])
+@pytest.mark.parametrize(
+    ("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)]
+)
 def test_the_edges_of_a_symmetric_profile_take_a_few_evaluations(profile, most):
     assert sie.solve(scene(profile)).normal.edges.evaluations <= most
 
 
 def test_given_the_half_width_nothing_is_searched():
-    assert sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations == 1
+    assert (
+        sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations
+        == 1
+    )
 
 
 def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
-    convex, wavy = sie.FromFunction(np.sinh, domain=(-3.0, 3.0)), sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0))
+    convex, wavy = (
+        sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
+        sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0)),
+    )
     with counted(solution, "verify_inequalities") as scans:
         assert sie.solve(scene(convex)).half_width > 0.0
         assert not scans
@@ -108,7 +116,10 @@ def test_the_counter_counts():
 
 
 def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
-    patterns, found = pytestconfig.getini("python_files"), [*(pytestconfig.rootpath / "benchmarks").glob("*.py")]
+    patterns, found = (
+        pytestconfig.getini("python_files"),
+        [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
+    )
     assert found
     for path in found:
         assert any(path.match(pattern) for pattern in patterns)

@@ -68,7 +68,9 @@ def dependencies():
         package = list(inside[:-1])
         for name, line in imported(path):
             dots = len(name) - len(name.lstrip("."))
-            full = ".".join([*package[: len(package) - dots + 1], name.lstrip(".")]) if dots else name
+            full = (
+                ".".join([*package[: len(package) - dots + 1], name.lstrip(".")]) if dots else name
+            )
             if full.startswith("sie."):
                 yield ".".join(inside), full, line
 
@@ -92,7 +94,13 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
 
 def loaded_after(statement):
     code = f"import sys; {statement}; import json; print(json.dumps(sorted({{m.split('.')[0] for m in sys.modules}})))"
-    return set(json.loads(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout))
+    return set(
+        json.loads(
+            subprocess.run(
+                [sys.executable, "-c", code], capture_output=True, text=True, check=True
+            ).stdout
+        )
+    )
 
 
 def test_importing_the_solver_loads_neither_mpmath_nor_matplotlib_nor_scipy():

@@ -22,7 +22,11 @@ def test_the_three_snippets_run_one_after_the_other(capsys):
 def test_the_commands_install_extras_that_exist():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = re.findall(r'pip install -e "\.\[(\w+)\]"', README)
-    assert extras == ["plot", "test", "peers"]  # the two commands, and what the validation races against
+    assert extras == [
+        "plot",
+        "test",
+        "peers",
+    ]  # the two commands, and what the validation races against
     assert set(extras) <= set(project["optional-dependencies"])
     assert "sie" in project["scripts"]
 
@@ -39,4 +43,6 @@ def test_every_picture_is_in_the_repository():
 def test_the_architecture_names_every_folder():
     architecture = README.split("## Architecture")[1]
     for folder in sorted(path.parent.name for path in (ROOT / "sie").glob("*/__init__.py")):
-        assert re.search(rf"\b{folder}/", architecture), f"{folder} is not in the README's architecture"
+        assert re.search(rf"\b{folder}/", architecture), (
+            f"{folder} is not in the README's architecture"
+        )

@@ -64,7 +64,10 @@ class Part:
     def intensities(self) -> tuple[Any, Any]:
         """lim φ(x) / (distance)^exponent at the left and the right end."""
         out, w = [], self.weight
-        for right, left, exponent, other in ((2.0, 0.0, w.beta, w.alpha), (0.0, 2.0, w.alpha, w.beta)):
+        for right, left, exponent, other in (
+            (2.0, 0.0, w.beta, w.alpha),
+            (0.0, 2.0, w.alpha, w.beta),
+        ):
             _, _, rho, rest = self.map.distances(np.array([right]), np.array([left]))
             psi = jacobi.evaluate(self.weight, self.coefficients, np.array([0.5 * (left - right)]))
             out.append((psi * 2.0**other * (rho * rest) ** -exponent / rho)[0].item())
@@ -74,8 +77,14 @@ class Part:
     def intensity_errors(self) -> tuple[float, float]:
         """Estimated relative errors of the intensities; infinite where one vanishes that need not."""
         p = jacobi.polynomials(self.weight, len(self.coefficients), np.array([-1.0, 1.0]))
-        values, off = np.abs(self.coefficients @ p), np.linalg.norm(np.abs(p.T) * self.errors, axis=1)
-        left, right = (e / v if v > 0.0 else math.copysign(math.inf, e) for e, v in zip(off.tolist(), values.tolist(), strict=True))
+        values, off = (
+            np.abs(self.coefficients @ p),
+            np.linalg.norm(np.abs(p.T) * self.errors, axis=1),
+        )
+        left, right = (
+            e / v if v > 0.0 else math.copysign(math.inf, e)
+            for e, v in zip(off.tolist(), values.tolist(), strict=True)
+        )
         return left, right
 
     # -- sums -----------------------------------------------------------------------------------------------------------
@@ -126,7 +135,10 @@ class Part:
         faint = self._reduced
         if faint.weight.is_faint:
             at = (right > 0.0) & (left > 0.0)
-            principal = jacobi.faint_principal(faint.weight, faint.coefficients, right[at], left[at]) - smooth[at]
+            principal = (
+                jacobi.faint_principal(faint.weight, faint.coefficients, right[at], left[at])
+                - smooth[at]
+            )
             out[at] = principal / rho[at] - 1j * side * value[at] if side else principal / rho[at]
         return out
 
@@ -149,7 +161,10 @@ class Part:
         to_left, to_right = z - self.map.x1, self.map.x2 - z
         if isinstance(self.map, Affine):
             right, left = -to_right / self.map.r, to_left / self.map.r
-            return jacobi.cauchy(self.weight, self.coefficients, 0.5 * (left + right), right, left) / self.map.r
+            return (
+                jacobi.cauchy(self.weight, self.coefficients, 0.5 * (left + right), right, left)
+                / self.map.r
+            )
         near = self._near(to_right, to_left)
         out = np.empty(z.shape, dtype=complex)
         if near.any():
@@ -162,7 +177,11 @@ class Part:
             far = ~near
             # From the nearer end, so that nothing cancels in a gap
             closer = np.abs(to_right[far]) < np.abs(to_left[far])
-            distance = np.where(closer[:, None], from_right - to_right[far][:, None], to_left[far][:, None] - from_left)
+            distance = np.where(
+                closer[:, None],
+                from_right - to_right[far][:, None],
+                to_left[far][:, None] - from_left,
+            )
             out[far] = (1.0 / distance) @ values / np.pi
         return out
 
@@ -172,13 +191,25 @@ class Part:
 
         With Q(z) = (x2 - z)(z - x1):  1/π ∫ Q(t) φ'(t)/(z - t) dt = Q(z) F'(z) - 1/π ∫ φ dt.
         """
-        n = len(self.coefficients) + 2 if isinstance(self.map, Affine) else 2 * len(self.coefficients)
+        n = (
+            len(self.coefficients) + 2
+            if isinstance(self.map, Affine)
+            else 2 * len(self.coefficients)
+        )
         s, A = jacobi.analysis(self.weight, n)
         right, left = 1.0 - s, 1.0 + s
         to_right, to_left, rho, rest = self.map.distances(right, left)
-        psi, slope = jacobi.evaluate(self.weight, self.coefficients, s), jacobi.derivative(self.weight, self.coefficients, s)
+        psi, slope = (
+            jacobi.evaluate(self.weight, self.coefficients, s),
+            jacobi.derivative(self.weight, self.coefficients, s),
+        )
         of_weight = (self.weight.beta * right - self.weight.alpha * left) / (right * left)
-        values = to_right * to_left / (rho * rest) * (slope + psi * (of_weight - self.map.steepening(left)))
+        values = (
+            to_right
+            * to_left
+            / (rho * rest)
+            * (slope + psi * (of_weight - self.map.steepening(left)))
+        )
         return Part(self.map, self.weight, values @ A)
 
     def _near(self, to_right: Array, to_left: Array) -> Array:
@@ -252,7 +283,9 @@ class JacobiDensity(Density):
 
     @property
     def _kind(self) -> Any:
-        return np.result_type(*(part.coefficients for part in self.parts), *(part.weight.kind for part in self.parts))
+        return np.result_type(
+            *(part.coefficients for part in self.parts), *(part.weight.kind for part in self.parts)
+        )
 
     def __call__(self, x: ArrayLike) -> Array:
         """φ(x), same shape as x; infinite at a singular end."""
@@ -275,7 +308,9 @@ class JacobiDensity(Density):
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Array:
         return self._summed(_cauchy_derivative, z, side)
 
-    def _summed(self, of_part: Callable[[Part, Array, int], Array], z: ArrayLike, side: int) -> Array:
+    def _summed(
+        self, of_part: Callable[[Part, Array, int], Array], z: ArrayLike, side: int
+    ) -> Array:
         def total(flat: Array) -> Array:
             out = np.zeros_like(flat)
             for start in range(0, len(flat), CHUNK):

@@ -69,18 +69,28 @@ class CauchyEquation:
     free: Sequence[Function] = ()
 
     def __post_init__(self) -> None:
-        for name, value in (("interval", self._intervals()), ("a", _constant("a", self.a)), ("b", _constant("b", self.b))):
+        for name, value in (
+            ("interval", self._intervals()),
+            ("a", _constant("a", self.a)),
+            ("b", _constant("b", self.b)),
+        ):
             object.__setattr__(self, name, value)
         if not isinstance(self.free, (Sequence, np.ndarray)) or isinstance(self.free, str):
-            raise ValueError(f"free = {self.free!r}: give a sequence of functions or numbers, such as (1.0,)")
+            raise ValueError(
+                f"free = {self.free!r}: give a sequence of functions or numbers, such as (1.0,)"
+            )
         object.__setattr__(self, "free", tuple(self.free))
         for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
             if not callable(function):
                 if np.ndim(function):
-                    raise ValueError(f"{name} = {function!r} is an array: give a function of an array x, or a number")
+                    raise ValueError(
+                        f"{name} = {function!r} is an array: give a function of an array x, or a number"
+                    )
                 _constant(name, function)
         if self.k is not None and not callable(self.k):
-            raise ValueError(f"k = {self.k!r} is not a function: give k(x, t), or None for no kernel")
+            raise ValueError(
+                f"k = {self.k!r} is not a function: give k(x, t), or None for no kernel"
+            )
         self._refuse_degenerate()
         object.__setattr__(self, "ends", self._ends())
         for name in ("total", "moment"):
@@ -92,41 +102,72 @@ class CauchyEquation:
     def _intervals(self) -> tuple[Interval, ...]:
         try:
             ends = np.array(self.interval, dtype=float)
-            ends = ends.reshape(-1, 2) if ends.ndim in (1, 2) and ends.shape[-1] == 2 else np.zeros((0, 2))
+            ends = (
+                ends.reshape(-1, 2)
+                if ends.ndim in (1, 2) and ends.shape[-1] == 2
+                else np.zeros((0, 2))
+            )
         except (TypeError, ValueError):
             ends = np.zeros((0, 2))
         if not len(ends):
-            raise ValueError(f"interval = {self.interval!r}: give a pair (x1, x2), or several such pairs")
+            raise ValueError(
+                f"interval = {self.interval!r}: give a pair (x1, x2), or several such pairs"
+            )
         out = tuple((float(x1), float(x2)) for x1, x2 in ends)
         for x1, x2 in out:
             if not (np.isfinite(x1) and np.isfinite(x2) and x1 < x2):
                 raise ValueError(f"interval ({x1:g}, {x2:g}): give finite ends with x1 < x2")
             if not np.isfinite(x2 - x1):
-                raise ValueError(f"interval ({x1:g}, {x2:g}): its length is more than the largest double; measure x in larger units")
+                raise ValueError(
+                    f"interval ({x1:g}, {x2:g}): its length is more than the largest double; measure x in larger units"
+                )
         for before, after in pairwise(out):
             if not before[1] < after[0]:
-                raise ValueError(f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right")
+                raise ValueError(
+                    f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right"
+                )
         return out
 
     def _refuse_degenerate(self) -> None:
         if self.b == 0.0:
-            raise ValueError("b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do")
+            raise ValueError(
+                "b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do"
+            )
         ratio = self.a / self.b  # a² or b² may be more, or less, than the largest double
         if not np.isfinite(ratio):
-            raise ValueError(f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm equation; give a larger b")
+            raise ValueError(
+                f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm equation; give a larger b"
+            )
         if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
-            raise ValueError(f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type")
+            raise ValueError(
+                f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type"
+            )
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
-        ends, n = self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends, len(self.interval)
-        if isinstance(ends, str) or (isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)):
+        ends, n = (
+            self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends,
+            len(self.interval),
+        )
+        if isinstance(ends, str) or (
+            isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)
+        ):
             ends = (ends,) * n
         if not isinstance(ends, Sequence) or len(ends) != n:
-            given = f"given for {len(ends)} intervals, but there are {n}" if isinstance(ends, Sequence) else f"{ends!r}"
-            raise ValueError(f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval")
+            given = (
+                f"given for {len(ends)} intervals, but there are {n}"
+                if isinstance(ends, Sequence)
+                else f"{ends!r}"
+            )
+            raise ValueError(
+                f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval"
+            )
         pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
         for pair in pairs:
-            if not isinstance(pair, Sequence) or len(pair) != 2 or any(end not in ("singular", "bounded") for end in pair):
+            if (
+                not isinstance(pair, Sequence)
+                or len(pair) != 2
+                or any(end not in ("singular", "bounded") for end in pair)
+            ):
                 raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
         return tuple((left, right) for left, right in pairs)
 
@@ -136,7 +177,9 @@ class CauchyEquation:
             return None if value is None else _constant(name, value)
         values = tuple(None if v is None else _constant(name, v) for v in value)
         if len(values) != len(self.interval):
-            raise ValueError(f"{name} is given for {len(values)} intervals, but there are {len(self.interval)}: None where it is not given")
+            raise ValueError(
+                f"{name} is given for {len(values)} intervals, but there are {len(self.interval)}: None where it is not given"
+            )
         return values
 
     def _refuse_miscounted(self) -> None:
@@ -152,10 +195,17 @@ class CauchyEquation:
     @cached_property
     def weights(self) -> tuple[Weight, ...]:
         """The weight (1-s)^alpha (1+s)^beta of each interval, with its index."""
-        found = [jacobi.weight_of(complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded")) for e in self.ends]
+        found = [
+            jacobi.weight_of(
+                complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded")
+            )
+            for e in self.ends
+        ]
         for weight, pair in zip(found, self.ends, strict=True):
             if weight is None:
-                raise ValueError(f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are imaginary: make both ends bounded")
+                raise ValueError(
+                    f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are imaginary: make both ends bounded"
+                )
         return tuple(w for w in found if w is not None)
 
     @property
@@ -183,7 +233,16 @@ class CauchyEquation:
 
     @cached_property
     def problem(self) -> Problem:
-        return Problem(maps(self.interval, self.weights), self.weights, self.a, self.b, self.g, self.k, self._conditions, tuple(self.free))
+        return Problem(
+            maps(self.interval, self.weights),
+            self.weights,
+            self.a,
+            self.b,
+            self.g,
+            self.k,
+            self._conditions,
+            tuple(self.free),
+        )
 
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
         """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.

@@ -31,7 +31,9 @@ DECAYED = 0.1  # ... to this part of the tolerance, relative to the largest
 # Points on no grid, where the equation's residual is measured.
 PROBES = np.array([-0.967, -0.871, -0.537, 0.071, 0.467, 0.859, 0.973])
 ROUNDING = 4.0 * EPS  # of the largest term of the equation: coefficients below it have decayed
-SUBNORMAL = 64.0 * 5e-324  # what numbers below 2e-308, with fewer digits than others, are rounded to
+SUBNORMAL = (
+    64.0 * 5e-324
+)  # what numbers below 2e-308, with fewer digits than others, are rounded to
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to rounding.
 SINGULAR = 1e10
 
@@ -69,7 +71,9 @@ class Problem:
     def functions(self) -> list[tuple[str, Function]]:
         """(name, function) of g and of everything whose multiple is unknown, last the constants by which g may miss its consistency."""
         excess = max(-sum(weight.kappa for weight in self.weights) - len(self.free), 0)
-        bounded = [m for m, weight in zip(self.maps, self.weights, strict=True) if weight.kappa == -1]
+        bounded = [
+            m for m, weight in zip(self.maps, self.weights, strict=True) if weight.kappa == -1
+        ]
         named = [("g", self.g), *((f"free[{j}]", f) for j, f in enumerate(self.free))]
         return named + [("constant", partial(_indicator, m.x1, m.x2)) for m in bounded[:excess]]
 
@@ -108,19 +112,29 @@ def condition_rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> 
     widths = [len(of[0]) for of in functionals]
     rows = []
     for condition in problem.conditions:
-        parts = [of[condition.power] * (i in condition.intervals) for i, of in enumerate(functionals)]
+        parts = [
+            of[condition.power] * (i in condition.intervals) for i, of in enumerate(functionals)
+        ]
         rows.append(np.concatenate(parts))
     if not rows:
         return np.zeros((0, sum(widths))), np.zeros(0)
     matrix = np.stack(rows)
     scale = np.linalg.norm(matrix, axis=1)
-    return matrix / scale[:, None], np.array([real_if_real(complex(c.value)) for c in problem.conditions]) / scale
+    return matrix / scale[:, None], np.array(
+        [real_if_real(complex(c.value)) for c in problem.conditions]
+    ) / scale
 
 
 def positions(interval: Map, right: Array, left: Array) -> tuple[Array, Array, Array, Array, Array]:
     """x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ."""
     to_right, to_left, rho, rest = interval.distances(right, left)
-    return np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right), to_right, to_left, rho, rest
+    return (
+        np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right),
+        to_right,
+        to_left,
+        rho,
+        rest,
+    )
 
 
 def moved(c: Array, index: int) -> Array:
@@ -134,13 +148,19 @@ def moved(c: Array, index: int) -> Array:
 def sample(name: str, function: Function, x: Array) -> Array:
     """function(x), refused unless it is finite and of x's shape (or one number)."""
     with np.errstate(all="ignore"):
-        values = np.asarray(arguments.of_arrays(name, function, x) if callable(function) else function)
+        values = np.asarray(
+            arguments.of_arrays(name, function, x) if callable(function) else function
+        )
     if values.shape not in ((), x.shape):
-        raise ValueError(f"{name} returned shape {values.shape} for x of shape {x.shape}: return one value for each x")
+        raise ValueError(
+            f"{name} returned shape {values.shape} for x of shape {x.shape}: return one value for each x"
+        )
     values = np.broadcast_to(_numeric(name, values), x.shape)
     bad = ~np.isfinite(values)
     if bad.any():
-        raise ValueError(f"{name} returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside the intervals")
+        raise ValueError(
+            f"{name} returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside the intervals"
+        )
     return values
 
 
@@ -148,14 +168,22 @@ def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
     """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape (or one number)."""
     shape = (len(x), len(t))
     with np.errstate(all="ignore"):
-        values = np.asarray(arguments.of_arrays("k", k, np.broadcast_to(x[:, None], shape), np.broadcast_to(t, shape)))
+        values = np.asarray(
+            arguments.of_arrays(
+                "k", k, np.broadcast_to(x[:, None], shape), np.broadcast_to(t, shape)
+            )
+        )
     if values.shape not in ((), shape):
-        raise ValueError(f"k returned shape {values.shape} for x and t of shape {shape}: return one value for each pair")
+        raise ValueError(
+            f"k returned shape {values.shape} for x and t of shape {shape}: return one value for each pair"
+        )
     values = np.broadcast_to(_numeric("k", values), shape)
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         i, j = bad[0]
-        raise ValueError(f"k returned {values[i, j]} at x = {x[i]:.6g}, t = {t[j]:.6g}: a regular kernel is finite")
+        raise ValueError(
+            f"k returned {values[i, j]} at x = {x[i]:.6g}, t = {t[j]:.6g}: a regular kernel is finite"
+        )
     return values
 
 
@@ -199,7 +227,10 @@ class Attempt(NamedTuple):
         return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
-        tails, residuals = self.tails > np.maximum(DECAYED * tol, self.rounding), self.residuals > np.maximum(tol, self.noise)
+        tails, residuals = (
+            self.tails > np.maximum(DECAYED * tol, self.rounding),
+            self.residuals > np.maximum(tol, self.noise),
+        )
         unresolved: NDArray[np.bool_] = tails | residuals
         return unresolved
 
@@ -208,8 +239,15 @@ class Attempt(NamedTuple):
         spreads = self.spreads()
         if not spreads:
             return self.density
-        parts = tuple(part.less_certain(of.coefficients) for part, of in zip(self.density.parts, spreads, strict=True))
-        return replace(self.density, parts=parts, error=max(self.density.error, *(of.relative for of in spreads)))
+        parts = tuple(
+            part.less_certain(of.coefficients)
+            for part, of in zip(self.density.parts, spreads, strict=True)
+        )
+        return replace(
+            self.density,
+            parts=parts,
+            error=max(self.density.error, *(of.relative for of in spreads)),
+        )
 
 
 class Terms(NamedTuple):
@@ -225,18 +263,35 @@ class Terms(NamedTuple):
 
 
 def attempted(
-    problem: Problem, coefficients: list[Array], unknown: Array, terms: list[Terms], spreads: Callable[[], list[Spread]] = list
+    problem: Problem,
+    coefficients: list[Array],
+    unknown: Array,
+    terms: list[Terms],
+    spreads: Callable[[], list[Spread]] = list,
 ) -> Attempt:
     largest = max(float(np.abs(c).max()) for c in coefficients)
-    measured = [_measured(problem, i, c, of, largest) for i, (c, of) in enumerate(zip(coefficients, terms, strict=True))]
+    measured = [
+        _measured(problem, i, c, of, largest)
+        for i, (c, of) in enumerate(zip(coefficients, terms, strict=True))
+    ]
     parts = tuple(of.part for of in measured)
-    residuals, tails = np.array([of.residual for of in measured]), np.array([of.tail for of in measured])
+    residuals, tails = (
+        np.array([of.residual for of in measured]),
+        np.array([of.tail for of in measured]),
+    )
     error = max(float(tails.max()), float(residuals.max()), 2.0 * EPS)
     constants, lacking = unknown[: len(problem.free)], unknown[len(problem.free) :]
-    density = JacobiDensity(parts, tuple(constants.tolist()), tuple(of.n for of in terms), error, float(residuals.max()))
+    density = JacobiDensity(
+        parts, tuple(constants.tolist()), tuple(of.n for of in terms), error, float(residuals.max())
+    )
     g = max(float(np.abs(of.wanted).max()) for of in terms)
-    defect = float(np.abs(lacking).max(initial=0.0)) * max(m.stretch for m in measured) / positive(g)
-    rounding, noise = np.array([of.rounding for of in measured]), np.array([of.noise for of in measured])
+    defect = (
+        float(np.abs(lacking).max(initial=0.0)) * max(m.stretch for m in measured) / positive(g)
+    )
+    rounding, noise = (
+        np.array([of.rounding for of in measured]),
+        np.array([of.noise for of in measured]),
+    )
     return Attempt(density, tails, residuals, rounding, noise, defect, spreads)
 
 
@@ -258,12 +313,22 @@ def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> 
     scale = positive(np.abs(c).max(), EPS * largest)
     term = positive(np.abs(of.wanted).max(), np.abs(of.other).max())
     inverse = weight.inverse
-    norm = (1.0 - PROBES) ** (0.5 * inverse.alpha.real + 0.25) * (1.0 + PROBES) ** (0.5 * inverse.beta.real + 0.25)
+    norm = (1.0 - PROBES) ** (0.5 * inverse.alpha.real + 0.25) * (1.0 + PROBES) ** (
+        0.5 * inverse.beta.real + 0.25
+    )
     residual = max(float((np.abs(of.left_over) * norm).max() / (term * norm.max())), of.aliased)
     rough = max(ROUNDING * term, of.unsure, SUBNORMAL)
     rounding = rough * abs(inverse.total) ** 0.5 / (abs(constant_of(problem, weight)) * scale)
-    tail, kept = float(np.abs(c[-TAIL:]).max()) / scale, chebyshev.chopped_length(c, 0.25 * EPS * scale)
-    part = Part(interval, weight, c[:kept], np.full(kept, max(tail, residual, 2.0 * EPS) * scale / len(c) ** 0.5))
+    tail, kept = (
+        float(np.abs(c[-TAIL:]).max()) / scale,
+        chebyshev.chopped_length(c, 0.25 * EPS * scale),
+    )
+    part = Part(
+        interval,
+        weight,
+        c[:kept],
+        np.full(kept, max(tail, residual, 2.0 * EPS) * scale / len(c) ** 0.5),
+    )
     middle = interval.distances(np.ones(1), np.ones(1))[2]
     return _Measured(part, tail, residual, float(rounding), rough / term, float(middle[0]))
 

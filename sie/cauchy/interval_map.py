@@ -37,7 +37,15 @@ Array = NDArray[Any]
 FAR = 0.6
 # Below this |y| the smooth part of coth is its Taylor series.
 SMALL = 0.3
-SMOOTH = (1 / 12, -1 / 720, 1 / 30240, -1 / 1209600, 1 / 47900160, -691 / 1307674368000, 1 / 74724249600)
+SMOOTH = (
+    1 / 12,
+    -1 / 720,
+    1 / 30240,
+    -1 / 1209600,
+    1 / 47900160,
+    -691 / 1307674368000,
+    1 / 74724249600,
+)
 
 
 @dataclass(frozen=True)
@@ -94,7 +102,9 @@ class Graded:
     @cached_property
     def h(self) -> float:
         """Half the length in v."""
-        return 0.5 * float(np.log1p(self.length / self.behind) + np.log1p(self.length / self.before))
+        return 0.5 * float(
+            np.log1p(self.length / self.behind) + np.log1p(self.length / self.before)
+        )
 
     @cached_property
     def _width(self) -> float:
@@ -106,8 +116,14 @@ class Graded:
 
     def distances(self, right: Array, left: Array) -> tuple[Array, Array, Array, Array]:
         cosh = np.cosh(0.5 * (self._v1 + self.h * left))
-        to_right = np.sinh(0.5 * self.h * right) * np.sqrt((self.length + self.before) * self.behind) / cosh
-        to_left = np.sinh(0.5 * self.h * left) * np.sqrt((self.length + self.behind) * self.before) / cosh
+        to_right = (
+            np.sinh(0.5 * self.h * right)
+            * np.sqrt((self.length + self.before) * self.behind)
+            / cosh
+        )
+        to_left = (
+            np.sinh(0.5 * self.h * left) * np.sqrt((self.length + self.behind) * self.before) / cosh
+        )
         rho, rest = self._split(to_left + self.before, to_right + self.behind)
         return to_right, to_left, rho, rest
 
@@ -166,13 +182,21 @@ def smooth_coth(y: Array) -> Array:
     return out
 
 
-def maps(intervals: tuple[tuple[float, float], ...], weights: tuple[Weight, ...]) -> tuple[Map, ...]:
+def maps(
+    intervals: tuple[tuple[float, float], ...], weights: tuple[Weight, ...]
+) -> tuple[Map, ...]:
     """One map for each of the intervals, which ascend, and their densities' weights."""
     infinite = float("inf")
     gaps = [infinite, *(after[0] - before[1] for before, after in pairwise(intervals)), infinite]
-    powers = [0, *(int(before.alpha.real < 0.0 > after.beta.real) for before, after in pairwise(weights)), 0]
+    powers = [
+        0,
+        *(int(before.alpha.real < 0.0 > after.beta.real) for before, after in pairwise(weights)),
+        0,
+    ]
     sides = list(zip(gaps, powers, strict=True))
-    return tuple(_map(*ends, *of) for ends, *of in zip(intervals, sides[:-1], sides[1:], strict=True))
+    return tuple(
+        _map(*ends, *of) for ends, *of in zip(intervals, sides[:-1], sides[1:], strict=True)
+    )
 
 
 def _map(x1: float, x2: float, left: tuple[float, int], right: tuple[float, int]) -> Map:

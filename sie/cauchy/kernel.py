@@ -28,12 +28,20 @@ from .interval_map import Map
 
 Array = NDArray[Any]
 
-FIRST, FEWEST = 64, 12  # points of the first grid on each interval; where there are many intervals, fewer ...
+FIRST, FEWEST = (
+    64,
+    12,
+)  # points of the first grid on each interval; where there are many intervals, fewer ...
 MOST = 1024  # ... so that all intervals together have no more; and those of the second grid neither
 TAIL = 4  # the last coefficients that must have decayed ...
 DECAYED = 0.05  # ... to this part of the tolerance
-ROUNDING, MISSED = 4.0 * EPS, 64.0 * EPS  # ... or to rounding; and what then is missed on no grid, in the mean: rounding of k itself
-PREDICTABLE = 0.05  # a tail below this part of the largest coefficient tells how many more are needed ...
+ROUNDING, MISSED = (
+    4.0 * EPS,
+    64.0 * EPS,
+)  # ... or to rounding; and what then is missed on no grid, in the mean: rounding of k itself
+PREDICTABLE = (
+    0.05  # a tail below this part of the largest coefficient tells how many more are needed ...
+)
 MARGIN = 1.25  # ... times this
 
 
@@ -44,9 +52,20 @@ class Series(NamedTuple):
 
     def at(self, s: list[Array], sigma: list[Array]) -> Array:
         """k at rows s and columns σ, those of all intervals one after another."""
-        rows = [[chebyshev.polynomials(c.shape[0], at).T @ c for c in of] for of, at in zip(self.coefficients, s, strict=True)]
-        columns = [chebyshev.polynomials(c.shape[1], at) for c, at in zip(self.coefficients[0], sigma, strict=True)]
-        return np.concatenate([np.concatenate([r @ c for r, c in zip(of, columns, strict=True)], axis=1) for of in rows])
+        rows = [
+            [chebyshev.polynomials(c.shape[0], at).T @ c for c in of]
+            for of, at in zip(self.coefficients, s, strict=True)
+        ]
+        columns = [
+            chebyshev.polynomials(c.shape[1], at)
+            for c, at in zip(self.coefficients[0], sigma, strict=True)
+        ]
+        return np.concatenate(
+            [
+                np.concatenate([r @ c for r, c in zip(of, columns, strict=True)], axis=1)
+                for of in rows
+            ]
+        )
 
 
 def series(problem: Problem, tol: float) -> Series | None:
@@ -70,11 +89,17 @@ def series(problem: Problem, tol: float) -> Series | None:
 def _sampled(k: Kernel, maps: tuple[Map, ...], n: int, enough: float) -> tuple[Series | None, int]:
     """The series by n columns and n + 1 rows on each interval if they resolve k, and how many would."""
     s, sigma = np.concatenate((_extrema(n), PROBES)), np.concatenate((chebyshev.points(n), -PROBES))
-    x, t = (np.concatenate([positions(m, 1.0 - at, 1.0 + at)[0] for m in maps]) for at in (s, sigma))
+    x, t = (
+        np.concatenate([positions(m, 1.0 - at, 1.0 + at)[0] for m in maps]) for at in (s, sigma)
+    )
     values = sample_kernel(k, x, t)
-    rows, columns = (list(pairwise(range(0, (len(maps) + 1) * len(at), len(at)))) for at in (s, sigma))
+    rows, columns = (
+        list(pairwise(range(0, (len(maps) + 1) * len(at), len(at)))) for at in (s, sigma)
+    )
     blocks = [[values[i:j, a:b] for a, b in columns] for i, j in rows]
-    analysed = [[_from_extrema(n) @ block[: n + 1, :n] @ _from_zeros(n) for block in of] for of in blocks]
+    analysed = [
+        [_from_extrema(n) @ block[: n + 1, :n] @ _from_zeros(n) for block in of] for of in blocks
+    ]
     tail = max(_tail(c) for of in analysed for c in of)
     if tail > enough:
         slow = tail > PREDICTABLE
@@ -82,7 +107,9 @@ def _sampled(k: Kernel, maps: tuple[Map, ...], n: int, enough: float) -> tuple[S
     found = Series(tuple(tuple(of) for of in analysed))
     missed = np.abs(found.at([s] * len(maps), [sigma] * len(maps)) - values)
     # in the mean, as a difference of singular terms is rough where x and t happen to be close
-    resolved = np.sqrt(np.mean(missed * missed)) <= max(enough, MISSED) * positive(np.abs(values).max())
+    resolved = np.sqrt(np.mean(missed * missed)) <= max(enough, MISSED) * positive(
+        np.abs(values).max()
+    )
     return (found if resolved else None), MOST + 1
 
 
@@ -118,5 +145,7 @@ def _cosine(numerator: NDArray[np.int64], denominator: int) -> Array:
     m = numerator % (2 * denominator)
     m = np.minimum(m, 2 * denominator - m)
     first = np.minimum(m, denominator - m)
-    out: Array = np.where(m > first, -1.0, 1.0) * np.sin(np.pi * (denominator - 2 * first) / (2 * denominator))
+    out: Array = np.where(m > first, -1.0, 1.0) * np.sin(
+        np.pi * (denominator - 2 * first) / (2 * denominator)
+    )
     return out

@@ -22,7 +22,9 @@ from .interval_map import Map
 Array = NDArray[Any]
 
 DRAWS = 4  # of roundings
-LARGEST = 3.0  # a rounding's effect is hardly more than this times its root mean square over so few draws
+LARGEST = (
+    3.0  # a rounding's effect is hardly more than this times its root mean square over so few draws
+)
 
 
 class Spread(NamedTuple):
@@ -38,14 +40,18 @@ def signs(rows: int) -> Array:
     return out
 
 
-def spread(interval: Map, weight: Weight, quadrature: tuple[Array, Array], c: Array, off: Array) -> Spread:
+def spread(
+    interval: Map, weight: Weight, quadrature: tuple[Array, Array], c: Array, off: Array
+) -> Spread:
     """From the coefficients' errors (n, DRAWS); `quadrature` are nodes and the matrix to weights times values there (`jacobi.analysis`)."""
     sigma, matrix = quadrature
     # A Gauss weight's root evens out the ends as the norm does in which polynomials are orthonormal
     norm = 1.0 / np.sqrt(jacobi.gauss(weight.real, len(sigma))[1])
     value, error = norm * np.abs(matrix @ c), norm * _root_mean_square(matrix @ off)
     rho = interval.distances(1.0 - sigma, 1.0 + sigma)[2]
-    relative = [float((error * by).max()) / (float((value * by).max()) or 1.0) for by in (1.0, 1.0 / rho)]
+    relative = [
+        float((error * by).max()) / (float((value * by).max()) or 1.0) for by in (1.0, 1.0 / rho)
+    ]
     return Spread(LARGEST * max(relative), LARGEST * _root_mean_square(off))
 
 

@@ -33,10 +33,18 @@ from .transform import by_transform
 
 ENLARGED = 1.45  # from one attempt to the next: what is spent is not twice what is needed
 LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a DCT, gives up; ...
-LARGEST_RULE, LARGEST_COMPLEX_RULE = 4000, 1500  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
-NEAR_MINUS_ONE = 1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
+LARGEST_RULE, LARGEST_COMPLEX_RULE = (
+    4000,
+    1500,
+)  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
+NEAR_MINUS_ONE = (
+    1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
+)
 LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
-IDLE, SETTLED = 3, 1e-6  # after so many enlargements without progress an error below this is noise of g or k
+IDLE, SETTLED = (
+    3,
+    1e-6,
+)  # after so many enlargements without progress an error below this is noise of g or k
 # Errors from the first of these sizes on, once the second is reached, tell whether they fall like a power of n, as those of kinks and of
 # weak singularities do, and whether a system so many times larger than the largest would be enough.
 FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
@@ -89,15 +97,23 @@ def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
     if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
         return False
     order = -float(np.polyfit(np.log(n), np.log(progress), 1)[0])
-    return KINK[0] <= order <= KINK[1] and n[-1] * (progress.min() / tol) ** (1.0 / order) > HOPELESS * LARGEST
+    return (
+        KINK[0] <= order <= KINK[1]
+        and n[-1] * (progress.min() / tol) ** (1.0 / order) > HOPELESS * LARGEST
+    )
 
 
 def _reason(problem: Problem, best: Attempt) -> str:
     """Why a density may not settle, and what to do."""
-    enough = 1.1 * best.progress / DECAYED  # coefficients have to decay to this part of tol; it is printed to two digits
+    enough = (
+        1.1 * best.progress / DECAYED
+    )  # coefficients have to decay to this part of tol; it is printed to two digits
     remedy = f"raise tol to {enough:.1e}" if enough < 1.0 else "smooth them"
     for weight in problem.weights:
-        left = abs((abs(weight.alpha.real) - 1.0) + math.copysign(1.0, weight.alpha.real) * weight.tail.real)
+        left = abs(
+            (abs(weight.alpha.real) - 1.0)
+            + math.copysign(1.0, weight.alpha.real) * weight.tail.real
+        )
         if weight.kappa == 0 and left < NEAR_MINUS_ONE:
             return (
                 f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of φ stands at that end: "
@@ -121,7 +137,9 @@ def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
 
 
 def _enlarged(sizes: tuple[int, ...], more: NDArray[np.bool_]) -> tuple[int, ...]:
-    return tuple(int(np.ceil(ENLARGED * n)) if grows else n for n, grows in zip(sizes, more, strict=True))
+    return tuple(
+        int(np.ceil(ENLARGED * n)) if grows else n for n, grows in zip(sizes, more, strict=True)
+    )
 
 
 def consistent(found: Attempt) -> JacobiDensity:

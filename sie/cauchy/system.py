@@ -60,7 +60,9 @@ class _Block(NamedTuple):
     t: Array
     columns: tuple[Array, Array, Array]  # x2 - t, t - x1, dt/dσ / ρ
     sigma: Array
-    analysis: Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
+    analysis: (
+        Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
+    )
     quadrature: Array  # coefficients c -> weights times values at the columns
     kappa: int
 
@@ -73,29 +75,48 @@ class System:
     identity plus what is smooth, but for that border. The kernel is called once, or not at all where its series is given.
     """
 
-    def __init__(self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None) -> None:
+    def __init__(
+        self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None
+    ) -> None:
         self.problem, self.sizes, self.series = problem, sizes, series
         self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
         self.regular, self.kernel = self._kernel()
-        sampled = [sample(name, f, np.concatenate([b.x for b in self.blocks])) for name, f in problem.functions]
+        sampled = [
+            sample(name, f, np.concatenate([b.x for b in self.blocks]))
+            for name, f in problem.functions
+        ]
         self.sampled = np.stack(sampled) * np.concatenate([b.rows[2] for b in self.blocks])
-        of = [functionals(*parts) for parts in zip(problem.maps, problem.weights, sizes, strict=True)]
+        of = [
+            functionals(*parts) for parts in zip(problem.maps, problem.weights, sizes, strict=True)
+        ]
         self.conditions, self.values = condition_rows(problem, of)
 
     def _kernel(self) -> tuple[Array | None, Array]:
         """k, and all that is smooth, rows by columns, times ρ of the row, over ρ of the column."""
-        x, t = np.concatenate([b.x for b in self.blocks]), np.concatenate([b.t for b in self.blocks])
-        rho, rest = np.concatenate([b.rows[2] for b in self.blocks])[:, None], np.concatenate([b.columns[2] for b in self.blocks])
-        regular = None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
+        x, t = (
+            np.concatenate([b.x for b in self.blocks]),
+            np.concatenate([b.t for b in self.blocks]),
+        )
+        rho, rest = (
+            np.concatenate([b.rows[2] for b in self.blocks])[:, None],
+            np.concatenate([b.columns[2] for b in self.blocks]),
+        )
+        regular = (
+            None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
+        )
         blocks = range(len(self.blocks))
-        cauchy = np.concatenate([np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks])
+        cauchy = np.concatenate(
+            [np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks]
+        )
         out: Array = (real_if_real(self.problem.b) / np.pi) * cauchy
         return regular, out if regular is None else regular + out
 
     def _regular(self, k: Kernel, x: Array, t: Array) -> Array:
         if self.series is None:
             return sample_kernel(k, x, t)
-        return self.series.at([0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks])
+        return self.series.at(
+            [0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks]
+        )
 
     def _cauchy(self, i: int, j: int) -> Array:
         rows, columns = self.blocks[i], self.blocks[j]
@@ -123,7 +144,12 @@ class System:
 
     def _projected(self, values: Array) -> Array:
         """Rows sampled (first axis) -> coefficients of p̃, interval by interval."""
-        return np.concatenate([b.analysis.T @ values[rows][: -len(PROBES)] for b, rows in zip(self.blocks, self._row_slices, strict=True)])
+        return np.concatenate(
+            [
+                b.analysis.T @ values[rows][: -len(PROBES)]
+                for b, rows in zip(self.blocks, self._row_slices, strict=True)
+            ]
+        )
 
     @cached_property
     def order(self) -> NDArray[np.int64]:
@@ -145,7 +171,12 @@ class System:
     @cached_property
     def _free_columns(self) -> tuple[Array, Array]:
         """Of the free functions, normalised, and what they were divided by."""
-        columns = np.concatenate((np.zeros((len(self.values), len(self.sampled) - 1)), -self._projected(self.sampled[1:].T)))
+        columns = np.concatenate(
+            (
+                np.zeros((len(self.values), len(self.sampled) - 1)),
+                -self._projected(self.sampled[1:].T),
+            )
+        )
         scale = np.linalg.norm(columns, axis=0)
         scale[scale == 0.0] = 1.0
         return columns / scale, scale
@@ -160,7 +191,13 @@ class System:
 
     @cached_property
     def _matrix(self) -> Array:
-        smooth = np.concatenate([self.kernel[:, at] @ b.quadrature for b, at in zip(self.blocks, self._column_slices, strict=True)], axis=1)
+        smooth = np.concatenate(
+            [
+                self.kernel[:, at] @ b.quadrature
+                for b, at in zip(self.blocks, self._column_slices, strict=True)
+            ],
+            axis=1,
+        )
         projected = self._projected(smooth)
         start = 0
         for block, at in zip(self.blocks, self._column_slices, strict=True):
@@ -176,13 +213,17 @@ class System:
         c, d = unknown[:N], unknown[N:]
         weighted = self._weighted(c)
         projected = self._projected(self.kernel @ weighted)
-        singular = [moved(c[at], b.kappa) for b, at in zip(self.blocks, self._column_slices, strict=True)]
+        singular = [
+            moved(c[at], b.kappa) for b, at in zip(self.blocks, self._column_slices, strict=True)
+        ]
         rows = np.concatenate((self.conditions @ c, projected + np.concatenate(singular)))
         out: Array = (rows + self._free_columns[0] @ d)[self.order]
         return out
 
     def _weighted(self, c: Array) -> Array:
-        return np.concatenate([b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)])
+        return np.concatenate(
+            [b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)]
+        )
 
     def solution(self) -> Array:
         return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
@@ -199,8 +240,12 @@ class System:
         operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
         found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
         # GMRES stops at rounding of its own recursion; what counts is the residual
-        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(len(self.rhs)) * 64.0 * EPS * np.linalg.norm(self.rhs):
-            raise ContactError(f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth")
+        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(
+            len(self.rhs)
+        ) * 64.0 * EPS * np.linalg.norm(self.rhs):
+            raise ContactError(
+                f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth"
+            )
         out: Array = found
         return out
 
@@ -211,11 +256,20 @@ class System:
         beyond 2n - m for the m-th; for complex exponents, where nodes are not Gauss's, all beyond n.
         """
         missed = []
-        for block, weight, at in zip(self.blocks, self.problem.weights, self._column_slices, strict=True):
-            first, last = (np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) / sizes for part in (_FIRST, _LAST))
+        for block, weight, at in zip(
+            self.blocks, self.problem.weights, self._column_slices, strict=True
+        ):
+            first, last = (
+                np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) / sizes
+                for part in (_FIRST, _LAST)
+            )
             tail, largest = float(last.max()), max(float(first.max()), float(last.max()))
             decay = tail / positive(largest)
-            missed.append(float(np.abs(c[at]).max()) * tail * (decay if weight.is_real else float(decay > NEGLIGIBLE)))
+            missed.append(
+                float(np.abs(c[at]).max())
+                * tail
+                * (decay if weight.is_real else float(decay > NEGLIGIBLE))
+            )
         return missed
 
     def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
@@ -227,29 +281,64 @@ class System:
             return []
         rounded = signs(len(sizes) + len(self.rhs))
         at_rows, at_sums = rounded[: len(sizes)], rounded[len(sizes) :]
-        terms = np.concatenate((self.values[:, None] * at_sums[: len(self.values)], self._projected(sizes[:, None] * at_rows)))[self.order]
+        terms = np.concatenate(
+            (
+                self.values[:, None] * at_sums[: len(self.values)],
+                self._projected(sizes[:, None] * at_rows),
+            )
+        )[self.order]
         sums = (np.abs(self._matrix[:, : len(c)]) @ np.abs(c))[:, None] * at_sums
         off = solved(self._matrix, terms + sums)
-        of_interval = zip(self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True)
-        return [spread(m, weight, (block.sigma, block.quadrature), c[at], off[at]) for m, weight, block, at in of_interval]
+        of_interval = zip(
+            self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True
+        )
+        return [
+            spread(m, weight, (block.sigma, block.quadrature), c[at], off[at])
+            for m, weight, block, at in of_interval
+        ]
 
     def attempt(self, unknown: Array) -> Attempt:
         N = sum(self.sizes)
         c, d = unknown[:N], unknown[N:] / self._free_columns[1]
         smooth = self.kernel @ self._weighted(c)
         wanted = np.concatenate(([1.0], d)) @ self.sampled
-        size = [positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max()) for rows in self._row_slices]
+        size = [
+            positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max())
+            for rows in self._row_slices
+        ]
         aliased = self._aliased(c, np.repeat(size, [len(b.x) for b in self.blocks]))
         varying = wanted if self.regular is None else wanted - self.regular @ self._weighted(c)
-        off = [unsure(b.x, varying[at] / b.rows[2], b.rows[2]) for b, at in zip(self.blocks, self._row_slices, strict=True)]
+        off = [
+            unsure(b.x, varying[at] / b.rows[2], b.rows[2])
+            for b, at in zip(self.blocks, self._row_slices, strict=True)
+        ]
         rounded = np.maximum(np.abs(wanted), np.abs(smooth)) + np.concatenate(off) / EPS
         terms = []
-        for i, (block, rows, at) in enumerate(zip(self.blocks, self._row_slices, self._column_slices, strict=True)):
+        for i, (block, rows, at) in enumerate(
+            zip(self.blocks, self._row_slices, self._column_slices, strict=True)
+        ):
             weight, probes = self.problem.weights[i], slice(rows.stop - len(PROBES), rows.stop)
-            second = constant_of(self.problem, weight) * jacobi.evaluate(weight.inverse, moved(c[at], block.kappa), PROBES)
+            second = constant_of(self.problem, weight) * jacobi.evaluate(
+                weight.inverse, moved(c[at], block.kappa), PROBES
+            )
             left_over = second + smooth[probes] - wanted[probes]
-            terms.append(Terms(at.stop - at.start, left_over, wanted[rows], smooth[rows], aliased[i], float(off[i].max())))
-        return attempted(self.problem, [c[at] for at in self._column_slices], d, terms, partial(self._spreads, c, rounded))
+            terms.append(
+                Terms(
+                    at.stop - at.start,
+                    left_over,
+                    wanted[rows],
+                    smooth[rows],
+                    aliased[i],
+                    float(off[i].max()),
+                )
+            )
+        return attempted(
+            self.problem,
+            [c[at] for at in self._column_slices],
+            d,
+            terms,
+            partial(self._spreads, c, rounded),
+        )
 
 
 def _block(problem: Problem, i: int, n: int) -> _Block:
@@ -261,5 +350,14 @@ def _block(problem: Problem, i: int, n: int) -> _Block:
     t, to_right, to_left, _, rest = positions(interval, 1.0 - sigma, 1.0 + sigma)
     analysis = analysis / constant_of(problem, weight)
     return _Block(
-        x, (rows[0], rows[1], rows[2]), 1.0 - at, 1.0 + at, t, (to_right, to_left, rest), sigma, analysis, quadrature, weight.kappa
+        x,
+        (rows[0], rows[1], rows[2]),
+        1.0 - at,
+        1.0 + at,
+        t,
+        (to_right, to_left, rest),
+        sigma,
+        analysis,
+        quadrature,
+        weight.kappa,
     )

@@ -51,7 +51,9 @@ def by_transform(problem: Problem, n: int) -> Attempt:
     return attempted(problem, [found], unknown, [Terms(n, left_over, wanted, sampled[0], 0.0, off)])
 
 
-def _closed(c: Array, defects: Array, rows: Array, values: Array, kappa: int) -> tuple[Array, Array]:
+def _closed(
+    c: Array, defects: Array, rows: Array, values: Array, kappa: int
+) -> tuple[Array, Array]:
     """The combination of the particular solutions c, g's first, and of the homogeneous one if κ = 1, that meets all conditions."""
     functions = len(c)
     if kappa == 1:
@@ -75,7 +77,9 @@ def _transform(weight: Weight, n: int) -> tuple[Array, Callable[[Array], Array]]
     def by_dct(values: Array) -> Array:
         if np.iscomplexobj(values):
             return by_dct(values.real) + 1j * by_dct(values.imag)
-        return kind(np.concatenate((chebyshev.transform(values), np.zeros((len(values), 2))), axis=-1))
+        return kind(
+            np.concatenate((chebyshev.transform(values), np.zeros((len(values), 2))), axis=-1)
+        )
 
     return chebyshev.points(n), by_dct
 
@@ -108,4 +112,9 @@ def _fourth_kind(t: Array) -> Array:
 
 
 # From Chebyshev coefficients (padded by two zeros) to those of the orthonormal polynomials of (1 - s)^α (1 + s)^β.
-_KINDS = {(-0.5, -0.5): _first_kind, (0.5, 0.5): _second_kind, (-0.5, 0.5): _third_kind, (0.5, -0.5): _fourth_kind}
+_KINDS = {
+    (-0.5, -0.5): _first_kind,
+    (0.5, 0.5): _second_kind,
+    (-0.5, 0.5): _third_kind,
+    (0.5, -0.5): _fourth_kind,
+}

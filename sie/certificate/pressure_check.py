@@ -50,7 +50,9 @@ WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
 LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
 SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
-EXPLAINED = 16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
+EXPLAINED = (
+    16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
+)
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
 MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
@@ -64,8 +66,12 @@ AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 
 NAMED = 3  # intervals that a message names
 RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 TOGETHER = 2**17  # entries of a matrix that are computed at once
-ROUNDING = 8.0 * EPS  # of the slopes in the contact: by less a slope that rises may fall from point to point
-SCANNED = 600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
+ROUNDING = (
+    8.0 * EPS
+)  # of the slopes in the contact: by less a slope that rises may fall from point to point
+SCANNED = (
+    600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
+)
 
 
 @dataclass(frozen=True)
@@ -108,7 +114,14 @@ class Certificate:
 
     @property
     def error(self) -> float:
-        defects = (self.residual, self.implied, self.force, self.moment, self.resolution, self.edges)
+        defects = (
+            self.residual,
+            self.implied,
+            self.force,
+            self.moment,
+            self.resolution,
+            self.edges,
+        )
         return max(LEAST, *(float("inf") if math.isnan(d) else d for d in defects))
 
     @property
@@ -117,11 +130,20 @@ class Certificate:
         allowed = _allowed(self.tol, self.abscissae)
         if self.shear is not None and not self.shear.ok:
             return False
-        return self.error <= allowed and self.lowest_pressure >= -max(allowed, TOLERATED) and self.lowest_gap >= -max(allowed, TOLERATED)
+        return (
+            self.error <= allowed
+            and self.lowest_pressure >= -max(allowed, TOLERATED)
+            and self.lowest_gap >= -max(allowed, TOLERATED)
+        )
 
     def as_dict(self) -> dict[str, Any]:
-        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {"error": self.error, "ok": self.ok}
-        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {"notes": list(self.notes)}
+        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {
+            "notes": list(self.notes)
+        }
         return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
 
     def __str__(self) -> str:
@@ -139,7 +161,11 @@ class Certificate:
         )
         for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
             rows += ((f"{name} for {_shown(intervals)}", ""),) if intervals else ()
-        verdict = f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}" if self.ok else f"NOT certified to {self.tol:.0e}"
+        verdict = (
+            f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
+            if self.ok
+            else f"NOT certified to {self.tol:.0e}"
+        )
         rows += self.shear.rows if self.shear is not None else ()
         lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
         remarks = self.shear.remarks if self.shear is not None else ()
@@ -166,7 +192,13 @@ class ShearCertificate:
 
     @property
     def error(self) -> float:
-        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in (self.residual, self.equilibrium, self.excess)))
+        return max(
+            LEAST,
+            *(
+                float("inf") if math.isnan(d) else d
+                for d in (self.residual, self.equilibrium, self.excess)
+            ),
+        )
 
     @property
     def ok(self) -> bool:
@@ -174,7 +206,10 @@ class ShearCertificate:
         return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)} | {"error": self.error, "ok": self.ok}
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
 
     @property
     def rows(self) -> tuple[tuple[str, str], ...]:
@@ -200,7 +235,9 @@ def _allowed(tol: float, abscissae: float) -> float:
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # what cannot be measured is infinite, and not ok
         return _measured(density, slope, tol)
 
 
@@ -225,7 +262,10 @@ def _measured(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
         residual=float(np.abs(residual).max()) / peak,
         implied=_implied(residual, contact, rule.between) / peak,
         force=abs(float(weight @ p) - P) / P,
-        moment=abs(float(weight @ (p * ((x - contact.m) / r))) + P * (contact.m / r) - density.moment / r) / P,  # P r may underflow
+        moment=abs(
+            float(weight @ (p * ((x - contact.m) / r))) + P * (contact.m / r) - density.moment / r
+        )
+        / P,  # P r may underflow
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=float(gaps.min(initial=0.0)),
         abscissae=max(of_force / P, of_equation / peak),
@@ -255,7 +295,9 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     for singular, x, tail, K, J, share in edges:
         if not singular:
             kept = 0.0 if tail else 0.5 * math.ulp(x)  # a tail holds what rounding took
-            missed = max(missed, abs(density.resultant / G - r * K) + kept * (r * J + share * abs(k.I0)))
+            missed = max(
+                missed, abs(density.resultant / G - r * K) + kept * (r * J + share * abs(k.I0))
+            )
     return G * (missed + rounding)
 
 
@@ -277,7 +319,9 @@ def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
     middle, dH = 0.25 * (psi[1:] + psi[:-1]), H[:-1] - H[1:]
     JR, JL = (float(dH @ steep) / contact.r for steep in (1.0 / np.tan(middle), np.tan(middle)))
     positive, negative = float(np.maximum(HdF, 0.0).sum()), -float(np.minimum(HdF, 0.0).sum())
-    return Moments(positive - negative, float(HdF @ np.cos(psi)), 0.0, JR, JL, positive, negative, 0.0, 0.0)
+    return Moments(
+        positive - negative, float(HdF @ np.cos(psi)), 0.0, JR, JL, positive, negative, 0.0, 0.0
+    )
 
 
 def _finite(p: Array) -> Array:
@@ -293,7 +337,10 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
     x = np.sort(np.concatenate((inside, inner_breaks(contact, slope), _beside(contact, slope))))
     H = slope(x)
     rounding = ROUNDING * density.slope_scale
-    return bool((H[1:] >= H[:-1] - rounding).all()) and min(density.k1, density.k2) >= 0.0 < density.resultant
+    return (
+        bool((H[1:] >= H[:-1] - rounding).all())
+        and min(density.k1, density.k2) >= 0.0 < density.resultant
+    )
 
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
@@ -301,10 +348,16 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     x = np.concatenate((_scan(density.contact, slope), inner_breaks(density.contact, slope)))
     p = density(x)
     peak = float(p[np.isfinite(p)].max())
-    patch = f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would"
+    patch = (
+        f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would"
+    )
     worst = int(np.argmin(p))
     if p[worst] < -TOLERATED * peak or peak <= 0.0 or min(density.k1, density.k2) < 0.0:
-        where = float(x[worst]) if min(density.k1, density.k2) >= 0.0 else density.interval[int(density.k2 < density.k1)]
+        where = (
+            float(x[worst])
+            if min(density.k1, density.k2) >= 0.0
+            else density.interval[int(density.k2 < density.k1)]
+        )
         intervals = _below(x, p / abs(peak))
         raise InequalityError(
             f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak {peak:.3g}){_among(intervals)}: "
@@ -335,11 +388,20 @@ def _below(x: Array, values: Array) -> Intervals:
     starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
 
     def crossing(inner: int, outer: int) -> float:
-        if not 0 <= outer < len(x) or not np.isfinite(values[[inner, outer]]).all() or values[outer] <= 0.0:
+        if (
+            not 0 <= outer < len(x)
+            or not np.isfinite(values[[inner, outer]]).all()
+            or values[outer] <= 0.0
+        ):
             return float(x[inner])
-        return float(x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer]))
+        return float(
+            x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer])
+        )
 
-    return tuple((crossing(i, i - 1), crossing(j, j + 1)) for i, j in zip(starts.tolist(), ends.tolist(), strict=True))
+    return tuple(
+        (crossing(i, i - 1), crossing(j, j + 1))
+        for i, j in zip(starts.tolist(), ends.tolist(), strict=True)
+    )
 
 
 def _shown(intervals: Intervals) -> str:
@@ -385,7 +447,9 @@ def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
             integrand[distance == 0.0] = 0.0  # the node is the point: on a panel of a few ulp
             summed = integrand @ rule.weight
         integral[some] += summed
-    return integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
+    return (
+        integral / np.pi + math.tan(math.pi * density.epsilon) * values - density.half_modulus * H
+    )
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:
@@ -410,7 +474,9 @@ def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tup
     x, weight, p = rule.x[order], rule.weight[order], p[order]
     ulp, apart = np.spacing(np.abs(x)), np.diff(x)
     steps = np.abs(np.diff(p)) * np.minimum(ulp[1:] / np.maximum(apart, ulp[1:]), 1.0)
-    from_edge = np.maximum(np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0)
+    from_edge = np.maximum(
+        np.minimum(density.contact.from_left(x), density.contact.from_right(x)), 0.0
+    )
     moved = np.abs(p) * np.minimum(ulp / np.maximum(2.0 * from_edge, ulp), 1.0)
     moved[1:] = np.maximum(moved[1:], steps)
     moved[:-1] = np.maximum(moved[:-1], steps)
@@ -436,14 +502,23 @@ def _gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
         return x, np.zeros(len(x))
     # A function may overflow out there; from where it opens that steeply on, the gap is not looked at
     outward = np.sign(x - contact.m)
-    opens = ~(outward * slope(x) < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r)))
-    left, right = (np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0))
+    opens = ~(
+        outward * slope(x)
+        < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r))
+    )
+    left, right = (
+        np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0)
+    )
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
         return x, x
     values = gap(x, density, slope)
     scale = max(
-        float(np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(initial=0.0)),
+        float(
+            np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(
+                initial=0.0
+            )
+        ),
         density.resultant / density.half_modulus * 1e-3,
     )
     return x, values / scale

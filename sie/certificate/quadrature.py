@@ -26,7 +26,9 @@ Array = NDArray[np.float64]
 NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
 GRADING = 0.25
 FEW_BREAKS = 40
-TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an edge, but the residual is wanted near it
+TOWARDS_EDGE = np.array(
+    [0.0625, 0.125, 0.1875]
+)  # panels need no grading to an edge, but the residual is wanted near it
 # What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
 # (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of the
 # profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
@@ -52,7 +54,12 @@ class Rule(NamedTuple):
 
 
 def composite_rule(
-    contact: Interval, slope: Slope, also: Array | None = None, epsilon: float = 0.0, *, resolution: Slope | None = None
+    contact: Interval,
+    slope: Slope,
+    also: Array | None = None,
+    epsilon: float = 0.0,
+    *,
+    resolution: Slope | None = None,
 ) -> Rule:
     """The composite rule; `also` are places inside to be treated as breaks.
 
@@ -64,7 +71,9 @@ def composite_rule(
     many = not slope.functions and len(inner_breaks(contact, slope)) > FEW_BREAKS
     also = np.zeros(0) if also is None else also
     resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
-    edges, large = _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
+    edges, large = (
+        _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
+    )
     g, w = chebyshev.gauss_legendre(NODES)
     length = np.diff(edges)
     angle = edges[:-1, None] + length[:, None] * g
@@ -76,10 +85,19 @@ def composite_rule(
             weight[k] = length[k] * w / g**power
     angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
     if not epsilon:
-        return Rule(position(contact, angle), angle, weight, position(contact, large), slice(None), contact)
+        return Rule(
+            position(contact, angle), angle, weight, position(contact, large), slice(None), contact
+        )
     large = large[(large > edges[1]) & (large < edges[-2])]
     x2, x1 = position(contact, edges[[1, -2]]).tolist()
-    return Rule(position(contact, angle), angle, weight, position(contact, large), slice(NODES, -NODES), Interval(x1, x2))
+    return Rule(
+        position(contact, angle),
+        angle,
+        weight,
+        position(contact, large),
+        slice(NODES, -NODES),
+        Interval(x1, x2),
+    )
 
 
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
@@ -87,7 +105,11 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
     levels = _levels_of_few(slope, also)
     cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
-    towards = cut if len(cut) <= FEW_BREAKS else angles(contact, np.union1d(inner_breaks(contact, slope), also))
+    towards = (
+        cut
+        if len(cut) <= FEW_BREAKS
+        else angles(contact, np.union1d(inner_breaks(contact, slope), also))
+    )
     ends = np.concatenate(([0.0], towards, [np.pi]))
     cuts = [cut]
     graded = GRADING ** np.arange(levels, 0, -1)
@@ -95,7 +117,9 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
     for k, (lo, hi) in enumerate(pairwise(ends)):
         left = graded if k > 0 else TOWARDS_EDGE
         right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
-        cuts.append(lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right)))
+        cuts.append(
+            lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right))
+        )
     edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
     length = np.diff(edges)
     return edges, edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
@@ -108,7 +132,9 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
     parts = np.ceil(length / LONGEST).astype(int)
-    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)  # of each part within its piece
+    number = np.arange(parts.sum()) - np.repeat(
+        parts.cumsum() - parts, parts
+    )  # of each part within its piece
     within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
     middle = 0.5 * (ends[:-1] + ends[1:])
     chosen = middle[_largest(middle, length)]
@@ -138,12 +164,16 @@ def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
     """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1) ln|x - e| is then rounding."""
     b = slope.breaks[1:-1]
     inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)
-    longer = np.minimum(np.maximum(np.diff(slope.breaks)[:-1], np.diff(slope.breaks)[1:])[inside], 2.0 * contact.r)
+    longer = np.minimum(
+        np.maximum(np.diff(slope.breaks)[:-1], np.diff(slope.breaks)[1:])[inside], 2.0 * contact.r
+    )
     jumps = np.abs(slope.corners[inside])
     m = np.arange(jumps.shape[1])
     scale = float(np.abs(slope(np.array([contact.x1, contact.x2]))).max()) or 1.0
     size = (jumps * longer[:, None] ** m / (scale * EPS)) ** (1.0 / (m + 1)) / NODES**2
-    return np.clip(np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING)), 0, LEVELS).astype(np.int64)
+    return np.clip(
+        np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING)), 0, LEVELS
+    ).astype(np.int64)
 
 
 def _largest(x: Array, size: Array) -> list[int]:
@@ -158,7 +188,9 @@ def _balanced(edges: Array) -> Array:
     """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular next door is then far enough."""
     while True:
         length = np.diff(edges)
-        shortest = np.minimum(np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf])))
+        shortest = np.minimum(
+            np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf]))
+        )
         long = length > 1.01 * shortest / GRADING
         if not long.any():
             return edges

@@ -22,19 +22,31 @@ from .quadrature import Rule, composite_rule
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
-ENDS = 32.0 * EPS  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
+ENDS = (
+    32.0 * EPS
+)  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
 
 
-def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float) -> ShearCertificate:
+def shear_certificate(
+    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float
+) -> ShearCertificate:
     """Measure a state; `loads` are Q and τ."""
-    ends = [c for zone in state.stick for c in zone] + [c for lo, hi, _ in state.slipped for c in (lo, hi)] + list(state.levels)
+    ends = (
+        [c for zone in state.stick for c in zone]
+        + [c for lo, hi, _ in state.slipped for c in (lo, hi)]
+        + list(state.levels)
+    )
     x1, x2 = pressure.interval
     rule = composite_rule(pressure.contact, slope, np.array([c for c in set(ends) if x1 < c < x2]))
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # what cannot be measured is infinite, and not ok
         return _measured(state, pressure, loads, rule, tol)
 
 
-def _measured(state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, tol: float) -> ShearCertificate:
+def _measured(
+    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, tol: float
+) -> ShearCertificate:
     x, weight = rule.x, rule.weight
     p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
@@ -63,11 +75,15 @@ def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) 
     distance = at[:, None] - rule.x
     distance[distance == 0.0] = np.inf
     whole = values * np.log(contact.from_left(at) / contact.from_right(at))
-    return float(np.abs((((q - values[:, None]) / distance) @ rule.weight + whole) / np.pi - tau).max())
+    return float(
+        np.abs((((q - values[:, None]) / distance) @ rule.weight + whole) / np.pi - tau).max()
+    )
 
 
 def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
-    worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())  # a node on a corner, where p is infinite, was set to 0
+    worst = float(
+        np.where(p > 0.0, np.abs(q) - p, -np.inf).max()
+    )  # a node on a corner, where p is infinite, was set to 0
     margin = ENDS * (contact.r + abs(contact.m))
     for lo, hi, sign in state.slipped:
         slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
@@ -79,11 +95,19 @@ def _opposing(state: Slip, x: Array) -> float:
     """Of the slip since the last turning point: smallest in its own direction, over the largest."""
     slip = state.slip_now(x)
     largest = float(np.abs(slip).max(initial=0.0))
-    lowest = min((float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0)) for lo, hi, sign in state.slipped), default=0.0)
+    lowest = min(
+        (
+            float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0))
+            for lo, hi, sign in state.slipped
+        ),
+        default=0.0,
+    )
     return lowest / largest if largest else 0.0
 
 
-def _rounding(state: Slip, contact: Interval, x: Array, weight: Array, q: Array) -> tuple[float, float]:
+def _rounding(
+    state: Slip, contact: Interval, x: Array, weight: Array, q: Array
+) -> tuple[float, float]:
     """What one ulp of the nodes, which are counted from the edges, does to ∫q dx and to the equation where that is measured.
 
     In a narrow stick zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.

@@ -106,7 +106,10 @@ class TraceReport:
         rows = [("trace", f"{self.points} points, {smoothing}, misfit {self.misfit:.3g} rms")]
         done = (
             (self.mended.left_out, f"{self.mended.left_out} points without a value left out"),
-            (self.mended.averaged, f"{self.mended.averaged} points averaged with others of equal x"),
+            (
+                self.mended.averaged,
+                f"{self.mended.averaged} points averaged with others of equal x",
+            ),
             (self.mended.sorted, "x sorted"),
         )
         mended = ", ".join(text for is_done, text in done if is_done)
@@ -138,7 +141,9 @@ def trace_reports(scene: Scene, normal: Normal, density: SlopeDensity) -> tuple[
     return tuple(_report(placed, scene, normal, density) for placed in traces_in(scene.profile))
 
 
-def _report(placed: PlacedTrace, scene: Scene, normal: Normal, density: SlopeDensity) -> TraceReport:
+def _report(
+    placed: PlacedTrace, scene: Scene, normal: Normal, density: SlopeDensity
+) -> TraceReport:
     trace, contact = placed.trace, normal.edges.contact
     x = placed.x(trace.points)
     tilt = placed.direction * trace.line[1] + placed.tilt + normal.edges.tilt
@@ -182,7 +187,9 @@ class Errors(NamedTuple):
     edges: tuple[float, float]
 
 
-def _errors(placed: PlacedTrace, reference: Sampled, scene: Scene, normal: Normal, density: SlopeDensity) -> Errors:
+def _errors(
+    placed: PlacedTrace, reference: Sampled, scene: Scene, normal: Normal, density: SlopeDensity
+) -> Errors:
     contact, sharp = normal.edges.contact, np.array(normal.edges.sharp)
     place = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     p = density(contact.m + contact.r * np.cos(place))
@@ -229,7 +236,9 @@ def _bound(placed: PlacedTrace, reference: Sampled, x: Array, weights: Array) ->
     return np.abs(weights @ (known.slope(at) - reference.slope(at))) + SPREAD * deviations
 
 
-def _operator(angle: Array, place: Array, contact: Interval, kappa: Array, scene: Scene) -> tuple[Array, Array]:
+def _operator(
+    angle: Array, place: Array, contact: Interval, kappa: Array, scene: Scene
+) -> tuple[Array, Array]:
     """From δH at the angles to δp/G at the places without its singular terms, and to C ± c_0'."""
     n = np.arange(len(angle))
     c = (2.0 / len(angle)) * np.cos(np.outer(n, angle))

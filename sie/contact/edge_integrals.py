@@ -46,13 +46,25 @@ class Moments(NamedTuple):
 
     def mirrored(self) -> Moments:
         """Those of h(-x) on the mirrored contact."""
-        return Moments(-self.I0, self.I1, -self.C2, self.JL, self.JR, self.negative, self.positive, self.size2, self.size1)
+        return Moments(
+            -self.I0,
+            self.I1,
+            -self.C2,
+            self.JL,
+            self.JR,
+            self.negative,
+            self.positive,
+            self.size2,
+            self.size1,
+        )
 
 
 NOTHING = Moments(*(0.0,) * 9)
 
 
-def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> Moments:
+def moments(
+    slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False
+) -> Moments:
     """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
     if not contact.r < math.inf:
         raise OverflowError("an edge of the contact is beyond all doubles")
@@ -67,13 +79,17 @@ def moments(slope: Slope, contact: Interval, lower: float | None = None, keep_ze
 def _of_many(g: Geometry) -> Moments:
     if not len(g.k):
         return NOTHING
-    with np.errstate(over="ignore", invalid="ignore"):  # a search may try a contact of 1e-300: what overflows is not rising
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # a search may try a contact of 1e-300: what overflows is not rising
         order = quadrature_order(g.slope.degree)
         narrow = g.angles[2][:, 0] <= NARROW_ANGLE
         if g.slope.functions or np.count_nonzero(narrow) < MANY:
             return _summed(g, order)
         wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
-        return Moments(*map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree))))
+        return Moments(
+            *map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree)))
+        )
 
 
 def _summed(g: Geometry, order: int) -> Moments:
@@ -81,7 +97,9 @@ def _summed(g: Geometry, order: int) -> Moments:
     offset, angle, weight, sign = g.nodes(order)
     H = g.slopes(offset)
     WH = weight * H
-    near = 2.0 * np.sin(0.5 * angle) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+    near = (
+        2.0 * np.sin(0.5 * angle) ** 2
+    )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
     cos_phi, sin_phi = np.sin(angle), sign * (near - 1.0)
     left = np.asarray(sign > 0.0)
     plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
@@ -96,7 +114,16 @@ def _summed(g: Geometry, order: int) -> Moments:
         jump = _jumps(g, H)
         JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
     I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
-    return Moments(_sum(WH), I1, C2, JR, JL, _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0)), *sizes(g, weight, H))
+    return Moments(
+        _sum(WH),
+        I1,
+        C2,
+        JR,
+        JL,
+        _sum(np.maximum(WH, 0.0)),
+        -_sum(np.minimum(WH, 0.0)),
+        *sizes(g, weight, H),
+    )
 
 
 def sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
@@ -137,7 +164,9 @@ def rises(H: Array, k: NDArray[np.int64]) -> Array:
     enter, leave = H
     size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
     met = (np.diff(k) == 1) & (np.abs(enter[1:] - leave[:-1]) <= size)
-    return np.stack((np.where(np.append(False, met), 0.0, enter), np.where(np.append(met, False), 0.0, -leave)))
+    return np.stack(
+        (np.where(np.append(False, met), 0.0, enter), np.where(np.append(met, False), 0.0, -leave))
+    )
 
 
 def _sum(a: Array) -> float:
@@ -152,7 +181,9 @@ class _Cut(NamedTuple):
 
     base: float  # lo - origin
     length: float
-    roots: tuple[float, float, float, float]  # lo from left, lo from right, hi from left, hi from right
+    roots: tuple[
+        float, float, float, float
+    ]  # lo from left, lo from right, hi from left, hi from right
     from_edge: float
     sign: float
     angle: float
@@ -186,11 +217,18 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
         start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
     if at_right:
         hi_left, hi_right, length = width, 0.0, lo_right
-    a, b, c, d = math.sqrt(lo_left / width), math.sqrt(lo_right / width), math.sqrt(hi_left / width), math.sqrt(hi_right / width)
+    a, b, c, d = (
+        math.sqrt(lo_left / width),
+        math.sqrt(lo_right / width),
+        math.sqrt(hi_left / width),
+        math.sqrt(hi_right / width),
+    )
     angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
     left = lo_left + hi_left < width
     from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
-    return _Cut((start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle)
+    return _Cut(
+        (start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle
+    )
 
 
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
@@ -201,7 +239,9 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
         size = size * farthest + abs(v)
     size *= 2.0 * angle
     sin = math.sin
-    for g, weight in _rule(5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)):
+    for g, weight in _rule(
+        5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)
+    ):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
         y = base + width * sin(half_step) * sin(middle)
@@ -210,7 +250,9 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             dH = dH * y + H
             H = H * y + v
         at = middle + sign * half_step
-        near = 2.0 * sin(0.5 * at) ** 2  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        near = (
+            2.0 * sin(0.5 * at) ** 2
+        )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
         cos_phi, sin_phi = sin(at), sign * (near - 1.0)
         w = angle * weight
         wH, wdH = w * H, w * dH
@@ -225,7 +267,17 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             negative -= wH
     JR, JL = (J_near, J_far) if sign > 0.0 else (J_far, J_near)
     _, right_of_lo, left_of_hi, _ = cut.roots
-    return I0, I1, C2, JR, JL, positive, negative, size * right_of_lo * right_of_lo, size * left_of_hi * left_of_hi
+    return (
+        I0,
+        I1,
+        C2,
+        JR,
+        JL,
+        positive,
+        negative,
+        size * right_of_lo * right_of_lo,
+        size * left_of_hi * left_of_hi,
+    )
 
 
 def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:

@@ -41,7 +41,9 @@ from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments
 
-Place = tuple[float, float]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
+Place = tuple[
+    float, float
+]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
 
 # A residual is rounding below so many units of its terms: the roots and the angle of each piece, its sines, its weights, Horner's rule
 # and the sum round it once or twice each.
@@ -79,7 +81,10 @@ class Bracket:
         return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
 
     def middle(self) -> Place:
-        return two_sum(self.low[0], 0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1])
+        return two_sum(
+            self.low[0],
+            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
+        )
 
 
 def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
@@ -102,10 +107,15 @@ class Polish:
 
     # -- one of two edges is given, or none ---------------------------------------------------------------------------
 
-    def both(self, contact: Interval, target: float, left_sharp: bool) -> tuple[Interval, Moments, bool]:
+    def both(
+        self, contact: Interval, target: float, left_sharp: bool
+    ) -> tuple[Interval, Moments, bool]:
         """The contact that carries target = P/G, its moments, and whether the residuals came down to rounding."""
         lo, hi = self.slope.domain
-        left, right = Bracket((lo, 0.0), (contact.x2, contact.tail2)), Bracket((contact.x1, contact.tail1), (hi, 0.0))
+        left, right = (
+            Bracket((lo, 0.0), (contact.x2, contact.tail2)),
+            Bracket((contact.x1, contact.tail1), (hi, 0.0)),
+        )
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -144,7 +154,11 @@ class Polish:
         return contact, k, False
 
     def balanced(
-        self, contact: Interval, target: float, lever: float, tilted: Callable[[Interval, float], Moments]
+        self,
+        contact: Interval,
+        target: float,
+        lever: float,
+        tilted: Callable[[Interval, float], Moments],
     ) -> tuple[Interval, Moments, float] | None:
         """The contact with smooth edges that carries target = P/G at x = lever, its moments and its tilt; None if Newton's steps find none.
 
@@ -155,7 +169,10 @@ class Polish:
         tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
         for _ in range(MAX_BALANCING):
             k, r = tilted(contact, tilt), contact.r
-            half, turned = 0.5 * (r * k.I1 - target), target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
+            half, turned = (
+                0.5 * (r * k.I1 - target),
+                target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0),
+            )
             rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
             if not (rise1 > 0.0 and rise2 > 0.0):
                 return None
@@ -165,7 +182,10 @@ class Polish:
             missed = (abs(half) + abs(turned)) / rounding
             if missed < before or missed <= 1.0:
                 tilt -= k.I0 / math.pi
-                outwards = self.outwards(contact, LEFT, half + turned, rise1, 0.5), self.outwards(contact, RIGHT, half - turned, rise2, 0.5)
+                outwards = (
+                    self.outwards(contact, LEFT, half + turned, rise1, 0.5),
+                    self.outwards(contact, RIGHT, half - turned, rise2, 0.5),
+                )
                 # p > 0 puts the load between the edges
                 room = contact.from_left(lever), contact.from_right(lever)
                 steps = (max(outwards[0], -0.5 * room[0]), max(outwards[1], -0.5 * room[1]))
@@ -180,7 +200,9 @@ class Polish:
             contact = moved
         return None
 
-    def symmetric(self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf) -> tuple[Interval, bool]:
+    def symmetric(
+        self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
+    ) -> tuple[Interval, bool]:
         """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that is longer than `reach` r.
 
         With r JR changing by no more than VARIES times itself over the distance to the next break or to z, what a step leaves is known.
@@ -236,7 +258,10 @@ class Polish:
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
         """How far right both edges move so that over = r I0 vanishes; the edge next to a break tells."""
-        to_left, to_right = abs(self.nearest(contact, LEFT)[1]), abs(self.nearest(contact, RIGHT)[1])
+        to_left, to_right = (
+            abs(self.nearest(contact, LEFT)[1]),
+            abs(self.nearest(contact, RIGHT)[1]),
+        )
         if abs(over) <= CLOSE * rise * min(to_left, to_right):
             return -over / rise
         if to_right <= to_left:
@@ -256,7 +281,9 @@ class Polish:
                 best, b = d, breaks[j]
         return b, best
 
-    def outwards(self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0) -> float:
+    def outwards(
+        self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
+    ) -> float:
         """How far an edge moves outwards so that its residual `over`, which grows by `rise`, vanishes.
 
         share     of what a break adds at this edge, that the residual takes
@@ -266,7 +293,10 @@ class Polish:
         if abs(newton) <= CLOSE * abs(d):
             return newton
         jump, kink = self.slope.corner(b)
-        B, C = share * math.sqrt(2.0 * contact.r) * jump, share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink)
+        B, C = (
+            share * math.sqrt(2.0 * contact.r) * jump,
+            share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink),
+        )
         A, behind = rise, -over + rise * d
         if d > 0.0:
             root = math.sqrt(d)
@@ -279,7 +309,11 @@ class Polish:
         v = math.sqrt(behind / A) if B <= 0.0 else behind / (B + math.sqrt(B * B + A * behind))
         for _ in range(STEPS_TO_A_BREAK):
             slope = 2.0 * (B + v * (A + C * v))
-            step = (behind - v * (2.0 * B + v * (A + C * v / 1.5))) / slope if slope > 0.0 else math.inf
+            step = (
+                (behind - v * (2.0 * B + v * (A + C * v / 1.5))) / slope
+                if slope > 0.0
+                else math.inf
+            )
             if not 0.0 < v + step < math.inf:
                 return newton
             v += step
@@ -292,7 +326,9 @@ class Polish:
     def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
         """Of F1 and F2."""
         r = contact.r
-        least = ROUNDINGS * target + (math.pi * self.noise(contact) * r if self.slope.functions else 0.0)
+        least = ROUNDINGS * target + (
+            math.pi * self.noise(contact) * r if self.slope.functions else 0.0
+        )
         return least + ROUNDINGS * r * k.size1, least + ROUNDINGS * r * k.size2
 
     def noise(self, contact: Interval) -> float:

@@ -87,7 +87,9 @@ class Search:
     half_modulus: float
     axis: float | None = None  # of a symmetric profile: half the unknowns and half the pieces
     keep_zero: bool = False
-    epsilon: float = 0.0  # of the edges' exponents in full sliding (`sliding`); half_modulus is then E*/2 cos πε
+    epsilon: float = (
+        0.0  # of the edges' exponents in full sliding (`sliding`); half_modulus is then E*/2 cos πε
+    )
     mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
 
@@ -99,7 +101,9 @@ class Search:
             return sliding_moments(self.slope, contact, self.epsilon, self.keep_zero)
         if self.axis is None:
             return moments(self.slope, contact, keep_zero=self.keep_zero)
-        half = moments(self.slope, contact, self.axis, self.keep_zero)  # the symmetry makes the others zero
+        half = moments(
+            self.slope, contact, self.axis, self.keep_zero
+        )  # the symmetry makes the others zero
         J0 = half.JR + half.JL
         size = half.size1 + half.size2
         return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
@@ -113,7 +117,9 @@ class Search:
         contact = contact.rounded(self.slope.break_points)
         G, r = self.half_modulus, contact.r
         if self.axis is not None and load is not None and not any(sharp):
-            return Edges(contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations)
+            return Edges(
+                contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations
+            )
         k = k or self.moments(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
@@ -122,20 +128,31 @@ class Search:
         g0 = G * I0 / np.pi
         C = (P / r - G * k.I1) / np.pi if any(sharp) else 0.0
         k1, k2 = (max(C + g0, 0.0) if sharp[0] else 0.0), (max(C - g0, 0.0) if sharp[1] else 0.0)
-        return Edges(contact, P, contact.m * P - G * r * r * k.C2, tilt, sharp, k1, k2, I0, self.evaluations)
+        return Edges(
+            contact, P, contact.m * P - G * r * r * k.C2, tilt, sharp, k1, k2, I0, self.evaluations
+        )
 
-    def _finished_sliding(self, contact: Interval, P: float, tilt: float, sharp: tuple[bool, bool], k: Moments) -> Edges:
+    def _finished_sliding(
+        self, contact: Interval, P: float, tilt: float, sharp: tuple[bool, bool], k: Moments
+    ) -> Edges:
         """From F(z) ~ P/(πz) + M/(πz²) far away, with X(z) of `sliding` expanded there; M about the centre first."""
         G, r, e, cos = self.half_modulus, contact.r, self.epsilon, math.cos(math.pi * self.epsilon)
         I0 = k.I0 if any(sharp) else 0.0
         difference = 2.0 * G * cos * I0 / np.pi  # k1 - k2
         if all(sharp):
-            weighted = 2.0 * cos / (np.pi * r) * (P - G * r * (k.I1 + 2.0 * e * I0))  # (1 - 2ε) k1 + (1 + 2ε) k2
+            weighted = (
+                2.0 * cos / (np.pi * r) * (P - G * r * (k.I1 + 2.0 * e * I0))
+            )  # (1 - 2ε) k1 + (1 + 2ε) k2
             k1 = 0.5 * (weighted + (1.0 + 2.0 * e) * difference)
             k1, k2 = max(k1, 0.0), max(k1 - difference, 0.0)
         else:
-            k1, k2 = (max(difference, 0.0) if sharp[0] else 0.0), (max(-difference, 0.0) if sharp[1] else 0.0)
-        M = -G * r * r * k.C2 + np.pi * r * r / (4.0 * cos) * (k2 * (1.0 + 2.0 * e) ** 2 - k1 * (1.0 - 2.0 * e) ** 2)
+            k1, k2 = (
+                (max(difference, 0.0) if sharp[0] else 0.0),
+                (max(-difference, 0.0) if sharp[1] else 0.0),
+            )
+        M = -G * r * r * k.C2 + np.pi * r * r / (4.0 * cos) * (
+            k2 * (1.0 + 2.0 * e) ** 2 - k1 * (1.0 - 2.0 * e) ** 2
+        )
         return Edges(contact, P, contact.m * P + M, tilt, sharp, k1, k2, I0, self.evaluations)
 
     # -- where the profile touches first --------------------------------------------------------------------------------
@@ -147,10 +164,14 @@ class Search:
     @cached_property
     def _touch(self) -> tuple[float, float]:
         if self.axis is not None:
-            z = next((lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1])
+            z = next(
+                (lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1]
+            )
             z = max(z, self.axis)
             if math.isinf(z):
-                raise LoadError("the profile is flat without end: its contact has no edges; give a profile that rises")
+                raise LoadError(
+                    "the profile is flat without end: its contact has no edges; give a profile that rises"
+                )
             return 2.0 * self.axis - z, z
         return lowest_points(self.slope)
 
@@ -177,14 +198,18 @@ class Search:
             return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
-        distance = _logarithmic_root(excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load))
+        distance = _logarithmic_root(
+            excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load)
+        )
         return Found(self._polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
         """The same by Newton alone, from the contact under a load that is not much different; None if that does not settle at once."""
         z = self.touch()[1]
         reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
-        contact, settled = self._polish.symmetric(contact, load / self.half_modulus, z, NEAR_STEPS, reach)
+        contact, settled = self._polish.symmetric(
+            contact, load / self.half_modulus, z, NEAR_STEPS, reach
+        )
         return contact if settled else None
 
     @cached_property
@@ -199,7 +224,11 @@ class Search:
         if ahead < len(breaks):
             return breaks[ahead] - z
         # Not within rounding of z, where the load would be noise
-        return max(z - breaks[0], abs(z)) if breaks and breaks[0] < z else max(target, math.sqrt(EPS) * abs(z))
+        return (
+            max(z - breaks[0], abs(z))
+            if breaks and breaks[0] < z
+            else max(target, math.sqrt(EPS) * abs(z))
+        )
 
     def _too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:
@@ -220,12 +249,22 @@ class Search:
         if right is not None:
             return right
         mirrored = not self.mirrored
-        flipped = replace(self, slope=self.slope.mirrored(), epsilon=-self.epsilon, mirrored=mirrored, evaluations=0)
+        flipped = replace(
+            self,
+            slope=self.slope.mirrored(),
+            epsilon=-self.epsilon,
+            mirrored=mirrored,
+            evaluations=0,
+        )
         left = flipped._right_edge(load)
         self.evaluations += flipped.evaluations
         if left is None:
             return Found(Interval(*self.slope.domain), (True, True))
-        return Found(left.contact.mirrored(), left.sharp[::-1], left.moments.mirrored() if left.moments else None)
+        return Found(
+            left.contact.mirrored(),
+            left.sharp[::-1],
+            left.moments.mirrored() if left.moments else None,
+        )
 
     def _right_edge(self, load: float) -> Found | None:
         """The contact whose right edge is smooth, and its left edge may be sharp; None if the right edge is sharp too."""
@@ -237,10 +276,15 @@ class Search:
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
         guess = self._first_guess(z2, hi, target)
-        last = [guess, guess]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
+        last = [
+            guess,
+            guess,
+        ]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
 
         def contact_at(distance: float) -> tuple[Interval, Moments]:
-            contact, k, left = split._left_edge((z1, z2), distance, max(last[1] / last[0], UNEVEN) * distance)
+            contact, k, left = split._left_edge(
+                (z1, z2), distance, max(last[1] / last[0], UNEVEN) * distance
+            )
             last[:] = distance, left
             return contact, k
 
@@ -252,7 +296,9 @@ class Search:
 
         def excess(distance: float) -> tuple[float, float]:
             contact, k = contact_at(distance)
-            return contact.r * (k.I1 + k.I0), distance * (contact.r * k.JR + (0.5 - self.epsilon) * max(k.I0, 0.0))
+            return contact.r * (k.I1 + k.I0), distance * (
+                contact.r * k.JR + (0.5 - self.epsilon) * max(k.I0, 0.0)
+            )
 
         distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
         contact, _ = contact_at(distance)
@@ -260,7 +306,9 @@ class Search:
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
         return self.polished(contact, target, left_sharp)
 
-    def _left_edge(self, z: tuple[float, float], right: float, guess: float) -> tuple[Interval, Moments, float]:
+    def _left_edge(
+        self, z: tuple[float, float], right: float, guess: float
+    ) -> tuple[Interval, Moments, float]:
         """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there (a sharp edge); and z1 - x1."""
         lo = self.slope.domain[0]
         x2, tail2 = two_sum(z[1], right)
@@ -282,14 +330,20 @@ class Search:
             return min(k.negative / k.positive, HUGE), min(0.5 * left * k.JL / k.positive, HUGE)
 
         def error(distance: float, reached: float) -> ContactError:
-            one, other = (f"begins at x1 = {-x2:.6g}", "right") if self.mirrored else (f"ends at x2 = {x2:.6g}", "left")
+            one, other = (
+                (f"begins at x1 = {-x2:.6g}", "right")
+                if self.mirrored
+                else (f"ends at x2 = {x2:.6g}", "left")
+            )
             return LoadError(
                 f"a contact that {one} finds no {other} edge: the profile does not rise enough to the {other}; "
                 "prescribe less tilt or load, or a profile that rises on both sides",
                 edge=-x2 if self.mirrored else x2,
             )
 
-        left = _logarithmic_root(balance, 1.0, min(guess, z[0] - lo), z[0] - lo, error, rough=0.1 * ROUGH)
+        left = _logarithmic_root(
+            balance, 1.0, min(guess, z[0] - lo), z[0] - lo, error, rough=0.1 * ROUGH
+        )
         at = left if left in found else next(reversed(found))
         return *found[at], at
 
@@ -332,7 +386,9 @@ class Search:
             raise lost
         limit = min(lever - lo, hi - lever)
         try:
-            r = _logarithmic_root(carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load))
+            r = _logarithmic_root(
+                carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load)
+            )
         except LoadError:
             return None
         guess = interval_about(lever, r)
@@ -368,7 +424,11 @@ class Search:
         bracket = self._first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
         if bracket is None:
             return None
-        m, slope, earlier = bracket.middle(), math.copysign(1.0, at(bracket.high)[0]), [math.inf, math.inf]
+        m, slope, earlier = (
+            bracket.middle(),
+            math.copysign(1.0, at(bracket.high)[0]),
+            [math.inf, math.inf],
+        )
         for _ in range(MAX_POLISHING):
             excess, rise, contact, k = at(m)
             size = k.size1 + k.size2
@@ -380,7 +440,9 @@ class Search:
             place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
             earlier.append(missed)
             within = bracket.low < wanted < bracket.high
-            if place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within):  # after one more step, if there is one
+            if (
+                place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within)
+            ):  # after one more step, if there is one
                 break
             m = place
         if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
@@ -391,7 +453,10 @@ class Search:
 
     @staticmethod
     def _first_change(
-        at: Callable[[float], tuple[float, float, Interval, Moments]], centre: float, bounds: tuple[float, float], r: float
+        at: Callable[[float], tuple[float, float, Interval, Moments]],
+        centre: float,
+        bounds: tuple[float, float],
+        r: float,
     ) -> Bracket | None:
         """Two places, as near to the centre as doubled steps to both sides tell, between which the excess changes its sign under load."""
         last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}

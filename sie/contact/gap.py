@@ -24,7 +24,10 @@ Array = NDArray[np.float64]
 More = Callable[[Array, float], Array] | None
 
 NODES = 20
-SHORT, SHORT_NODES = 0.125, 6  # ... and so few of them on a panel this short, relative to its θ (all singularities have Re θ = 0) and to 1
+SHORT, SHORT_NODES = (
+    0.125,
+    6,
+)  # ... and so few of them on a panel this short, relative to its θ (all singularities have Re θ = 0) and to 1
 LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
 
 
@@ -35,10 +38,15 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
     """
     out: Array = zero_or_nan(x)
     lo, hi = slope.domain
-    out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf  # the surface sinks like a logarithm of the distance
+    out[(x < lo) | (x > hi) | np.isinf(x)] = (
+        np.inf
+    )  # the surface sinks like a logarithm of the distance
     x = np.where(np.isinf(x), np.nan, x)
     contact = density.contact
-    for side, outside in ((1.0, (contact.from_right(x) < 0.0) & (x <= hi)), (-1.0, (contact.from_left(x) < 0.0) & (x >= lo))):
+    for side, outside in (
+        (1.0, (contact.from_right(x) < 0.0) & (x <= hi)),
+        (-1.0, (contact.from_left(x) < 0.0) & (x >= lo)),
+    ):
         if outside.any():
             with np.errstate(over="ignore"):  # a gap may be larger than all doubles
                 out[outside] = _on_one_side(x[outside], side, density, slope, more)
@@ -61,13 +69,19 @@ def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
     return opening
 
 
-def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
+def _on_one_side(
+    x: Array, side: float, density: SlopeDensity, slope: Slope, more: More = None
+) -> Array:
     contact = density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
-    width = np.sqrt(2.0 * contact.r)  # its square root: a distance over the width may exceed all doubles
+    width = np.sqrt(
+        2.0 * contact.r
+    )  # its square root: a distance over the width may exceed all doubles
     theta = 2.0 * np.arcsinh(np.sqrt(distance) / width)
     cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
-    beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)  # no double is nearer to the edge
+    beyond = np.nextafter(
+        contact.x2 if side > 0.0 else contact.x1, side * np.inf
+    )  # no double is nearer to the edge
 
     def integral(start: Array, length: Array) -> Array:
         short = length <= np.minimum(SHORT * start, SHORT)
@@ -97,11 +111,17 @@ def _on_one_side(x: Array, side: float, density: SlopeDensity, slope: Slope, mor
 
 def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
     """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer than LONGEST."""
-    inner = slope.breaks[(contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)]
+    inner = slope.breaks[
+        (contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)
+    ]
     near, far = (
-        (contact.from_right(inner), contact.from_left(inner)) if side > 0.0 else (contact.from_left(inner), contact.from_right(inner))
+        (contact.from_right(inner), contact.from_left(inner))
+        if side > 0.0
+        else (contact.from_left(inner), contact.from_right(inner))
     )
-    first = float(min((2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))).min(initial=LONGEST), LONGEST))
+    first = float(
+        min((2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))).min(initial=LONGEST), LONGEST)
+    )
     graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
     even = np.arange(LONGEST, theta_max, LONGEST)
     edge = contact.x2 if side > 0.0 else contact.x1

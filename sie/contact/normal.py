@@ -49,8 +49,13 @@ LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
-SIZE, MOMENT = 1e120, 1e304  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
-NEARER = "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
+SIZE, MOMENT = (
+    1e120,
+    1e304,
+)  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
+NEARER = (
+    "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
+)
 # Looks at a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
@@ -73,7 +78,12 @@ class Normal:
         return _broken(profile.pieces, self.seen).tilted(self.edges.tilt)
 
 
-def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY, seen: tuple[float, ...] | None = None) -> Normal:
+def normal_contact(
+    scene: Scene,
+    tol: float,
+    economy: Collection[str] = ECONOMY,
+    seen: tuple[float, ...] | None = None,
+) -> Normal:
     """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it.
 
     `seen` are the breaks found in a larger contact of the same profile, which need not be looked for again.
@@ -89,30 +99,49 @@ def normal_contact(scene: Scene, tol: float, economy: Collection[str] = ECONOMY,
     return found
 
 
-def _within_scale(scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None) -> Normal:
+def _within_scale(
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
+) -> Normal:
     """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
-    if scene.normal_load is not None and not 1.0 / arguments.LARGEST <= scene.normal_load / scene.Estar <= arguments.LARGEST:
-        raise LoadError(f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {arguments.REMEDY}")
+    if (
+        scene.normal_load is not None
+        and not 1.0 / arguments.LARGEST <= scene.normal_load / scene.Estar <= arguments.LARGEST
+    ):
+        raise LoadError(
+            f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {arguments.REMEDY}"
+        )
     try:
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what that leaves is refused below
+        with np.errstate(
+            over="ignore", invalid="ignore", divide="ignore"
+        ):  # what that leaves is refused below
             found = _contact(scene, tol, economy, seen)
     except ArithmeticError:
-        raise LoadError(f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}") from None
+        raise LoadError(
+            f"the search for the contact left the range of doubles, under {_asked(scene)}: {NEARER}"
+        ) from None
     edges = found.edges
     (x1, x2), r, P = edges.contact[:2], edges.contact.r, edges.normal_load
     apart = math.ulp(max(abs(x1), abs(x2)))
     if not r >= PLACES * apart:
-        raise LoadError(f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}")
+        raise LoadError(
+            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}"
+        )
     refuse_out_of_scale(r, P, scene.Estar)
     return found
 
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
     """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
-    sizes = {"half-width": (r, SIZE), "mean traction": (0.5 * load / r, SIZE), "E* r²": (Estar * r * r, MOMENT)}
+    sizes = {
+        "half-width": (r, SIZE),
+        "mean traction": (0.5 * load / r, SIZE),
+        "E* r²": (Estar * r * r, MOMENT),
+    }
     for name, (size, largest) in sizes.items():
         if not 1.0 / largest <= size <= largest:
-            raise LoadError(f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {arguments.REMEDY}")
+            raise LoadError(
+                f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {arguments.REMEDY}"
+            )
 
 
 def _asked(scene: Scene) -> str:
@@ -126,7 +155,9 @@ def _broken(slope: Slope, places: tuple[float, ...]) -> Slope:
     return slope
 
 
-def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None) -> Normal:
+def _contact(
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
+) -> Normal:
     profile = scene.profile
     law = upright_law(scene, economy)
     if law is not None and _asks_for_no_tilt(scene, law.axis):
@@ -135,7 +166,11 @@ def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[flo
         return _searched(scene, profile.pieces, economy)
     looks = 0 if profile.convex or seen is not None else LOOKS
     seen = seen or ()
-    smooth = _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy) if "transform" in economy else None
+    smooth = (
+        _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy)
+        if "transform" in economy
+        else None
+    )
     if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
         return smooth
     lo, hi = _first_window(scene)
@@ -159,21 +194,34 @@ def _contact(scene: Scene, tol: float, economy: Collection[str], seen: tuple[flo
         contact, sharp = found.edges.contact, found.edges.sharp
         if any(is_sharp and is_open for is_sharp, is_open in zip(sharp, open_ends, strict=True)):
             if grown >= MOST_GROWN:
-                given = f"load {scene.normal_load:.6g}" if scene.normal_load else f"half-width {scene.half_width:.6g}"
-                raise LoadError(f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope rises too little, give a domain")
+                given = (
+                    f"load {scene.normal_load:.6g}"
+                    if scene.normal_load
+                    else f"half-width {scene.half_width:.6g}"
+                )
+                raise LoadError(
+                    f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope rises too little, give a domain"
+                )
             grown, settled = grown + 1, shrunk > 0
             lo, hi = _grown(lo, hi, ends)
             continue
         margin = 0.5 * (FITTED - 1.0) * (contact.x2 - contact.x1)
         fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
         # A window that had to grow again after it was fitted belongs to a profile that is not convex: it stays
-        if hi - lo <= WINDOW * (contact.x2 - contact.x1) or fitted == (lo, hi) or settled or shrunk >= MOST_SHRUNK:
+        if (
+            hi - lo <= WINDOW * (contact.x2 - contact.x1)
+            or fitted == (lo, hi)
+            or settled
+            or shrunk >= MOST_SHRUNK
+        ):
             found = replace(found, seen=seen)
             more = _unseen(found, resolved, scene, tol, economy) if looks else ()
             if not more:
                 return found
             looks -= 1
-            seen += more if profile.axis is None else (*more, *(2.0 * profile.axis - x for x in more))
+            seen += (
+                more if profile.axis is None else (*more, *(2.0 * profile.axis - x for x in more))
+            )
             continue
         shrunk += 1
         lo, hi = fitted
@@ -245,7 +293,9 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     return bool(between_points(found.slope(profile), (series.H,), contact, _resolution(tol)))
 
 
-def _unseen(found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]) -> tuple[float, ...]:
+def _unseen(
+    found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]
+) -> tuple[float, ...]:
     """Where the slope needs a break that it does not have.
 
     By the pieces that gave the edges, and by what will give the pressure.
@@ -280,14 +330,20 @@ def contact_under(
     upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy
     searched = not profile.pieces.functions and upright_law(scene, economy, tilt) is None
     if near is not None and upright and searched:
-        search = Search(profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy)
+        search = Search(
+            profile.pieces, 0.5 * scene.Estar, profile.axis, "zero panels" not in economy
+        )
         contact = search.symmetric_near(load, near)
         if contact is not None:
             return Normal(search.finished(Found(contact), load, 0.0), True)
-    return normal_contact(Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen)
+    return normal_contact(
+        Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen
+    )
 
 
-def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY) -> SlopeDensity:
+def pressure(
+    normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
+) -> SlopeDensity:
     """The pressure that answers the slope on the contact: a transform where the slope is smooth there, exact panels where it is not."""
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar
@@ -297,7 +353,9 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     declared = normal.slope(scene.profile)
     if scene.epsilon:
         slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-        geometry = SlidingGeometry(slope, contact, scene.epsilon, keep_zero="zero panels" not in economy)
+        geometry = SlidingGeometry(
+            slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
+        )
         return SlidingDensity(*common, SlidingPanels(geometry, edges.I0))
     if "transform" in economy:
         series = _series(declared, contact, _resolution(tol))
@@ -309,7 +367,9 @@ def pressure(normal: Normal, scene: Scene, tol: float, economy: Collection[str] 
     if law is not None:
         return PowerDensity(*common, law, declared, _resolution(tol))
     slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-    return PanelDensity(*common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0))
+    return PanelDensity(
+        *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
+    )
 
 
 def _resolution(tol: float) -> float:
@@ -334,7 +394,11 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
             return search.finished(found, None, tilt)
         assert scene.normal_load is not None
         try:
-            found = search.symmetric(scene.normal_load) if symmetric is not None else search.general(scene.normal_load)
+            found = (
+                search.symmetric(scene.normal_load)
+                if symmetric is not None
+                else search.general(scene.normal_load)
+            )
         except LoadError:
             widest = None if scene.profile.convex else widest_contact(search, scene.normal_load)
             if widest is None:
@@ -345,10 +409,19 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
     if scene.moment is not None and scene.normal_load is not None:
         _refuse_outside(scene.moment, scene.normal_load, slope.domain, scene.profile.domain)
     if scene.moment is None:
-        return Normal(edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0)
-    search, at_fixed_width = Search(slope, G, epsilon=epsilon, keep_zero=keep_zero), scene.half_width is not None
+        return Normal(
+            edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0
+        )
+    search, at_fixed_width = (
+        Search(slope, G, epsilon=epsilon, keep_zero=keep_zero),
+        scene.half_width is not None,
+    )
     edges = None
-    if scene.normal_load is not None and epsilon == 0.0 and (axis is None or scene.moment != axis * scene.normal_load):
+    if (
+        scene.normal_load is not None
+        and epsilon == 0.0
+        and (axis is None or scene.moment != axis * scene.normal_load)
+    ):
         edges = search.under_moment(scene.normal_load, scene.moment)
     if scene.half_width is not None and epsilon == 0.0 and not scene.moment == axis == 0.0:
         edges = search.of_half_width_under_moment(scene.half_width, scene.moment)
@@ -361,13 +434,17 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
 
 
-def _refuse_outside(moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]) -> None:
+def _refuse_outside(
+    moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
+) -> None:
     """Raises LoadError where the load acts beyond the window on which the slope is resolved, or beyond the indenter."""
     if window[0] < moment / load < window[1]:
         return
     acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
     if domain[0] < moment / load < domain[1]:
-        raise LoadError(f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: lower the moment")
+        raise LoadError(
+            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: lower the moment"
+        )
     raise LoadError(
         f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to below the load times that length"
     )
@@ -395,7 +472,9 @@ def _tilt_of_moment(
         falls = _fall_of_moment(edges, search, at_fixed_width)
         new = tilt + excess / falls if falls > 0.0 else math.inf
         missed.append(abs(excess))
-        astray = missed[-1] > 0.5 * missed[-3]  # Newton's steps run to and fro across a part that is nearly flat
+        astray = (
+            missed[-1] > 0.5 * missed[-3]
+        )  # Newton's steps run to and fro across a part that is nearly flat
         if math.isfinite(low + high) and (astray or not low < new < high):
             new = 0.5 * (low + high)
         elif not low < new < high:
@@ -417,7 +496,9 @@ def _tilt_of_moment(
     return best
 
 
-def _carried(edges_at: Callable[[float], Edges], tilt: float, known: float, most: int) -> tuple[float, Edges | None, int]:
+def _carried(
+    edges_at: Callable[[float], Edges], tilt: float, known: float, most: int
+) -> tuple[float, Edges | None, int]:
     """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much; and the tilts tried."""
     for tried in range(1, most + 1):
         if abs(tilt - known) <= 4.0 * EPS * abs(known):

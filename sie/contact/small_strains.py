@@ -25,7 +25,9 @@ def notes(slopes: Array, pressure: float) -> tuple[str, ...]:
     steepest = float(np.abs(slopes[np.isfinite(slopes)]).max(initial=0.0))
     said = []
     if steepest > STEEPEST:
-        said.append(f"note: the slope in the contact reaches {steepest:.3g}; above {STEEPEST:g} {outside}")
+        said.append(
+            f"note: the slope in the contact reaches {steepest:.3g}; above {STEEPEST:g} {outside}"
+        )
     if pressure > HIGHEST:
         said.append(f"note: the pressure reaches {pressure:.3g} E*; above E*/4 {outside}")
     return tuple(said)
@@ -34,7 +36,9 @@ def notes(slopes: Array, pressure: float) -> tuple[str, ...]:
 def regular_points(density: SlopeDensity, slope: Slope, x: Array) -> NDArray[np.bool_]:
     """Which x are not next to a sharp edge or a corner, where the pressure is infinite."""
     contact = density.contact
-    infinite = [edge for edge, k in zip(density.interval, (density.k1, density.k2), strict=True) if k]
+    infinite = [
+        edge for edge, k in zip(density.interval, (density.k1, density.k2), strict=True) if k
+    ]
     if not slope.continuous:
         b = slope.breaks
         inner = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]

@@ -30,7 +30,9 @@ def widest_contact(search: Search, load: float) -> Found | None:
         return None
     (narrow, less), (wide, more) = bracket
     for _ in range(MAX_STEPS):
-        share = math.log(load / less) / math.log(more / less) if less > 0.0 else 0.5  # the load is nearly a power of the half-width
+        share = (
+            math.log(load / less) / math.log(more / less) if less > 0.0 else 0.5
+        )  # the load is nearly a power of the half-width
         r = narrow * (wide / narrow) ** min(max(share, 0.05), 0.95)
         carried = _carried(search, r)
         if carried is None:
@@ -59,7 +61,9 @@ def _wide_enough(search: Search, load: float) -> float:
     return 0.0
 
 
-def _bracket(search: Search, load: float, widest: float) -> tuple[tuple[float, float], tuple[float, float]] | None:
+def _bracket(
+    search: Search, load: float, widest: float
+) -> tuple[tuple[float, float], tuple[float, float]] | None:
     """((r, its load), (a wider one, its load)), the first from outside between which the load lies."""
     wider, r = None, NARROWER * widest
     while r > NARROWEST * widest:
@@ -77,4 +81,8 @@ def _carried(search: Search, r: float) -> float | None:
         found = search.of_half_width(r)
     except LoadError:
         return None
-    return None if any(found.sharp) else search.load(found.contact, found.moments or search.moments(found.contact))
+    return (
+        None
+        if any(found.sharp)
+        else search.load(found.contact, found.moments or search.moments(found.contact))
+    )

@@ -46,7 +46,10 @@ Array = NDArray[np.float64]
 
 SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
 TAIL = 3
-FINE, COARSE = 1024.0 * EPS, 1e-11  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
+FINE, COARSE = (
+    1024.0 * EPS,
+    1e-11,
+)  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
 LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
 NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
 NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
@@ -61,7 +64,10 @@ NODES = 16  # on each part of a panel whose ends are not further apart than ...
 RATIO = 4.0
 MARGIN = 0.02  # of the widest contact: how far beyond it a function is resolved
 NEAR, STEPS = 0.25, 8  # Newton from an interpolated contact: its first step, and how many
-SETTLED, ASTRAY = 64.0 * EPS, 1e-9  # steps relative to the distance from where the profile touched first: rounding, and no solution
+SETTLED, ASTRAY = (
+    64.0 * EPS,
+    1e-9,
+)  # steps relative to the distance from where the profile touched first: rounding, and no solution
 FARTHEST = 2.0  # of the logarithms of distances from those of known contacts
 ROWS = 20_000  # parts of panels at a time
 
@@ -94,9 +100,14 @@ class Growth:
         tilt, widest, top = normal.edges.tilt, normal.edges.contact, normal.edges.normal_load
         declared = scene.profile.pieces.tilted(tilt)
         margin = MARGIN * widest.r
-        lo, hi = max(widest.x1 - margin, declared.domain[0]), min(widest.x2 + margin, declared.domain[1])
+        lo, hi = (
+            max(widest.x1 - margin, declared.domain[0]),
+            min(widest.x2 + margin, declared.domain[1]),
+        )
         axis = scene.profile.axis if tilt == 0.0 and "symmetry" in economy else None
-        self._search = Search(refined(declared, lo, hi, EPS), 0.5 * scene.Estar, axis, "zero panels" not in economy)
+        self._search = Search(
+            refined(declared, lo, hi, EPS), 0.5 * scene.Estar, axis, "zero panels" not in economy
+        )
         self._breaks = declared.break_points
         self._touch = self._search.touch()
         self._ends = declared.domain
@@ -104,7 +115,9 @@ class Growth:
         self._of_load: dict[float, tuple[float, float]] = {}
         self.top = top
         self._panels: list[Panel] = []
-        self._known: list[tuple[float, float, float]] = []  # (ln y, logarithms of both edges' distances from where it touched first)
+        self._known: list[
+            tuple[float, float, float]
+        ] = []  # (ln y, logarithms of both edges' distances from where it touched first)
 
     @property
     def evaluations(self) -> int:
@@ -115,10 +128,22 @@ class Growth:
 
     def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
         """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
-        rows = [(P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1]))) for P, o in zip(loads, fronts, strict=True)]
+        rows = [
+            (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
+            for P, o in zip(loads, fronts, strict=True)
+        ]
         apart = [self._crosses_many_breaks(*row) for row in rows]
-        rest = iter(self._by_panels([row for row, many in zip(rows, apart, strict=True) if not many]).tolist())
-        found = np.array([self._from_potentials(*row) if many else next(rest) for row, many in zip(rows, apart, strict=True)])
+        rest = iter(
+            self._by_panels(
+                [row for row, many in zip(rows, apart, strict=True) if not many]
+            ).tolist()
+        )
+        found = np.array(
+            [
+                self._from_potentials(*row) if many else next(rest)
+                for row, many in zip(rows, apart, strict=True)
+            ]
+        )
         return friction * friction / (math.pi * self._search.half_modulus) * found
 
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
@@ -130,13 +155,19 @@ class Growth:
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
             marks = {L, highest, *(m for m in (Y, at_L, at_Y) if L < m < highest)}
-            marks |= {c - P for c in cuts[bisect_right(cuts, P + L) : bisect_left(cuts, P + highest)] if L < c - P < highest}
+            marks |= {
+                c - P
+                for c in cuts[bisect_right(cuts, P + L) : bisect_left(cuts, P + highest)]
+                if L < c - P < highest
+            }
             ascending = sorted(marks)
             ends += [(a, b, k) for a, b in pairwise(ascending)]
         total = np.zeros(len(rows))
         given = np.array(rows).reshape(-1, 5)
         for start in range(0, len(ends), ROWS):
-            lo, hi, owner = (np.array(column) for column in zip(*ends[start : start + ROWS], strict=True))
+            lo, hi, owner = (
+                np.array(column) for column in zip(*ends[start : start + ROWS], strict=True)
+            )
             np.add.at(total, owner, self._integrals(lo, hi, given[owner].T[..., None]))
         return total
 
@@ -145,15 +176,26 @@ class Growth:
         P, L, Y, at_L, at_Y = given
         g, w = chebyshev.gauss_legendre(NODES)
         panels = self._panels
-        k = np.clip(np.searchsorted([p.lo for p in panels], P[:, 0] + 0.5 * (lo + hi), side="right") - 1, 0, len(panels) - 1)
+        k = np.clip(
+            np.searchsorted([p.lo for p in panels], P[:, 0] + 0.5 * (lo + hi), side="right") - 1,
+            0,
+            len(panels) - 1,
+        )
         # In the root of the distance from a break's level, by ratios alone: a front may be thinner than y is known
-        base, kinked = (np.array([getattr(p, name) for p in panels])[k] for name in ("lo", "kinked"))
+        base, kinked = (
+            np.array([getattr(p, name) for p in panels])[k] for name in ("lo", "kinked")
+        )
         near, far = (np.sqrt(np.maximum(P[:, 0] + end - base, 0.0)) for end in (lo, hi))
         c = np.where(kinked & (far > 0.0), near / np.where(far > 0.0, far, 1.0), 1.0)[:, None]
-        share, weight = g * (2.0 * c + (1.0 - c) * g) / (1.0 + c), 2.0 * w * (c + (1.0 - c) * g) / (1.0 + c)
+        share, weight = (
+            g * (2.0 * c + (1.0 - c) * g) / (1.0 + c),
+            2.0 * w * (c + (1.0 - c) * g) / (1.0 + c),
+        )
         y = lo[:, None] + (hi - lo)[:, None] * share
         rise = (at_L - at_Y) / np.where(Y > L, Y - L, np.inf)  # of P for the front's way down
-        passed = Y + (at_Y - y) / np.where(rise == 0.0, np.nan, rise)  # where the front is when P = y
+        passed = Y + (at_Y - y) / np.where(
+            rise == 0.0, np.nan, rise
+        )  # where the front is when P = y
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)
@@ -165,7 +207,10 @@ class Growth:
     def _growth(self, k: NDArray[np.int64], y: Array) -> Array:
         """d ln r/d ln y at y (K, n) on the panels k."""
         panels = self._panels
-        lo, hi, kinked = (np.array([getattr(p, name) for p in panels])[k][:, None] for name in ("lo", "hi", "kinked"))
+        lo, hi, kinked = (
+            np.array([getattr(p, name) for p in panels])[k][:, None]
+            for name in ("lo", "hi", "kinked")
+        )
         t = np.clip(np.log1p((y - lo) / lo) / np.log1p((hi - lo) / lo), NEAREST, 1.0)
         s = 2.0 * np.where(kinked, np.sqrt(t), t) - 1.0
         width = max(len(p.series) for p in panels)
@@ -181,7 +226,9 @@ class Growth:
     def _cuts(self) -> list[float]:
         """Where an integral over y is cut: at the ends of panels, and so that no part is long."""
         low = self._panels[0].lo if self._panels else self.top
-        geometric = self.top / RATIO ** np.arange(1, int(math.log(self.top / low) / math.log(RATIO)) + 1)
+        geometric = self.top / RATIO ** np.arange(
+            1, int(math.log(self.top / low) / math.log(RATIO)) + 1
+        )
         return sorted({*(end for p in self._panels for end in (p.lo, p.hi)), *geometric.tolist()})
 
     # -- across many breaks -----------------------------------------------------------------------------------------------
@@ -196,7 +243,9 @@ class Growth:
 
     def _from_potentials(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> float:
         """∫v d ln r from S = ∫ln r dy and T = ∫S dy at the four levels."""
-        (S_L, T_L), (S_Y, T_Y), (S_at_L, T_at_L), (_, T_at_Y) = (self._potentials(P + level) for level in (L, Y, at_L, at_Y))
+        (S_L, T_L), (S_Y, T_Y), (S_at_L, T_at_L), (_, T_at_Y) = (
+            self._potentials(P + level) for level in (L, Y, at_L, at_Y)
+        )
         rise = (at_L - at_Y) / (Y - L)
         of_load = (T_at_L - T_at_Y) / rise if rise else S_at_L * (Y - L)
         return of_load - (2.0 + rise) * (T_Y - T_L) - (at_Y - Y) * S_Y + (at_L - L) * S_L
@@ -218,7 +267,9 @@ class Growth:
         offset, angle, weight, _ = geometry.nodes(HEIGHTS)
         x = (geometry.ends[0] + geometry.tails[0])[:, None] + offset
         z = 0.5 * sum(self._touch)
-        h = (scene.profile.height(x) + self._tilt * x) - float(scene.profile.height(z) + self._tilt * z)
+        h = (scene.profile.height(x) + self._tilt * x) - float(
+            scene.profile.height(z) + self._tilt * z
+        )
         G, r = search.half_modulus, edges.contact.r
         mean = float((weight * h).sum()) / math.pi
         work = float((weight * h * p(x) * r * np.sin(angle)).sum())
@@ -249,22 +300,38 @@ class Growth:
         here, there = self.contact(level).interval, self.contact(top).interval
         found = [0.0]
         for right in (False, True):
-            passed = [b for b in self._breaks if (self._touch[1] < b < here.x2 if right else here.x1 < b < self._touch[0])]
+            passed = [
+                b
+                for b in self._breaks
+                if (self._touch[1] < b < here.x2 if right else here.x1 < b < self._touch[0])
+            ]
             if passed:
                 b = max(passed) if right else min(passed)
-                moved, since = (there.x2 - here.x2, here.x2 - b) if right else (here.x1 - there.x1, b - here.x1)
+                moved, since = (
+                    (there.x2 - here.x2, here.x2 - b)
+                    if right
+                    else (here.x1 - there.x1, b - here.x1)
+                )
                 if since <= moved:
                     found.append(self._level_at(b, right, here))
         return max(y if max(limit, LOWEST * self.top) < y < level else 0.0 for y in found)
 
-    def _resolved(self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False) -> list[Panel]:
+    def _resolved(
+        self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
+    ) -> list[Panel]:
         """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more.
 
         An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
         """
         whole = whole or hi - lo
         inside = self._passed(lo, hi)
-        cut = self._level_at(*inside[len(inside) // 2], self.contact(math.sqrt(lo) * math.sqrt(hi)).interval) if inside else 0.0
+        cut = (
+            self._level_at(
+                *inside[len(inside) // 2], self.contact(math.sqrt(lo) * math.sqrt(hi)).interval
+            )
+            if inside
+            else 0.0
+        )
         at_break = lo * (1.0 + SHORTEST) < cut < hi * (1.0 - SHORTEST)
         if not (at_break and len(inside) <= FEW):
             before = math.inf
@@ -296,7 +363,9 @@ class Growth:
             contacts = [self.contact(level).interval for level in y.tolist()]
             series = chebyshev.transform(np.log([[c.r / contacts[-1].r for c in contacts]]))[0]
             missed = float(np.abs(series[-TAIL:]).max()) / scale / length
-            return np.polynomial.chebyshev.chebder(series) * ((1.0 if kinked else 2.0) / length), missed
+            return np.polynomial.chebyshev.chebder(series) * (
+                (1.0 if kinked else 2.0) / length
+            ), missed
         values = np.array([self._rate(level) for level in y.tolist()])
         if kinked:
             values = values * t
@@ -311,8 +380,16 @@ class Growth:
         a, b = self.contact(lo).interval, self.contact(hi).interval
         slack = 4.0 * EPS * (b.r + abs(b.m))
         lo_end, hi_end = self._ends  # which an edge reaches, and does not pass
-        left = [(x, False) for x in self._breaks if b.x1 + (0.0 if x == lo_end else slack) <= x < a.x1 - slack]
-        right = [(x, True) for x in self._breaks if a.x2 + slack < x <= b.x2 - (0.0 if x == hi_end else slack)]
+        left = [
+            (x, False)
+            for x in self._breaks
+            if b.x1 + (0.0 if x == lo_end else slack) <= x < a.x1 - slack
+        ]
+        right = [
+            (x, True)
+            for x in self._breaks
+            if a.x2 + slack < x <= b.x2 - (0.0 if x == hi_end else slack)
+        ]
         both = left + right if self._search.axis is None else right
         return sorted(both, key=lambda pair: abs(pair[0] - a.m))
 
@@ -330,7 +407,9 @@ class Growth:
         found = self._near(y)
         if found is None:
             search = self._search
-            contact, sharp, k = search.symmetric(y) if search.axis is not None else search.general(y)
+            contact, sharp, k = (
+                search.symmetric(y) if search.axis is not None else search.general(y)
+            )
             found = Contact(contact, sharp, k or search.moments(contact))
         self._learn(y, found)
         return found
@@ -345,7 +424,10 @@ class Growth:
             k, r = self._search.moments(contact), contact.r
             if not (k.JL > 0.0 and k.JR > 0.0):
                 return None
-            step1, step2 = (r * (k.I1 - k.I0) - target) / (r * k.JL), (target - r * (k.I1 + k.I0)) / (r * k.JR)
+            step1, step2 = (
+                (r * (k.I1 - k.I0) - target) / (r * k.JL),
+                (target - r * (k.I1 + k.I0)) / (r * k.JR),
+            )
             d1, d2 = self._distances(contact)
             size = max(abs(step1) / d1, abs(step2) / d2)
             if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(self.top / y):
@@ -391,9 +473,15 @@ class Growth:
         search = self._search
         if search.axis is not None:
             d = abs(b - search.axis)
-            contact = Interval(2.0 * search.axis - b, b) if right else Interval(b, 2.0 * search.axis - b)
+            contact = (
+                Interval(2.0 * search.axis - b, b) if right else Interval(b, 2.0 * search.axis - b)
+            )
             return search.load(contact, search.moments(contact)) if d > 0.0 else 0.0
-        contact = Interval(near.x1, b, near.tail1, 0.0) if right else Interval(b, near.x2, 0.0, near.tail2)
+        contact = (
+            Interval(near.x1, b, near.tail1, 0.0)
+            if right
+            else Interval(b, near.x2, 0.0, near.tail2)
+        )
         previous = math.inf
         for _ in range(STEPS * 4):
             k = search.moments(contact)
@@ -403,7 +491,10 @@ class Growth:
             step = -2.0 * k.I0 / J
             if abs(step) >= 0.5 * previous or abs(step) <= SETTLED * contact.r:
                 return search.load(contact, k) if abs(step) <= ASTRAY * contact.r else 0.0
-            contact, previous = (contact.moved(step, 0.0) if right else contact.moved(0.0, step)), abs(step)
+            contact, previous = (
+                (contact.moved(step, 0.0) if right else contact.moved(0.0, step)),
+                abs(step),
+            )
             if not contact.r > 0.0:
                 return 0.0
         return 0.0

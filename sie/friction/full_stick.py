@@ -83,25 +83,35 @@ class Component(Density):
         def derivative(flat: Complex) -> Complex:
             dF, edge = self._of_component(self.whole.cauchy_derivative, flat, side)
             x = flat.real[edge]
-            dF[edge] = on_surface(np.zeros_like(x), np.where(x == self.interval[0], -1.0, 1.0) * self(x), side)
+            dF[edge] = on_surface(
+                np.zeros_like(x), np.where(x == self.interval[0], -1.0, 1.0) * self(x), side
+            )
             return dF
 
         dF: Complex = self._in_plane(derivative, z, side, derivative=True)
         return dF
 
-    def _of_component(self, potential: Callable[[ArrayLike, int], Array], z: Complex, side: int) -> tuple[Complex, NDArray[np.bool_]]:
+    def _of_component(
+        self, potential: Callable[[ArrayLike, int], Array], z: Complex, side: int
+    ) -> tuple[Complex, NDArray[np.bool_]]:
         """The potential at z (1-d) off the edges, and where these are."""
         edge = (z == self.interval[0]) | (z == self.interval[1])
         z = np.where(edge, self.contact.m, z)
         # F of the complex conjugate density is the conjugate of F at conj z
         F, mirrored = potential(z, side), potential(z.conj(), -side).conj()
-        values = np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
+        values = (
+            np.multiply(-0.5j, F - mirrored) if self.imaginary else np.multiply(0.5, F + mirrored)
+        )
         return values, edge
 
     def hilbert(self, x: ArrayLike) -> Array:
         """0 at the edges, as for other sharp ones: it oscillates there without limit."""
         x = arguments.reals("x", x)
-        return np.where((x == self.interval[0]) | (x == self.interval[1]), 0.0, self._part(self.whole.hilbert(x)))[()]
+        return np.where(
+            (x == self.interval[0]) | (x == self.interval[1]),
+            0.0,
+            self._part(self.whole.hilbert(x)),
+        )[()]
 
 
 def bonded_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
@@ -133,7 +143,9 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
             "locks in strain; give a flat punch, or a finite friction"
         )
     if scene.normal_load is None:
-        raise ContactError("a bonded punch carries any load on its whole width: give normal_load instead of half_width")
+        raise ContactError(
+            "a bonded punch carries any load on its whole width: give normal_load instead of half_width"
+        )
     return ends, scene.normal_load
 
 
@@ -141,7 +153,20 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
     """Residual of both equations between the nodes of a graded quadrature, and equilibrium; the gap is zero, tension allowed."""
     (part,) = found.parts
     width, (x1, _) = 2.0 * edges.contact.r, edges.contact[:2]
-    cuts = np.unique(np.concatenate(([0.0], 0.25 * GRADED, np.linspace(0.25, 0.75, 17), 1.0 - 0.25 * GRADED[::-1], [1.0]))) * np.pi
+    cuts = (
+        np.unique(
+            np.concatenate(
+                (
+                    [0.0],
+                    0.25 * GRADED,
+                    np.linspace(0.25, 0.75, 17),
+                    1.0 - 0.25 * GRADED[::-1],
+                    [1.0],
+                )
+            )
+        )
+        * np.pi
+    )
     g, w = chebyshev.gauss_legendre(NODES)
     psi = np.concatenate([a + (b - a) * g for a, b in pairwise(cuts)])
     weight = np.concatenate([(b - a) * w for a, b in pairwise(cuts)]) * 0.5 * width * np.sin(psi)
@@ -149,7 +174,9 @@ def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: fl
     phi = part.value(right, left)
     at = width * np.cos(0.5 * cuts[28:-28]) ** 2  # from the left edge
     values = part.value(width - at, at)
-    principal = ((phi - values[:, None]) / (at[:, None] - left)) @ weight + values * np.log(at / (width - at))
+    principal = ((phi - values[:, None]) / (at[:, None] - left)) @ weight + values * np.log(
+        at / (width - at)
+    )
     residual = principal / np.pi + 1j * scene.beta * values - 0.5 * scene.Estar * edges.tilt
     P, peak = complex(edges.normal_load, scene.tangential_load), np.abs(values).max()
     moment = weight @ (phi * left) + x1 * (weight @ phi)

@@ -24,7 +24,9 @@ from sie.numerics.interval import EPS
 
 # A layer below this fraction of the whole ladder is what rounding left of one that was wiped out.
 NOTHING = 8.0 * EPS
-BALANCED = 1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
+BALANCED = (
+    1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
+)
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,9 @@ class Overwritten:
     def moved(self, depth: float) -> Overwritten:
         """The same, counted from a surface that is so much higher."""
         start, end = self.surface
-        return Overwritten(self.upper + depth, self.lower + depth, self.jump, (start + depth, end + depth))
+        return Overwritten(
+            self.upper + depth, self.lower + depth, self.jump, (start + depth, end + depth)
+        )
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,15 @@ class Slipped:
         used, found = 0.0, []
         for o in self.layers:
             before, used = used, used + o.jump * (o.lower - o.upper)
-            found.append(replace(o, surface=(thickness * (1.0 - before / whole), thickness * (1.0 - min(used / whole, 1.0)))))
+            found.append(
+                replace(
+                    o,
+                    surface=(
+                        thickness * (1.0 - before / whole),
+                        thickness * (1.0 - min(used / whole, 1.0)),
+                    ),
+                )
+            )
         return Slipped(self.sign, tuple(found))
 
 
@@ -111,7 +123,11 @@ class Ladder:
     @property
     def deepest(self) -> tuple[float, bool]:
         """How far down κ was ever overwritten, and whether it was more than once."""
-        return (min(self.top.depth, self.size), self.top.below is not None) if self.top else (0.0, False)
+        return (
+            (min(self.top.depth, self.size), self.top.below is not None)
+            if self.top
+            else (0.0, False)
+        )
 
     @property
     def corners(self) -> tuple[tuple[float, float], ...]:
@@ -180,7 +196,9 @@ class Ladder:
             gone += taken
         return ladder, tuple(slips)
 
-    def _chased(self, sign: float, pull: float, most: float) -> tuple[Ladder, float, list[Overwritten]]:
+    def _chased(
+        self, sign: float, pull: float, most: float
+    ) -> tuple[Ladder, float, list[Overwritten]]:
         """Slip that P follows down: `pull` of Q for each unit of thickness taken off, until that is `most` or all that slipped has gone."""
         layer, depth, taken = self.top, 0.0, 0.0
         done: list[Overwritten] = []
@@ -197,7 +215,11 @@ class Ladder:
             way = thickness if time == passed else min(time * speed, thickness)
             done.append(Overwritten(depth, depth + way, jump, (taken, taken + time)))
             depth, taken = depth + way, taken + time
-            layer = _laid(thickness - way, k, below) if layer and thickness - way > NOTHING * self.size else below
+            layer = (
+                _laid(thickness - way, k, below)
+                if layer and thickness - way > NOTHING * self.size
+                else below
+            )
             if time == caught:
                 depth = taken
             if time != passed:
@@ -205,4 +227,8 @@ class Ladder:
         else:
             taken = most  # the bodies slide
         left = depth - taken
-        return Ladder(self.size - taken, _laid(left, sign, layer) if left > 0.0 else layer), taken, done
+        return (
+            Ladder(self.size - taken, _laid(left, sign, layer) if left > 0.0 else layer),
+            taken,
+            done,
+        )

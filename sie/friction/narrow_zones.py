@@ -33,7 +33,9 @@ def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zone
     """The zones of slip in both directions if the stick zone between them is narrow, otherwise None."""
     strain, width = abs(drive.strain), 2.0 * contact.r
     near, depth = _balanced(rims, contact, drive)
-    load = (drive.left, drive.right)[1 - near] * drive.load  # what the far side carries more than the near one
+    load = (drive.left, drive.right)[
+        1 - near
+    ] * drive.load  # what the far side carries more than the near one
 
     def cut(rho: float, depth: float) -> tuple[Zone, Zone]:
         return zone(rims[near], depth - rho), zone(rims[1 - near], width - depth - rho)
@@ -81,7 +83,9 @@ def _pull_and_turn(z: Zone, rho: float) -> tuple[float, float]:
 
 
 def _about(contact: Interval, rho: float, depth: float, near: int) -> Interval:
-    edge, tail = (contact.x2, contact.tail2 - depth) if near else (contact.x1, contact.tail1 + depth)
+    edge, tail = (
+        (contact.x2, contact.tail2 - depth) if near else (contact.x1, contact.tail1 + depth)
+    )
     c, rest = two_sum(edge, tail)
     return interval_about(c, rho).moved(rest, rest)
 
@@ -102,17 +106,25 @@ def _narrowed(excess: Callable[[float], float], low: float, high: float) -> floa
     return math.exp(u)
 
 
-def _settled(excess: Callable[[float, float], tuple[float, float]], rho: float, depth: float) -> tuple[float, float]:
+def _settled(
+    excess: Callable[[float, float], tuple[float, float]], rho: float, depth: float
+) -> tuple[float, float]:
     """Newton's method for both at once, until its steps are rounding."""
     previous = math.inf
     for _ in range(MAX_STEPS):
         pull, turn = excess(rho, depth)
         wider, deeper = excess(rho * (1.0 + STEP), depth), excess(rho, depth * (1.0 + STEP))
-        J = np.array([[wider[0] - pull, deeper[0] - pull], [wider[1] - turn, deeper[1] - turn]]) / STEP
+        J = (
+            np.array([[wider[0] - pull, deeper[0] - pull], [wider[1] - turn, deeper[1] - turn]])
+            / STEP
+        )
         determinant = J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
         if determinant == 0.0:
             break
-        step = np.array([J[0, 1] * turn - J[1, 1] * pull, J[1, 0] * pull - J[0, 0] * turn]) / determinant
+        step = (
+            np.array([J[0, 1] * turn - J[1, 1] * pull, J[1, 0] * pull - J[0, 0] * turn])
+            / determinant
+        )
         size = float(np.abs(step).max())
         if size >= previous and size < SETTLED:
             break

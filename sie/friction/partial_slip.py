@@ -57,7 +57,9 @@ def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
     """Raises LoadError if friction cannot carry Q."""
     limit = friction * normal_load
     if abs(Q) > limit:
-        digits = next(n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1))
+        digits = next(
+            n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1)
+        )
         raise LoadError(
             f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies slide; "
             f"lower tangential_load to at most that, or raise normal_load to {_within(abs(Q) / friction, digits, 1)} or friction",
@@ -82,7 +84,12 @@ def remaining(friction: float, normal_load: float, Q: float) -> float:
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:
     """Whether a scene needs the shear to be found: not without friction, nor (unless economy is switched off) without Q and σ."""
-    return scene.friction != 0.0 and (scene.tangential_load != 0.0 or scene.sliding != 0 or scene.tau != 0.0 or "shear" not in economy)
+    return scene.friction != 0.0 and (
+        scene.tangential_load != 0.0
+        or scene.sliding != 0
+        or scene.tau != 0.0
+        or "shear" not in economy
+    )
 
 
 def slip(step: Step) -> Slip:
@@ -91,7 +98,10 @@ def slip(step: Step) -> Slip:
     if f == 0.0 or (Q == 0.0 == tau and "shear" in step.economy):
         return Stuck(step.pressure.contact, f)
     refuse_sliding(f, P, Q)
-    if max(abs(Q), math.pi * step.pressure.contact.r * abs(tau)) < SMALLEST * f * P and "shear" in step.economy:
+    if (
+        max(abs(Q), math.pi * step.pressure.contact.r * abs(tau)) < SMALLEST * f * P
+        and "shear" in step.economy
+    ):
         raise LoadError(
             f"Q = {Q:.6g} and the bulk stress are below {SMALLEST:g} of f P = {f * P:.6g}: "
             "zones of slip so short have no length in doubles; give 0 instead"
@@ -110,7 +120,9 @@ def slip(step: Step) -> Slip:
 
 def sliding(step: Step) -> Sliding:
     f, sign = step.scene.friction, math.copysign(1.0, step.Q)
-    return Sliding(step.pressure, step.slope, f, step, sign, step.slope.tilted(_tilt_of_strain(step, sign)))
+    return Sliding(
+        step.pressure, step.slope, f, step, sign, step.slope.tilted(_tilt_of_strain(step, sign))
+    )
 
 
 def _tilt_of_strain(step: Step, sign: float) -> float:
@@ -123,7 +135,9 @@ def _one_way(step: Step, sign: float) -> OneWay:
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
-    found = contact_under(load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen)
+    found = contact_under(
+        load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen
+    )
     state = OneWay(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once
@@ -143,7 +157,13 @@ def _fitting(step: Step, sign: float) -> OneWay | None:
         return None
     x = inner.m + inner.r * np.cos(np.pi * (np.arange(SCANNED) + 0.5) / SCANNED)
     p = step.pressure(x)
-    return tried if (tried.corrective(x) <= (2.0 + TOLERATED) * p + TOLERATED * p[np.isfinite(p)].max()).all() else None
+    return (
+        tried
+        if (
+            tried.corrective(x) <= (2.0 + TOLERATED) * p + TOLERATED * p[np.isfinite(p)].max()
+        ).all()
+        else None
+    )
 
 
 def _two_ways(step: Step) -> TwoWays:
@@ -153,10 +173,16 @@ def _two_ways(step: Step) -> TwoWays:
     sign = math.copysign(1.0, tau)
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
     seen_from = rims(step.pressure, step.slope)
-    found = narrow_zones(seen_from, contact, drive) or zones(seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r))
+    found = narrow_zones(seen_from, contact, drive) or zones(
+        seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r)
+    )
     lo, hi = step.slope.domain
     beyond = BESIDE * (contact.r + abs(contact.m))
-    slope = refined(step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS)
+    slope = refined(
+        step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS
+    )
     I0 = moments(slope, found.stick).I0
-    formal = PanelDensity(found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0))
+    formal = PanelDensity(
+        found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0)
+    )
     return TwoWays(step.pressure, step.slope, f, step, found, formal)

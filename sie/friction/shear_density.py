@@ -126,7 +126,11 @@ class TwoSigns(Density):
     def _side(self, right: bool) -> tuple[float, Zone, float]:
         """(f times the sign of slip next to z, the zone on the other side, the sign of its integral)."""
         drive = self.zones.drive
-        return (self.friction * drive.right, self.zones.left, 1.0) if right else (self.friction * drive.left, self.zones.right, -1.0)
+        return (
+            (self.friction * drive.right, self.zones.left, 1.0)
+            if right
+            else (self.friction * drive.left, self.zones.right, -1.0)
+        )
 
     def hilbert(self, x: ArrayLike) -> Array:
         return self._on_line(self._hilbert, x)
@@ -134,11 +138,18 @@ class TwoSigns(Density):
     def _hilbert(self, flat: Array) -> Array:
         stick = self.zones.stick
         out = np.full(flat.shape, self.tau)
-        for at, right in ((stick.from_left(flat) < 0.0, False), (stick.from_right(flat) < 0.0, True)):
+        for at, right in (
+            (stick.from_left(flat) < 0.0, False),
+            (stick.from_right(flat) < 0.0, True),
+        ):
             if at.any():
                 scale, other, sign = self._side(right)
                 t = flat[at]
-                far, near = (stick.from_left(t), -stick.from_right(t)) if right else (stick.from_right(t), -stick.from_left(t))
+                far, near = (
+                    (stick.from_left(t), -stick.from_right(t))
+                    if right
+                    else (stick.from_right(t), -stick.from_left(t))
+                )
                 pull = 2.0 * sign / np.pi * np.sqrt(far * near) * other.pull(far, stick.r)
                 out[at] += scale * (self.pressure.hilbert(t) - self.formal.hilbert(t) + pull)
         return out
@@ -154,7 +165,10 @@ class TwoSigns(Density):
         F[real] = on_surface(self._hilbert(x), self(x), side)
         lower = flat.imag < 0.0
         upper = np.where(lower, flat.conj(), flat)
-        for at, right in ((~real & (flat.real <= self.zones.stick.m), False), (~real & (flat.real > self.zones.stick.m), True)):
+        for at, right in (
+            (~real & (flat.real <= self.zones.stick.m), False),
+            (~real & (flat.real > self.zones.stick.m), True),
+        ):
             if at.any():
                 F[at] = self._off_axis(upper[at], right)
         F[lower] = F[lower].conj()
@@ -171,7 +185,9 @@ class TwoSigns(Density):
         return tuple(sorted({*self.pressure.singular, stick.x1, stick.x2}))
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        dF: Complex = self._in_plane(lambda flat: self._cauchy_derivative(flat, side), z, side, derivative=True)
+        dF: Complex = self._in_plane(
+            lambda flat: self._cauchy_derivative(flat, side), z, side, derivative=True
+        )
         return dF
 
     def _cauchy_derivative(self, flat: Complex, side: int) -> Complex:
@@ -180,7 +196,10 @@ class TwoSigns(Density):
         upper = np.where(lower, flat.conj(), flat)
         upper[real] += 1j * shallow(contact.r)
         dF = np.empty(flat.shape, dtype=complex)
-        for at, right in ((flat.real <= self.zones.stick.m, False), (flat.real > self.zones.stick.m, True)):
+        for at, right in (
+            (flat.real <= self.zones.stick.m, False),
+            (flat.real > self.zones.stick.m, True),
+        ):
             if at.any():
                 dF[at] = self._off_axis_derivative(upper[at], right)
         inside = (contact.from_left(flat.real) >= 0.0) & (contact.from_right(flat.real) >= 0.0)
@@ -210,13 +229,17 @@ class TwoSigns(Density):
 
     def _off_axis(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)
-        near: Complex = self.pressure.cauchy(z) - self.formal.cauchy(z) + sign * self._pull(z, right)[0]
+        near: Complex = (
+            self.pressure.cauchy(z) - self.formal.cauchy(z) + sign * self._pull(z, right)[0]
+        )
         return scale * near + self.tau
 
     def _off_axis_derivative(self, z: Complex, right: bool) -> Complex:
         scale, _, sign = self._side(right)
         steep = self._pull(z, right)[1]
-        near: Complex = self.pressure.cauchy_derivative(z) - self.formal.cauchy_derivative(z) + sign * steep
+        near: Complex = (
+            self.pressure.cauchy_derivative(z) - self.formal.cauchy_derivative(z) + sign * steep
+        )
         return scale * near
 
     def _pull(self, z: Complex, right: bool) -> tuple[Complex, Complex]:

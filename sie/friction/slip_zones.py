@@ -87,7 +87,12 @@ def rim(density: SlopeDensity, slope: Slope, side: float) -> Rim:
     edge, tail = (contact.x2, contact.tail2) if side > 0.0 else (contact.x1, contact.tail1)
     width = 2.0 * contact.r
     seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
-    return Rim(moved(density, seen, -edge, -tail), slope.shifted(-edge).shifted(-tail), side, (-edge, -tail))
+    return Rim(
+        moved(density, seen, -edge, -tail),
+        slope.shifted(-edge).shifted(-tail),
+        side,
+        (-edge, -tail),
+    )
 
 
 def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> SlopeDensity:
@@ -101,7 +106,11 @@ def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> S
     # A slope that ended with the contact still does: an ulp short of it, all of H would jump there
     breaks = slope.breaks.copy()
     breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
-    return replace(density, contact=contact, panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0))
+    return replace(
+        density,
+        contact=contact,
+        panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0),
+    )
 
 
 # -- one zone -----------------------------------------------------------------------------------------------------------
@@ -131,7 +140,10 @@ class Zone:
         out = np.empty(distance.shape)
         far = distance >= self.length
         places, strength = self._gathered(weight) if far.any() else (self.inwards, weight)
-        for at, nodes, charge in ((np.flatnonzero(far), places, strength), (np.flatnonzero(~far), self.inwards, weight)):
+        for at, nodes, charge in (
+            (np.flatnonzero(far), places, strength),
+            (np.flatnonzero(~far), self.inwards, weight),
+        ):
             for start in range(0, len(at), ROWS):
                 rows = at[start : start + ROWS]
                 out[rows] = np.reciprocal(distance[rows, None] + nodes) @ charge
@@ -194,7 +206,9 @@ class Zones:
     left: Zone
     right: Zone
     drive: Drive
-    spare: float = 0.0  # of π τ/f: what a stick zone that has no width does not hold back (`narrow`)
+    spare: float = (
+        0.0  # of π τ/f: what a stick zone that has no width does not hold back (`narrow`)
+    )
 
     def shear(self, x: Array) -> Array:
         """q/f inside the stick zone, x 1-d."""
@@ -217,7 +231,9 @@ class Zones:
         return total + c.m * d.load
 
 
-def zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive, guess: tuple[float, float]) -> Zones:
+def zones(
+    rims: tuple[Rim, Rim], contact: Interval, drive: Drive, guess: tuple[float, float]
+) -> Zones:
     """The zones that the drive opens, from a guess of their lengths (left, right). Raises ContactError if there are none.
 
     Each end has an equation of its own, in which the other one matters only to second order: they are solved in turn.
@@ -233,7 +249,10 @@ def zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive, guess: tuple[f
             break
         previous = change
     else:
-        raise ContactError("the ends of the stick zone do not settle: another zone of slip opens inside it", lengths=tuple(lengths))
+        raise ContactError(
+            "the ends of the stick zone do not settle: another zone of slip opens inside it",
+            lengths=tuple(lengths),
+        )
     left, right = (zone(r, length) for r, length in zip(rims, lengths, strict=True))
     return Zones(contact.moved(lengths[0], -lengths[1]), left, right, drive)
 
@@ -245,7 +264,9 @@ def _length(rims: tuple[Rim, Rim], r: float, drive: Drive, lengths: list[float],
 
     def excess(length: float) -> float:
         rho = r - 0.5 * (length + other.length)
-        return zone(rims[k], length).strong(rho) + sign * (others * other.weak(rho) - drive.load - outward * rho * drive.strain)
+        return zone(rims[k], length).strong(rho) + sign * (
+            others * other.weak(rho) - drive.load - outward * rho * drive.strain
+        )
 
     return root(excess, lengths[k], 2.0 * r - other.length)
 
@@ -260,7 +281,11 @@ def root(function: Callable[[float], float], guess: float, limit: float) -> floa
         if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
             return u
         low, high = (u, high) if f < 0.0 else (low, u)
-        new = u - f * (u - before[0]) / (f - before[1]) if before is not None and f != before[1] else -1.0
+        new = (
+            u - f * (u - before[0]) / (f - before[1])
+            if before is not None and f != before[1]
+            else -1.0
+        )
         if not low < new < high:
             new = 0.5 * (low + high)
             if f < 0.0 and high == limit:
@@ -268,7 +293,11 @@ def root(function: Callable[[float], float], guess: float, limit: float) -> floa
             elif low == 0.0:
                 new = u / FIRST_STEP
         before = (u, f)
-        if abs(new - u) <= EPS * u or high - low <= 2.0 * EPS * high or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step)):
+        if (
+            abs(new - u) <= EPS * u
+            or high - low <= 2.0 * EPS * high
+            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
+        ):
             return new
         step, u = new - u, new
     return u

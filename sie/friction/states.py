@@ -71,7 +71,9 @@ class Slip(ABC):
     friction: float
     stick: tuple[tuple[float, float], ...]
     advancing: bool = True  # whether the zones of slip grow along the whole step
-    condition: float = 1.0  # how much larger a relative error of the load on the stick zone is than one of P or Q
+    condition: float = (
+        1.0  # how much larger a relative error of the load on the stick zone is than one of P or Q
+    )
 
     @property
     @abstractmethod
@@ -178,7 +180,9 @@ class _Slipping(Slip):
             return out
         from_edge = self.contact.from_left(x), self.contact.from_right(x)
         nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
-        for r, distance, sign, side in zip(self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True):
+        for r, distance, sign, side in zip(
+            self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
+        ):
             at = side & (distance >= 0.0)
             if at.any():
                 out[at] = sign * self.friction * self._opening(distance[at], r)
@@ -198,7 +202,12 @@ class _Slipping(Slip):
                 opening = self._opening(z.outwards, r)
                 energy += f * f * float(z.force @ opening)
                 from_other_edge = (width - z.length) + z.inwards
-                shift += sign * f / math.pi * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
+                shift += (
+                    sign
+                    * f
+                    / math.pi
+                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
+                )
         return energy, shift
 
     @cached_property
@@ -207,7 +216,9 @@ class _Slipping(Slip):
         if step.tau:
             return self._integrals[0]
         growth = Growth(step.scene, step.normal, step.tol, step.economy)
-        return float(growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0])
+        return float(
+            growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0]
+        )
 
     @property
     def shift(self) -> float:
@@ -257,10 +268,16 @@ class Sliding(_Slipping):
     @property
     def lengths(self) -> tuple[float, float]:
         (z1, z2), width = self._touch, 2.0 * self.contact.r
-        return min(max(self.contact.from_left(z1), 0.0), width), min(max(self.contact.from_right(z2), 0.0), width)
+        return min(max(self.contact.from_left(z1), 0.0), width), min(
+            max(self.contact.from_right(z2), 0.0), width
+        )
 
     def _opening(self, distance: Array, rim: Rim) -> Array:
-        edge, tail = (self.contact.x2, self.contact.tail2) if rim.side > 0.0 else (self.contact.x1, self.contact.tail1)
+        edge, tail = (
+            (self.contact.x2, self.contact.tail2)
+            if rim.side > 0.0
+            else (self.contact.x1, self.contact.tail1)
+        )
         slope = self._resolved.shifted(-edge).shifted(-tail)
         z1, z2 = ((z - edge) - tail for z in self._touch)
         return raised(slope, (z1, z2), -rim.side * distance)
@@ -284,7 +301,9 @@ class OneWay(_Slipping):
         """The zones from their own equations, where the difference of two pressures would lose digits."""
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
-        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(tau) <= abs(Q)
+        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(
+            tau
+        ) <= abs(Q)
         if not small or any(step.normal.edges.sharp):
             return None
         drive = Drive(self.sign * Q / f, self.sign * math.pi * tau / f, 1.0, 1.0)
@@ -308,7 +327,9 @@ class OneWay(_Slipping):
 
     @cached_property
     def shear(self) -> Density:
-        return OneSign(self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.thin)
+        return OneSign(
+            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.thin
+        )
 
     @property
     def signs(self) -> tuple[float, float]:
@@ -348,11 +369,15 @@ class TwoWays(_Slipping):
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         found = self.found
-        return ((found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),)
+        return (
+            (found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),
+        )
 
     @cached_property
     def shear(self) -> Density:
-        held = self.step.tau - math.copysign(self.friction * self.found.spare / math.pi, self.step.tau)
+        held = self.step.tau - math.copysign(
+            self.friction * self.found.spare / math.pi, self.step.tau
+        )
         return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, held)
 
     @property
@@ -380,7 +405,11 @@ class TwoWays(_Slipping):
         G, rho = self.pressure.half_modulus, stick.r
 
         def more(x: Array, side: float) -> Array:
-            from_far, from_near = (stick.from_left(x), -stick.from_right(x)) if side > 0.0 else (stick.from_right(x), -stick.from_left(x))
+            from_far, from_near = (
+                (stick.from_left(x), -stick.from_right(x))
+                if side > 0.0
+                else (stick.from_right(x), -stick.from_left(x))
+            )
             other = self.found.left if side > 0.0 else self.found.right
             near = np.maximum(from_near, 0.0)
             pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
@@ -394,15 +423,20 @@ def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -
     """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ)."""
     Q, tau = step.Q, step.tau
     return all(
-        length == 0.0 or all(sign * (Q - outward * math.pi * rho * tau) >= 0.0 for rho in half_widths)
+        length == 0.0
+        or all(sign * (Q - outward * math.pi * rho * tau) >= 0.0 for rho in half_widths)
         for length, sign, outward in zip(state.lengths, state.signs, (-1.0, 1.0), strict=True)
     )
 
 
-def seen(density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim) -> tuple[SlopeDensity, Slope]:
+def seen(
+    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim
+) -> tuple[SlopeDensity, Slope]:
     """A density on the stick zone and its slope in the coordinates of a rim."""
     near = lengths[rim.side > 0.0]
-    far, rest = two_sum(-near, -2.0 * density.contact.r)  # from the width of the stick zone, which the other length may not tell
+    far, rest = two_sum(
+        -near, -2.0 * density.contact.r
+    )  # from the width of the stick zone, which the other length may not tell
     ends = Interval(far, -near, rest, 0.0) if rim.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = rim.origin
     return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
@@ -415,4 +449,6 @@ def _guess(step: Step, sign: float) -> tuple[float, float]:
     k = moments(slope, contact)
     Q, strain = sign * step.Q, sign * math.pi * contact.r * step.tau
     tiny = EPS * abs(Q)
-    return max(Q + strain, tiny) / (f * G * contact.r * k.JL), max(Q - strain, tiny) / (f * G * contact.r * k.JR)
+    return max(Q + strain, tiny) / (f * G * contact.r * k.JL), max(Q - strain, tiny) / (
+        f * G * contact.r * k.JR
+    )

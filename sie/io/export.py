@@ -59,7 +59,10 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
     if solution.carries_shear:
         columns |= {"q": solution.shear(x)} | slip_of(solution, x)
-    stresses, lengths = (" and ".join(name for name in columns if (name in "pq") is stress) for stress in (True, False))
+    stresses, lengths = (
+        " and ".join(name for name in columns if (name in "pq") is stress)
+        for stress in (True, False)
+    )
     head = (
         f"# {file.title or 'plane contact'} (sie {__version__})",
         f"# {solution.scene!r}",
@@ -87,7 +90,12 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     out: dict[str, Any] = {
         "sie": __version__,
         "title": file.title,
-        "units": {"length": units.length, "force": units.force, "stress": units.stress, "moment": units.moment},
+        "units": {
+            "length": units.length,
+            "force": units.force,
+            "stress": units.stress,
+            "moment": units.moment,
+        },
         "scene": repr(scene),
         "modulus": scene.Estar,
         "dundurs": scene.beta,
@@ -106,7 +114,11 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         out["path"] = turning_points(solution)
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
-    return out | {name: section(solution, points) for name, section in sections.items() if name in wanted(file)}
+    return out | {
+        name: section(solution, points)
+        for name, section in sections.items()
+        if name in wanted(file)
+    }
 
 
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
@@ -125,7 +137,13 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 def _pressure(solution: Solution, points: int) -> dict[str, Any]:
     p, x = solution.pressure, inside(solution, points)
     largest, where = peak(solution)
-    return {"peak": {"p": largest, "x": list(where)}, "resultant": p.resultant, "moment": p.moment, "x": x.tolist(), "p": p(x).tolist()}
+    return {
+        "peak": {"p": largest, "x": list(where)},
+        "resultant": p.resultant,
+        "moment": p.moment,
+        "x": x.tolist(),
+        "p": p(x).tolist(),
+    }
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:
@@ -154,7 +172,9 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     if not solution.sheared:
         return ()
     x1, x2 = solution.edges
-    return tuple(z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2)  # not what the contact has left
+    return tuple(
+        z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
+    )  # not what the contact has left
 
 
 def _shear(solution: Solution, points: int) -> dict[str, Any]:
@@ -179,7 +199,11 @@ def turning_points(solution: Followed) -> list[dict[str, Any]]:
     points = zip(solution.history.path.points, solution.history, strict=True)
     return [
         dict(zip(names, loads, strict=True))
-        | ({"stick": [list(zone) for zone in at.stick], "energy_lost": at.energy_lost} if loads[0] else {"stick": [], "energy_lost": 0.0})
+        | (
+            {"stick": [list(zone) for zone in at.stick], "energy_lost": at.energy_lost}
+            if loads[0]
+            else {"stick": [], "energy_lost": 0.0}
+        )
         for loads, at in points
     ]
 
@@ -197,7 +221,13 @@ def _stress(solution: Solution, points: int) -> dict[str, Any]:
 def _yield(solution: Solution, _points: int) -> dict[str, Any]:
     found = solution.elastic_limit()
     places = [list(place) for place in found.places]
-    return {"ratio": found.ratio, "load": found.load, "sqrt_j2": found.stress, "places": places, "criterion": found.criterion}
+    return {
+        "ratio": found.ratio,
+        "load": found.load,
+        "sqrt_j2": found.stress,
+        "places": places,
+        "criterion": found.criterion,
+    }
 
 
 def _tension(solution: Solution, _points: int) -> dict[str, Any]:
@@ -212,4 +242,8 @@ def _finite(value: Any) -> Any:
         return [_finite(v) for v in value]
     if isinstance(value, np.generic):
         value = value.item()
-    return ("Infinity" if value > 0.0 else "-Infinity") if isinstance(value, float) and math.isinf(value) else value
+    return (
+        ("Infinity" if value > 0.0 else "-Infinity")
+        if isinstance(value, float) and math.isinf(value)
+        else value
+    )

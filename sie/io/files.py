@@ -57,7 +57,9 @@ def writable(path: str | Path) -> Path:
         raise ValueError(f"{path} is a directory: give the name of a file in it")
     parent = path.resolve().parent
     if not parent.is_dir():
-        raise ValueError(f"{path} cannot be written, there is no directory {parent}: create it first")
+        raise ValueError(
+            f"{path} cannot be written, there is no directory {parent}: create it first"
+        )
     touched = ([path] if path.exists() else []) + ([] if _is_device(path) else [parent])
     if not all(os.access(place, os.W_OK) for place in touched):
         raise ValueError(f"{path} cannot be written, permission is denied: choose another place")
@@ -72,7 +74,12 @@ def same(one: str | int | Path, other: str | int | Path) -> bool:
     try:
         return os.path.samefile(one, other)
     except OSError:  # one of them does not exist
-        if isinstance(one, int) or isinstance(other, int) or os.path.exists(one) or os.path.exists(other):
+        if (
+            isinstance(one, int)
+            or isinstance(other, int)
+            or os.path.exists(one)
+            or os.path.exists(other)
+        ):
             return False
         return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
 
@@ -97,7 +104,9 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     try:
         with _named(contents):
             devices = [path for path in contents if _is_device(path)]
-            for place, data in ((path.resolve(), data) for path, data in contents.items() if path not in devices):
+            for place, data in (
+                (path.resolve(), data) for path, data in contents.items() if path not in devices
+            ):
                 parts[place] = _new_part(place)  # resolved: a link stays a link
                 _write_part(parts[place], data, like=place)
             for path in devices:
@@ -125,7 +134,9 @@ def _named(contents: Iterable[Path]) -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as problem:
-        raise OSError(f"{' and '.join(map(str, contents))} not written: {problem.strerror}") from None
+        raise OSError(
+            f"{' and '.join(map(str, contents))} not written: {problem.strerror}"
+        ) from None
 
 
 def _is_device(path: Path) -> bool:
@@ -143,7 +154,9 @@ def _part_name(token: str) -> str:
 def _new_part(place: Path) -> BinaryIO:
     while True:
         stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115 -- open until moved
-        with suppress(OSError):  # not all file systems lock; there nothing is taken for stale either
+        with suppress(
+            OSError
+        ):  # not all file systems lock; there nothing is taken for stale either
             _lock(stream, wait=True)
         if os.name == "nt" or os.fstat(stream.fileno()).st_nlink:
             return stream
@@ -177,7 +190,10 @@ def _remove_stale(folder: Path) -> None:
         for path in folder.glob(".sie-*.part"):
             if path.name == _part_name(path.name.split("-")[1]) and not path.is_symlink():
                 # Windows removes no file that is open, be it by the writer or here.
-                with suppress(OSError), nullcontext() if os.name == "nt" else open(path, "rb") as stream:
+                with (
+                    suppress(OSError),
+                    nullcontext() if os.name == "nt" else open(path, "rb") as stream,
+                ):
                     _lock(stream, wait=False)
                     path.unlink()
 

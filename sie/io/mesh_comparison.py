@@ -46,10 +46,17 @@ STRESSES: dict[str, Exact] = {
     "mises": lambda solution, x, y: solution.stress(x, y).mises,
 }
 QUANTITIES = TRACTIONS | STRESSES
-RESULTANTS: dict[str, Callable[[Solution], float]] = {"p": lambda s: s.normal_load, "q": lambda s: s.tangential_load}
+RESULTANTS: dict[str, Callable[[Solution], float]] = {
+    "p": lambda s: s.normal_load,
+    "q": lambda s: s.tangential_load,
+}
 # What mesh codes and their users call them, in lower case.
 NAMES = {
-    **{name.format(axis): axis for axis in "xy" for name in ("{}-coordinate", "{}_coordinate", "{}-coord", "{}_coord", "coord_{}")},
+    **{
+        name.format(axis): axis
+        for axis in "xy"
+        for name in ("{}-coordinate", "{}_coordinate", "{}-coord", "{}_coord", "coord_{}")
+    },
     **dict(zip(("coor1", "coord1", "coor2", "coord2", "depth"), "xxyyy", strict=True)),
     **dict.fromkeys(("pressure", "cpress", "contact pressure", "contact_pressure"), "p"),
     **dict.fromkeys(("shear", "cshear1", "traction"), "q"),
@@ -58,15 +65,24 @@ NAMES = {
         for q, ij in zip(STRESSES, ("11", "22", "12", "33"), strict=False)
         for name in (f"s{ij}", f"s-s{ij}", f"s:s{ij}", f"s.s{ij}")
     },
-    **{f"{word}{q[1:]}": q for q in ("sxx", "syy", "sxy", "szz") for word in ("sigma_", "sigma", "stress_", "s_", "σ_", "σ")},
+    **{
+        f"{word}{q[1:]}": q
+        for q in ("sxx", "syy", "sxy", "szz")
+        for word in ("sigma_", "sigma", "stress_", "s_", "σ_", "σ")
+    },
     **{"tau_xy": "sxy", "txy": "sxy", "τ_xy": "sxy"},
-    **dict.fromkeys(("von mises", "von_mises", "s_mises", "s-mises", "s.mises", "seqv", "sigma_mises"), "mises"),
+    **dict.fromkeys(
+        ("von mises", "von_mises", "s_mises", "s-mises", "s.mises", "seqv", "sigma_mises"), "mises"
+    ),
 }
 FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
-FACTORS = 0.5, 2.0  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
+FACTORS = (
+    0.5,
+    2.0,
+)  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
 
 
 @dataclass(frozen=True)
@@ -115,7 +131,11 @@ class Difference:
         """What a factor far from 1 asks for, if it explains more than half of what the mesh holds."""
         if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
             return ""
-        return "are the signs the same?" if -FACTORS[1] <= self.factor <= -FACTORS[0] else "are the units of load and length the same?"
+        return (
+            "are the signs the same?"
+            if -FACTORS[1] <= self.factor <= -FACTORS[0]
+            else "are the units of load and length the same?"
+        )
 
 
 @dataclass(frozen=True)
@@ -132,7 +152,13 @@ class Comparison:
 
     def as_dict(self) -> dict[str, Any]:
         found = {name: asdict(d) for name, d in self.differences.items()}
-        return {"file": self.mesh.name, "tol": self.tol, "ok": self.ok, "differences": found, "not_compared": list(self.mesh.others)}
+        return {
+            "file": self.mesh.name,
+            "tol": self.tol,
+            "ok": self.ok,
+            "differences": found,
+            "not_compared": list(self.mesh.others),
+        }
 
     def __str__(self) -> str:
         lines = []
@@ -142,13 +168,22 @@ class Comparison:
                 f"{name}: {d.points} points of {self.mesh.name}{left_out}",
                 f"  l1     {d.l1:.3e}",
                 f"  l2     {d.l2:.3e}",
-                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}" + (f", y = {d.depth:.6g}" if d.depth else ""),
+                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}"
+                + (f", y = {d.depth:.6g}" if d.depth else ""),
                 *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
                 f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
-                *([f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: {d.suspicion}"] if d.suspicion else []),
+                *(
+                    [
+                        f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: {d.suspicion}"
+                    ]
+                    if d.suspicion
+                    else []
+                ),
             ]
         if self.mesh.others:
-            lines.append(f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}")
+            lines.append(
+                f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}"
+            )
         verdict = f"l2 {'is within' if self.ok else 'EXCEEDS'} {self.tol:g}"
         return "\n".join([*lines, verdict])
 
@@ -166,21 +201,37 @@ def read_mesh(path: str | Path) -> Mesh:
         raise ValueError(
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
-    columns = dict(zip(known, read_columns(path, tuple(names.index(name) for name in known), most=MESH), strict=True))
+    columns = dict(
+        zip(
+            known,
+            read_columns(path, tuple(names.index(name) for name in known), most=MESH),
+            strict=True,
+        )
+    )
     for name, values in columns.items():
         largest = float(np.abs(values).max())
         if largest > LARGEST:
-            raise ValueError(f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines")
+            raise ValueError(
+                f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines"
+            )
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
     passed = names[:width] if header else [*names, *map(str, range(len(names), width))]
     others = tuple(name for name in passed if name and name not in columns)
-    mesh = Mesh(path.name, columns["x"][order], y[order], {name: columns[name][order] for name in found}, others)
+    mesh = Mesh(
+        path.name,
+        columns["x"][order],
+        y[order],
+        {name: columns[name][order] for name in found},
+        others,
+    )
     for name in found:
         x, _, _ = mesh.points(name)
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
-            raise ValueError(f"{path.name} holds {len(x)} points of {name}{where}: a comparison needs at least two")
+            raise ValueError(
+                f"{path.name} holds {len(x)} points of {name}{where}: a comparison needs at least two"
+            )
     return mesh
 
 
@@ -190,7 +241,9 @@ def _depths(name: str, columns: dict[str, Array]) -> Array:
     if y is None:
         return np.zeros(len(columns["x"]))
     if y.min() < 0.0 < y.max():
-        raise ValueError(f"{name} has y from {y.min():.6g} to {y.max():.6g}: the body is on one side of y = 0, leave the other out")
+        raise ValueError(
+            f"{name} has y from {y.min():.6g} to {y.max():.6g}: the body is on one side of y = 0, leave the other out"
+        )
     if y.min() < 0.0 and "sxy" in columns:
         columns["sxy"] = -columns["sxy"]
     return np.abs(y)
@@ -217,7 +270,9 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
     exact = exact_at(0.0)
     finite = np.isfinite(exact)
     f, e, w = exact[finite], (values - exact)[finite], weight[finite]
-    measure = f if f.any() else solution.pressure(x[finite])  # what ought to be zero is measured by the pressure
+    measure = (
+        f if f.any() else solution.pressure(x[finite])
+    )  # what ought to be zero is measured by the pressure
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
     shift = _best_shift(exact_at, values, weight, solution.half_width)
     below = w @ measure**2
@@ -247,7 +302,9 @@ def _misfit(exact: Array, values: Array, weight: Array) -> float:
     return float(np.sqrt(w @ (values[finite] - f) ** 2 / below)) if below > 0.0 else float("inf")
 
 
-def _best_shift(exact_at: Callable[[float], Array], values: Array, weight: Array, r: float) -> float:
+def _best_shift(
+    exact_at: Callable[[float], Array], values: Array, weight: Array, r: float
+) -> float:
     from scipy.optimize import minimize_scalar  # noqa: PLC0415 -- heavy, and for comparisons only
 
     def misfit(shift: float) -> float:
@@ -256,7 +313,9 @@ def _best_shift(exact_at: Callable[[float], Array], values: Array, weight: Array
     grid = np.linspace(-FARTHEST_SHIFT * r, FARTHEST_SHIFT * r, SHIFTS)
     best = int(np.argmin([misfit(d) for d in grid.tolist()]))
     around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, SHIFTS - 1)])
-    found = float(minimize_scalar(misfit, bounds=around, method="bounded", options={"xatol": REFINED * r}).x)
+    found = float(
+        minimize_scalar(misfit, bounds=around, method="bounded", options={"xatol": REFINED * r}).x
+    )
     return found if np.isfinite(misfit(0.0)) and misfit(found) < misfit(0.0) else 0.0
 
 

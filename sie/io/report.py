@@ -31,14 +31,23 @@ def summary(solution: Solution, file: SceneFile) -> str:
         "check": check_summary,
     }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
-    parts = [section(solution, file.units) for name, section in sections.items() if name in wanted(file)]
-    noted = [] if "check" in wanted(file) else ["\n".join(notes_of(solution, file))]  # the certificate says them itself
-    return "\n\n".join([f"{file.title}\n{scene}" if file.title else scene, *parts, *filter(None, noted)])
+    parts = [
+        section(solution, file.units) for name, section in sections.items() if name in wanted(file)
+    ]
+    noted = (
+        [] if "check" in wanted(file) else ["\n".join(notes_of(solution, file))]
+    )  # the certificate says them itself
+    return "\n\n".join(
+        [f"{file.title}\n{scene}" if file.title else scene, *parts, *filter(None, noted)]
+    )
 
 
 def edges_summary(solution: Solution, units: Units) -> str:
     r, P = solution.half_width, solution.normal_load
-    x1, x2 = (f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}" for x, s in zip(solution.edges, solution.sharp, strict=True))
+    x1, x2 = (
+        f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}"
+        for x, s in zip(solution.edges, solution.sharp, strict=True)
+    )
     return _rows(
         ("edges", f"x1 = {x1};  x2 = {x2}"),
         ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
@@ -54,7 +63,10 @@ def pressure_summary(solution: Solution, units: Units) -> str:
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
     mean = solution.normal_load / (2.0 * solution.half_width)
-    rows = _rows(("peak pressure", f"{value} at x = {' and '.join(places)}"), ("mean pressure", f"{_number(mean)} {units.stress}"))
+    rows = _rows(
+        ("peak pressure", f"{value} at x = {' and '.join(places)}"),
+        ("mean pressure", f"{_number(mean)} {units.stress}"),
+    )
     return f"{rows}\n\n{text_picture(solution, units)}"
 
 
@@ -62,8 +74,19 @@ def gap_summary(solution: Solution, units: Units) -> str:
     """The gap half a half-width beyond each edge."""
     (x1, x2), r = solution.edges, solution.half_width
     x = np.array([x1 - 0.5 * r, x2 + 0.5 * r])
-    values = (f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter" for g in solution.gap(x).tolist())
-    return _rows(("gap", ";  ".join(f"{value} at x = {_number(at)}" for value, at in zip(values, x.tolist(), strict=True))))
+    values = (
+        f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter"
+        for g in solution.gap(x).tolist()
+    )
+    return _rows(
+        (
+            "gap",
+            ";  ".join(
+                f"{value} at x = {_number(at)}"
+                for value, at in zip(values, x.tolist(), strict=True)
+            ),
+        )
+    )
 
 
 def shear_summary(solution: Solution, units: Units) -> str:
@@ -71,13 +94,30 @@ def shear_summary(solution: Solution, units: Units) -> str:
     if not solution.carries_shear:
         return _rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
-    limit = "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
+    limit = (
+        "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
+    )
     rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
-    rows += [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")] if scene.bulk_stress else []
-    rows += [("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}") for lo, hi in solution.stick] or [("stick", "none")]
+    rows += (
+        [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")]
+        if scene.bulk_stress
+        else []
+    )
+    rows += [
+        ("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}")
+        for lo, hi in solution.stick
+    ] or [("stick", "none")]
     for lo, hi, sign in slipping(solution):
-        rows.append(("slip", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p"))
-    rows += [("energy lost", f"{_number(energy)} {units.moment}") for energy in energy_of(solution).values()]
+        rows.append(
+            (
+                "slip",
+                f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p",
+            )
+        )
+    rows += [
+        ("energy lost", f"{_number(energy)} {units.moment}")
+        for energy in energy_of(solution).values()
+    ]
     table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
     return "\n\n".join([_rows(*rows), *table])
 
@@ -97,19 +137,37 @@ def stress_summary(solution: Solution, units: Units) -> str:
     """The stress under the centre of the contact, on the surface and half a half-width below."""
     r = solution.half_width
     lines: list[tuple[str, str]] = []
-    for where, y in (("on the surface", 0.0), (f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r)):
+    for where, y in (
+        ("on the surface", 0.0),
+        (f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r),
+    ):
         s = solution.stress(solution.centre, y)
         scale = solution.normal_load / r
-        parts = (f"{name} = {_number(float(v), scale)}" for name, v in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy)))
-        lines.append(("stress" if not lines else "", f"{', '.join(parts)} {units.stress} at the centre, {where}"))
+        parts = (
+            f"{name} = {_number(float(v), scale)}"
+            for name, v in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
+        )
+        lines.append(
+            (
+                "stress" if not lines else "",
+                f"{', '.join(parts)} {units.stress} at the centre, {where}",
+            )
+        )
     return _rows(*lines)
 
 
 def yield_summary(solution: Solution, units: Units) -> str:
     found, r = solution.elastic_limit(), solution.half_width
     if math.isinf(found.stress):
-        return _rows(("elastic limit", f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface"))
-    places = (f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in found.places)
+        return _rows(
+            (
+                "elastic limit",
+                f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface",
+            )
+        )
+    places = (
+        f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in found.places
+    )
     return _rows(
         (
             "elastic limit",
@@ -121,8 +179,14 @@ def yield_summary(solution: Solution, units: Units) -> str:
 
 def tension_summary(solution: Solution, units: Units) -> str:
     value, x = solution.peak_tension()
-    size = f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}" if math.isfinite(value) else "infinite"
-    return _rows(("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}"))
+    size = (
+        f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
+        if math.isfinite(value)
+        else "infinite"
+    )
+    return _rows(
+        ("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")
+    )
 
 
 def check_summary(solution: Solution, _units: Units) -> str:
@@ -135,13 +199,25 @@ def text_picture(solution: Solution, units: Units) -> str:
     (x1, x2), top = solution.edges, ceiling(solution)
     p = solution.pressure(x1 + (x2 - x1) * (np.arange(COLUMNS) + 0.5) / COLUMNS)
     eighths: list[int] = np.round(np.minimum(p / top, 1.0) * 8 * ROWS).astype(int).tolist()
-    rows = ["".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths) for level in range(ROWS - 1, -1, -1)]
-    rows[0] = "".join("↑" if cut else block for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True))
+    rows = [
+        "".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths)
+        for level in range(ROWS - 1, -1, -1)
+    ]
+    rows[0] = "".join(
+        "↑" if cut else block
+        for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True)
+    )
     labels = [_number(top), *[""] * (ROWS - 1)]
     margin = len(labels[0])
-    left, right = _number(x1, solution.half_width), f"{_number(x2, solution.half_width)} {units.length}"
+    left, right = (
+        _number(x1, solution.half_width),
+        f"{_number(x2, solution.half_width)} {units.length}",
+    )
     lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]
-    axis = [f"{0:>{margin}} └{'─' * COLUMNS}", f"{'':>{margin}}  {left}{right:>{COLUMNS - len(left)}}"]
+    axis = [
+        f"{0:>{margin}} └{'─' * COLUMNS}",
+        f"{'':>{margin}}  {left}{right:>{COLUMNS - len(left)}}",
+    ]
     return "\n".join([f"p in {units.stress}", *lines, *axis])
 
 

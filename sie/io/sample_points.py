@@ -37,16 +37,25 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
     ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
     angle = np.arccos(np.clip((m - ends) / r, -1.0, 1.0))
     share = 0.5 * np.diff(angle) / np.pi + 0.5 / (len(ends) - 1)
-    parts = [lo + (hi - lo) * _gathered(round(points * s)) for lo, hi, s in zip(ends[:-1], ends[1:], share, strict=True)]
+    parts = [
+        lo + (hi - lo) * _gathered(round(points * s))
+        for lo, hi, s in zip(ends[:-1], ends[1:], share, strict=True)
+    ]
     return np.unique(np.concatenate([*parts, ends]))
 
 
 def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
     """Abscissae left and right of the contact, ascending, without the edges, out to REACH half-widths or the end of the indenter."""
-    (x1, x2), (lo, hi), reach = solution.edges, solution.scene.profile.domain, REACH * solution.half_width
+    (x1, x2), (lo, hi), reach = (
+        solution.edges,
+        solution.scene.profile.domain,
+        REACH * solution.half_width,
+    )
     left, right = max(x1 - reach, lo), min(x2 + reach, hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
-    x = np.unique(np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points))))
+    x = np.unique(
+        np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points)))
+    )
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
 
 
@@ -81,7 +90,9 @@ def summits(solution: Solution) -> tuple[Summit, ...]:
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
     top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
     high = top[np.isfinite(p[top]) & (p[top] >= LESSER * p[np.isfinite(p)].max())]
-    x[high], p[high] = _narrowed(solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)])
+    x[high], p[high] = _narrowed(
+        solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
+    )
     return tuple(Summit(*found) for found in zip(x[top].tolist(), p[top].tolist(), strict=True))
 
 
@@ -89,7 +100,9 @@ def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
     found = summits(solution)
     largest = max(s.p for s in found)
-    return largest, tuple(s.x for s in found if s.p == largest or s.p >= largest * (1.0 - SAME_PEAK))
+    return largest, tuple(
+        s.x for s in found if s.p == largest or s.p >= largest * (1.0 - SAME_PEAK)
+    )
 
 
 def ceiling(solution: Solution) -> float:

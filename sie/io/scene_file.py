@@ -67,7 +67,11 @@ class Units:
         ('N', 'kN mm')
         """
         per_length = "/" + self.length
-        return self.force.removesuffix(per_length) if self.force.endswith(per_length) else f"{self.force} {self.length}"
+        return (
+            self.force.removesuffix(per_length)
+            if self.force.endswith(per_length)
+            else f"{self.force} {self.length}"
+        )
 
 
 UNITS = Units()
@@ -106,32 +110,46 @@ def read(path: str | pathlib.Path) -> SceneFile:
     path = pathlib.Path(path)
     try:
         if path.is_fifo():
-            raise ValueError(f"{path} is a pipe: give a file, or send the scene to standard input and give -")
+            raise ValueError(
+                f"{path} is a pipe: give a file, or send the scene to standard input and give -"
+            )
         data = files.content(path, MOST_BYTES)
     except ValueError as problem:
         raise SceneFileError(str(problem)) from None
     except FileNotFoundError:
-        raise SceneFileError(f"{path} does not exist: write one with  sie example rounded-flat > {path.name}") from None
+        raise SceneFileError(
+            f"{path} does not exist: write one with  sie example rounded-flat > {path.name}"
+        ) from None
     except OSError as problem:
-        raise SceneFileError(f"{path} cannot be read ({problem.strerror}): give a readable scene file") from None
+        raise SceneFileError(
+            f"{path} cannot be read ({problem.strerror}): give a readable scene file"
+        ) from None
     return parse(data, path.name, path.parent)
 
 
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
     """The scene in a TOML text; `name` is what messages call it, `folder` where the files are that it names. Raises SceneFileError."""
     if len(text) > MOST_BYTES:
-        raise SceneFileError(f"{name} has more than {MOST_BYTES / 1e6:g} MB: put a trace in a file of its own, as path")
+        raise SceneFileError(
+            f"{name} has more than {MOST_BYTES / 1e6:g} MB: put a trace in a file of its own, as path"
+        )
     text = text if isinstance(text, str) else _decoded(text, name)
     try:
         if _DEEP_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
             raise RecursionError
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
-        raise SceneFileError(f"{name} is not TOML: {problem}; `sie example` prints files that are") from None
+        raise SceneFileError(
+            f"{name} is not TOML: {problem}; `sie example` prints files that are"
+        ) from None
     except ValueError:  # Python's own limit
-        raise SceneFileError(f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3") from None
+        raise SceneFileError(
+            f"{name} has a number of more than 4300 digits: write it as a float, like 1e-3"
+        ) from None
     except RecursionError:
-        raise SceneFileError(f"{name} is nested too deeply for a scene file: `sie example` prints how one looks") from None
+        raise SceneFileError(
+            f"{name} is nested too deeply for a scene file: `sie example` prints how one looks"
+        ) from None
     try:
         return _scene_file(table, folder)
     except ValueError as problem:
@@ -140,11 +158,15 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
 
 def _decoded(data: bytes, name: str) -> str:
     # Windows PowerShell's `>` writes UTF-16, editors there may write a byte-order mark before UTF-8.
-    encoding = "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    encoding = (
+        "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+    )
     try:
         return data.decode(encoding)
     except UnicodeDecodeError as problem:
-        raise SceneFileError(f"{name} is not UTF-8 text (byte {problem.start}): save it as UTF-8") from None
+        raise SceneFileError(
+            f"{name} is not UTF-8 text (byte {problem.start}): save it as UTF-8"
+        ) from None
 
 
 # -- examples ----------------------------------------------------------------------------------------------------------
@@ -156,7 +178,9 @@ def example(kind: str) -> str:
     Raises ValueError, with the nearest name, for one that is not known.
     """
     if kind not in _examples():
-        raise ValueError(f'there is no example "{kind}": {toml_values.suggestion(kind, _examples())}')
+        raise ValueError(
+            f'there is no example "{kind}": {toml_values.suggestion(kind, _examples())}'
+        )
     return (resources.files("sie.examples") / f"{kind}.toml").read_text(encoding="utf-8")
 
 
@@ -177,17 +201,34 @@ _BODY: dict[str, toml_values.Reader] = {
     "plane": toml_values.text,
     "rigid": toml_values.flag,
 }
-_LOAD_KEYS = ("normal_load", "half_width", "tilt", "moment", "friction", "tangential_load", "sliding", "bulk_stress")
+_LOAD_KEYS = (
+    "normal_load",
+    "half_width",
+    "tilt",
+    "moment",
+    "friction",
+    "tangential_load",
+    "sliding",
+    "bulk_stress",
+)
 _PATH_REPLACES = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
 _TABLES: dict[str, dict[str, toml_values.Reader]] = {
     "units": {"length": toml_values.text, "force": toml_values.text, "stress": toml_values.text},
     "body": _BODY,
     "indenter": _BODY,
-    "pair": {"modulus": toml_values.number, "dundurs": toml_values.number, "poisson": toml_values.number},
+    "pair": {
+        "modulus": toml_values.number,
+        "dundurs": toml_values.number,
+        "poisson": toml_values.number,
+    },
     "load": dict.fromkeys(_LOAD_KEYS, toml_values.number) | {"path": toml_values.rows},
 }
 _TOP: tuple[str, ...] = ("title", "want", "profile", *_TABLES)
-_MODIFIERS: dict[str, toml_values.Reader] = {"mirrored": toml_values.flag, "tilted": toml_values.number, "shifted": toml_values.number}
+_MODIFIERS: dict[str, toml_values.Reader] = {
+    "mirrored": toml_values.flag,
+    "tilted": toml_values.number,
+    "shifted": toml_values.number,
+}
 # Parameters of each profile kind; the optional ones are those of "function" but for its slope.
 _PARAMETERS: dict[str, dict[str, toml_values.Reader]] = {
     "parabola": {"radius": toml_values.number},
@@ -197,8 +238,18 @@ _PARAMETERS: dict[str, dict[str, toml_values.Reader]] = {
     "power": {"exponent": toml_values.number, "coefficient": toml_values.number},
     "polynomial": {"coefficients": toml_values.numbers},
     "piecewise": {"breaks": toml_values.numbers, "pieces": toml_values.rows},
-    "function": {"slope": toml_values.text, "breaks": toml_values.numbers, "domain": toml_values.numbers, "parity": toml_values.text},
-    "sampled": {"x": toml_values.numbers, "h": toml_values.numbers, "smoothing": toml_values.number_or_text, "mend": toml_values.flag},
+    "function": {
+        "slope": toml_values.text,
+        "breaks": toml_values.numbers,
+        "domain": toml_values.numbers,
+        "parity": toml_values.text,
+    },
+    "sampled": {
+        "x": toml_values.numbers,
+        "h": toml_values.numbers,
+        "smoothing": toml_values.number_or_text,
+        "mend": toml_values.flag,
+    },
 }
 _OPTIONAL = {"function": {"breaks", "domain", "parity"}, "sampled": {"smoothing", "mend"}}
 # Of kind "sampled" in place of x and h.
@@ -215,7 +266,10 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     for key in top:
         if key not in _TOP:
             raise ValueError(f'there is no key or table "{key}": {_remedy(key, _TOP, "")}')
-    for name, content in (("profile", 'kind = "parabola" or another'), ("load", "normal_load or half_width")):
+    for name, content in (
+        ("profile", 'kind = "parabola" or another'),
+        ("load", "normal_load or half_width"),
+    ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
     loads = _taken("load", top["load"])
@@ -226,7 +280,11 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
         units=Units(**_taken("units", top.get("units", {}))),
         want=wants("want", toml_values.texts("want", top.get("want", []))),
         path=path,
-        reads=tuple(folder / term["path"] for term in (top["profile"], *top["profile"].get("plus", ())) if "path" in term),
+        reads=tuple(
+            folder / term["path"]
+            for term in (top["profile"], *top["profile"].get("plus", ()))
+            if "path" in term
+        ),
     )
 
 
@@ -236,9 +294,13 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
         return ()
     both = [name for name in _PATH_REPLACES if name in loads]
     if both:
-        raise ValueError(f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out")
+        raise ValueError(
+            f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out"
+        )
     if len(loads["path"]) > MOST_POINTS:
-        raise ValueError(f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: follow it in Python, by sie.follow")
+        raise ValueError(
+            f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: follow it in Python, by sie.follow"
+        )
     with _Naming("[load]"):
         points = Path(loads.pop("path")).points
     loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), points[-1], strict=True))
@@ -250,7 +312,9 @@ def _taken(name: str, value: Any) -> dict[str, Any]:
     return _values(f"[{name}]", toml_values.table(name, value), _TABLES[name])
 
 
-def _values(where: str, table: Mapping[str, Any], readers: Mapping[str, toml_values.Reader], kind: str = "") -> dict[str, Any]:
+def _values(
+    where: str, table: Mapping[str, Any], readers: Mapping[str, toml_values.Reader], kind: str = ""
+) -> dict[str, Any]:
     for key in table:
         if key not in readers:
             raise ValueError(f'{where}{kind} has no key "{key}": {_remedy(key, readers, where)}')
@@ -260,17 +324,23 @@ def _values(where: str, table: Mapping[str, Any], readers: Mapping[str, toml_val
 def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None:
     missing = [name for name in names if name not in values]
     if missing:
-        raise ValueError(f"{where} lacks {' and '.join(missing)}: give {' and '.join(f'{name} = ...' for name in missing)}")
+        raise ValueError(
+            f"{where} lacks {' and '.join(missing)}: give {' and '.join(f'{name} = ...' for name in missing)}"
+        )
 
 
 def _profile(value: Any, folder: pathlib.Path) -> Profile:
     first = dict(toml_values.table("profile", value))
     plus = first.pop("plus", [])
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
-        raise ValueError("profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term")
+        raise ValueError(
+            "profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term"
+        )
     total = _term("[profile]", first, folder)
     for k, term in enumerate(plus, start=1):
-        total = total + _term("[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder)
+        total = total + _term(
+            "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder
+        )
     return total
 
 
@@ -286,12 +356,20 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
         )
     kind = toml_values.text(f"{where} kind", table["kind"])
     if kind not in kinds:
-        raise ValueError(f'{where} kind = "{kind}" is not known: {toml_values.suggestion(kind, kinds)}')
-    measured = kind == "sampled" and not table.keys().isdisjoint(_FILE.keys() - _PARAMETERS[kind].keys())
+        raise ValueError(
+            f'{where} kind = "{kind}" is not known: {toml_values.suggestion(kind, kinds)}'
+        )
+    measured = kind == "sampled" and not table.keys().isdisjoint(
+        _FILE.keys() - _PARAMETERS[kind].keys()
+    )
     readers = _FILE if measured else _PARAMETERS[kind]
-    values = _values(where, table, {"kind": toml_values.text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"')
+    values = _values(
+        where, table, {"kind": toml_values.text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"'
+    )
     _required(
-        f'{where} of kind "{kind}"', values, ["path"] if measured else (name for name in readers if name not in _OPTIONAL.get(kind, ()))
+        f'{where} of kind "{kind}"',
+        values,
+        ["path"] if measured else (name for name in readers if name not in _OPTIONAL.get(kind, ())),
     )
     given = {name: v for name, v in values.items() if name in readers}
     with _Naming(where):
@@ -305,7 +383,11 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
     try:
         return Sampled.read(folder / path, **options)
     except OSError as problem:
-        why = "there is no such file" if isinstance(problem, FileNotFoundError) else f"{problem.strerror}"
+        why = (
+            "there is no such file"
+            if isinstance(problem, FileNotFoundError)
+            else f"{problem.strerror}"
+        )
         raise ValueError(
             f'path = "{toml_values.shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
         ) from None
@@ -322,7 +404,9 @@ def _bodies(top: dict[str, Any]) -> dict[str, Any]:
                 )
     if "body" not in top:
         if "pair" not in top:
-            raise ValueError("there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus")
+            raise ValueError(
+                "there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus"
+            )
         _required("[pair]", pair, ["modulus"])
     return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
 
@@ -330,7 +414,9 @@ def _bodies(top: dict[str, Any]) -> dict[str, Any]:
 def _body(name: str, value: Any) -> Body:
     if isinstance(value, str):
         if value != "rigid":
-            raise ValueError(f'{name} = "{value}" is not known: write {name} = "rigid", or a table [{name}] with young and poisson')
+            raise ValueError(
+                f'{name} = "{value}" is not known: write {name} = "rigid", or a table [{name}] with young and poisson'
+            )
         return RIGID
     values = _taken(name, value)
     if values.pop("rigid", False):
@@ -350,7 +436,9 @@ class _Naming:
 
     def __enter__(self) -> None: ...
 
-    def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, problem: BaseException | None, trace: object
+    ) -> None:
         if isinstance(problem, ValueError):
             raise ValueError(f"{self.where} {problem}") from None
 
@@ -362,7 +450,9 @@ def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
     """The names, if all of them can be asked for; ValueError, with the nearest that can, if not."""
     for name in names:
         if name not in WANTS:
-            raise ValueError(f'{where} "{name}" is not known: {toml_values.suggestion(name, WANTS)}')
+            raise ValueError(
+                f'{where} "{name}" is not known: {toml_values.suggestion(name, WANTS)}'
+            )
     return tuple(names)
 
 
@@ -370,16 +460,27 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
     """Where a stray key belongs: near a known one, in another table (a header was forgotten), or to another kind of profile."""
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
     if here == f"[{key}]" or (of_profile and key == "profile"):
-        return toml_values.suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
+        return toml_values.suggestion(
+            {"load": "normal_load", "profile": "kind"}.get(key, key), known
+        )
     if here:
-        elsewhere = dict.fromkeys(("title", "want"), "it stands at the top of the file, before the first [table]")
-        elsewhere |= {name: f"it is a table of its own, write the header [{name}] and its keys below it" for name in ("profile", *_TABLES)}
+        elsewhere = dict.fromkeys(
+            ("title", "want"), "it stands at the top of the file, before the first [table]"
+        )
+        elsewhere |= {
+            name: f"it is a table of its own, write the header [{name}] and its keys below it"
+            for name in ("profile", *_TABLES)
+        }
         elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
         if key in elsewhere:
             return elsewhere[key]
     if not toml_values.nearest(key, known):
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
-        kinds = [kind for kind, readers in _PARAMETERS.items() if key in readers or (kind == "sampled" and key in _FILE)]
+        kinds = [
+            kind
+            for kind, readers in _PARAMETERS.items()
+            if key in readers or (kind == "sampled" and key in _FILE)
+        ]
         if of_profile and kinds:
             return f"it belongs to kind {toml_values.choices(kinds)}"
         homes += ["[profile]"] if key == "kind" or kinds or key in _MODIFIERS else []

@@ -70,9 +70,14 @@ def _one_line(text: str) -> str:
 
 def _csv(grid: Grid, head: tuple[str, ...]) -> bytes:
     x, y = np.meshgrid(grid.x, grid.y)
-    columns = [v.ravel().tolist() for v in (x, y, *(getattr(grid.stress, name) for name in COMPONENTS))]
+    columns = [
+        v.ravel().tolist() for v in (x, y, *(getattr(grid.stress, name) for name in COMPONENTS))
+    ]
     lines = [*(f"# {line}" for line in head), ",".join(("x", "y", *COMPONENTS))]
-    return ("\n".join([*lines, *(",".join(map(repr, row)) for row in zip(*columns, strict=True))]) + "\n").encode()
+    return (
+        "\n".join([*lines, *(",".join(map(repr, row)) for row in zip(*columns, strict=True))])
+        + "\n"
+    ).encode()
 
 
 def _npz(grid: Grid, head: tuple[str, ...]) -> bytes:
@@ -89,7 +94,9 @@ def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
     extent = f"0 {grid.nx - 1} 0 {grid.ny - 1} 0 0"
     spacing = " ".join(repr(float(v[1] - v[0])) for v in (grid.x, grid.y))
     order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
-    about = re.sub("-(?=-|$)", "- ", "; ".join(head))  # a comment has no two hyphens in a row, and none at its end
+    about = re.sub(
+        "-(?=-|$)", "- ", "; ".join(head)
+    )  # a comment has no two hyphens in a row, and none at its end
     return f"""<?xml version="1.0"?>
 <!-- {about} -->
 <VTKFile type="ImageData" version="1.0" byte_order="{order}" header_type="UInt64">

@@ -13,24 +13,32 @@ LONGEST = 60  # letters of a value that are shown
 
 def number(where: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"{where} = {shown(value)} is not a number: write a plain number, without quotes or units")
+        raise ValueError(
+            f"{where} = {shown(value)} is not a number: write a plain number, without quotes or units"
+        )
     try:
         return float(value)
     except OverflowError:
-        raise ValueError(f"{where} = {shown(value)} is beyond the floating-point range: choose other units") from None
+        raise ValueError(
+            f"{where} = {shown(value)} is beyond the floating-point range: choose other units"
+        ) from None
 
 
 def text(where: str, value: Any) -> str:
     if not isinstance(value, str):
         raise ValueError(f'{where} = {shown(value)} is not text: put it in quotes, "..."')
     if not value.isprintable():
-        raise ValueError(f"{where} = {shown(value)} is not one line of plain text: leave out line ends and control characters")
+        raise ValueError(
+            f"{where} = {shown(value)} is not one line of plain text: leave out line ends and control characters"
+        )
     return value
 
 
 def flag(where: str, value: Any) -> bool:
     if not isinstance(value, bool):
-        raise ValueError(f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes")
+        raise ValueError(
+            f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes"
+        )
     return value
 
 
@@ -64,28 +72,42 @@ def number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
 
 def whole(where: str, value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"{where} = {shown(value)} is not a whole number: write one, without quotes")
+        raise ValueError(
+            f"{where} = {shown(value)} is not a whole number: write one, without quotes"
+        )
     return value
 
 
 def columns(where: str, value: Any) -> tuple[int | str, ...]:
     if len(listed(where, value)) != 2:
         raise ValueError(f"{where} = {shown(value)} is not a pair: give the columns of x and of h")
-    return tuple(v if isinstance(v, str) else whole(f"{where}[{k}]", v) for k, v in enumerate(value))
+    return tuple(
+        v if isinstance(v, str) else whole(f"{where}[{k}]", v) for k, v in enumerate(value)
+    )
 
 
 def table(where: str, value: Any) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
     if isinstance(value, list):
-        raise ValueError(f"[{where}] is a list: write the header [{where}] once, in single brackets")
-    raise ValueError(f"{where} = {shown(value)} is not a table: write the header [{where}] and its keys below it")
+        raise ValueError(
+            f"[{where}] is a list: write the header [{where}] once, in single brackets"
+        )
+    raise ValueError(
+        f"{where} = {shown(value)} is not a table: write the header [{where}] and its keys below it"
+    )
 
 
 def shown(value: Any) -> str:
     """A value as TOML writes it, shortened."""
     try:
-        text = {True: "true", False: "false"}[value] if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
+        text = (
+            {True: "true", False: "false"}[value]
+            if isinstance(value, bool)
+            else f'"{value}"'
+            if isinstance(value, str)
+            else str(value)
+        )
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))

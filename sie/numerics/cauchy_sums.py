@@ -33,7 +33,9 @@ Index = NDArray[np.int64]
 SEPARATED = 2.0  # |s| of a target on the line that a node's series serves
 SEPARATION = SEPARATED + float(np.sqrt(SEPARATED**2 - 1.0))  # the same as |ρ|
 TERMS = 30  # SEPARATION**-TERMS is a tenth of rounding
-SHORTEST = 64.0  # ulp: the half-length of a node whose rows are shorter than the doubles there can tell
+SHORTEST = (
+    64.0  # ulp: the half-length of a node whose rows are shorter than the doubles there can tell
+)
 LEAF = 4  # rows in a leaf
 CHUNK = 1 << 14  # targets taken at a time: what is held then fits into a cache
 
@@ -46,7 +48,9 @@ class KernelSums:
         self.rows = len(lo)
         spare = -self.rows % LEAF
         lo, length = (np.concatenate((a, np.repeat(a[-1:], spare))) for a in (lo, length))
-        offset, charge = (np.concatenate((a, np.zeros((spare, a.shape[1])))) for a in (offset, charge))
+        offset, charge = (
+            np.concatenate((a, np.zeros((spare, a.shape[1])))) for a in (offset, charge)
+        )
         start, end = lo[::LEAF], (lo + length)[LEAF - 1 :: LEAF]
         centre = 0.5 * (start + end)
         half = np.maximum(0.5 * (end - start), SHORTEST * np.spacing(np.abs(centre)))
@@ -63,7 +67,10 @@ class KernelSums:
             start, end = start[::2], end[1::2]
             above = 0.5 * (start + end)
             size = np.maximum(0.5 * (end - start), SHORTEST * np.spacing(np.abs(above)))
-            u = ((centre.reshape(-1, 2) - above[:, None])[..., None] + half.reshape(-1, 2, 1) * POINTS) / size[:, None, None]
+            u = (
+                (centre.reshape(-1, 2) - above[:, None])[..., None]
+                + half.reshape(-1, 2, 1) * POINTS
+            ) / size[:, None, None]
             A = _moments(u.reshape(len(start), -1), (A.T @ CHARGES).reshape(len(start), -1))
             centre, half = above, size
             self.levels.append((centre, half, A))
@@ -146,7 +153,9 @@ def add_pairs(total: Any, targets: Index, values: Any) -> None:
 
 def _gathered(targets: Index, values: Any, size: int) -> Any:
     if np.iscomplexobj(values):
-        return np.bincount(targets, values.real, size) + 1j * np.bincount(targets, values.imag, size)
+        return np.bincount(targets, values.real, size) + 1j * np.bincount(
+            targets, values.imag, size
+        )
     return np.bincount(targets, values, size)
 
 

@@ -87,7 +87,12 @@ class Interval(NamedTuple):
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
             if tail:
                 k = bisect_left(breaks, x)
-                nearest = min([self.x2 - self.x1, *(abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1])])
+                nearest = min(
+                    [
+                        self.x2 - self.x1,
+                        *(abs((x - b) + tail) for b in breaks[max(k - 1, 0) : k + 1]),
+                    ]
+                )
                 if abs(tail) > TAIL_MATTERS * nearest:
                     tails[i] = tail
         return Interval(float(self.x1), float(self.x2), float(tails[0]), float(tails[1]))

@@ -66,7 +66,9 @@ class Weight(NamedTuple):
     @property
     def real(self) -> Weight:
         """Its modulus on the real axis."""
-        return Weight(float(self.alpha.real), float(self.beta.real), self.kappa, float(self.tail.real))
+        return Weight(
+            float(self.alpha.real), float(self.beta.real), self.kappa, float(self.tail.real)
+        )
 
     @property
     def is_faint(self) -> bool:
@@ -106,7 +108,9 @@ class Weight(NamedTuple):
 def _sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
     nearest = round(a.real)
     near, sign = (a - nearest) + tail, 1.0 if nearest % 2 == 0 else -1.0
-    return sign * (cmath.sin(math.pi * near) if isinstance(near, complex) else math.sin(math.pi * near))
+    return sign * (
+        cmath.sin(math.pi * near) if isinstance(near, complex) else math.sin(math.pi * near)
+    )
 
 
 def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | None:
@@ -117,13 +121,21 @@ def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | No
     """
     ratio: Exponent = a / b
     if abs(ratio.imag) <= PHASE * abs(ratio):
-        ratio = ratio.real  # a and b of one phase; equal weights must be of equal type, as keys of caches
-    theta = -_arctangent(1.0 / ratio) / math.pi if abs(ratio) > 1.0 else _arctangent(ratio) / math.pi - 0.5
+        ratio = (
+            ratio.real
+        )  # a and b of one phase; equal weights must be of equal type, as keys of caches
+    theta = (
+        -_arctangent(1.0 / ratio) / math.pi
+        if abs(ratio) > 1.0
+        else _arctangent(ratio) / math.pi - 0.5
+    )
     alpha, beta = _end(theta, bounded[1]), _end(-theta, bounded[0])
     if alpha is None or beta is None:
         return None
     kappa = -round((alpha + beta).real)
-    return Weight(alpha, beta, kappa, 0.0 if kappa else theta - (alpha - round((alpha - theta).real)))
+    return Weight(
+        alpha, beta, kappa, 0.0 if kappa else theta - (alpha - round((alpha - theta).real))
+    )
 
 
 def _arctangent(ratio: Exponent) -> Exponent:
@@ -160,15 +172,28 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
         beta = total - alpha
     else:
         alpha = total - beta
-    a, square, k = np.empty(n + 1, dtype=kind), np.zeros(n + 1, dtype=kind), np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
+    a, square, k = (
+        np.empty(n + 1, dtype=kind),
+        np.zeros(n + 1, dtype=kind),
+        np.arange(1, n + 1, dtype=np.longdouble),
+    )  # k^4 is no int64
     tail = kind(weight.tail)
     a[0] = (beta - alpha) / (total + 2) - tail
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        ends = alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)  # the same, but that 1 + β cancels next to -1
+        ends = (
+            alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
+        )  # the same, but that 1 + β cancels next to -1
         square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
-        square[2:] = 4 * k * (k + alpha) * (k + beta) * (k + total) / ((2 * k + total) ** 2 * (2 * k + total + 1) * (2 * k + total - 1))
+        square[2:] = (
+            4
+            * k
+            * (k + alpha)
+            * (k + beta)
+            * (k + total)
+            / ((2 * k + total) ** 2 * (2 * k + total + 1) * (2 * k + total - 1))
+        )
     return Recurrence(a, np.sqrt(square), 1 / np.sqrt(kind(weight.total)))
 
 
@@ -210,7 +235,10 @@ def evaluate(weight: Weight, c: Array, s: Any) -> Any:
     r = recurrence(weight, n)
     high, higher = c[-1] + 0.0 * s, 0.0
     for k in range(n - 2, -1, -1):
-        high, higher = c[k] + (s - r.a[k]) / r.b[k + 1] * high - r.b[k + 1] / r.b[k + 2] * higher, high
+        high, higher = (
+            c[k] + (s - r.a[k]) / r.b[k + 1] * high - r.b[k + 1] / r.b[k + 2] * higher,
+            high,
+        )
     return r.first * high
 
 
@@ -280,8 +308,13 @@ def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
     """The four Chebyshev rules: zeros at equal angles, as sines so that they are symmetric where the weight is."""
     a, b = weight.alpha.real, weight.beta.real
     step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
-    from_left, from_middle = step * (np.arange(n) + (0.75 + 0.5 * b)), step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a))
-    ends = (2.0 * np.sin(0.5 * from_left) ** 2) ** (b + 0.5) * (2.0 * np.cos(0.5 * from_left) ** 2) ** (a + 0.5)
+    from_left, from_middle = (
+        step * (np.arange(n) + (0.75 + 0.5 * b)),
+        step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a)),
+    )
+    ends = (2.0 * np.sin(0.5 * from_left) ** 2) ** (b + 0.5) * (
+        2.0 * np.cos(0.5 * from_left) ** 2
+    ) ** (a + 0.5)
     return np.sin(from_middle), step * ends
 
 
@@ -311,7 +344,10 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
     A = (w[:, None] * polynomials(weight.real, n, s).T).astype(float)
     if not weight.is_real:
         at, w = _extended_gauss(weight, n)
-        real, own = (w * polynomials(weight.real, n, at)).astype(complex), polynomials(weight, n, at).astype(complex)
+        real, own = (
+            (w * polynomials(weight.real, n, at)).astype(complex),
+            polynomials(weight, n, at).astype(complex),
+        )
         A = A @ (real @ own.T)
     nodes = s.astype(float)
     nodes.flags.writeable = False
@@ -331,7 +367,9 @@ def second(weight: Weight, c: Array, s: Array) -> Array:
 def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Array:
     """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends, at distances from them, for a weight that is close to 1."""
     power, half = weight.alpha * np.log(right / left), _sin_pi(0.5 * weight.alpha)
-    return _faint(weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power))
+    return _faint(
+        weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power)
+    )
 
 
 def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
@@ -343,7 +381,12 @@ def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
     r = recurrence(weight, n)
     high, higher = 0.0 * z, 0.0 * z
     for k in range(n - 1, 0, -1):
-        high, higher = c[k] + z / r.b[k + 1] * high - (r.b[k + 1] / r.b[k + 2] * higher if k + 2 <= n else 0.0), high
+        high, higher = (
+            c[k]
+            + z / r.b[k + 1] * high
+            - (r.b[k + 1] / r.b[k + 2] * higher if k + 2 <= n else 0.0),
+            high,
+        )
     difference = -2.0 * weight.alpha * r.first / r.b[1] * high
     out: Array = (difference + excess * evaluate(weight, c, z)) / weight.sine
     return out

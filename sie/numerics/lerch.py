@@ -25,7 +25,11 @@ Array = NDArray[Any]
 
 SWITCH = 1.2
 POWERS = 32  # e^(-32 SWITCH) is rounding
-TERMS_REAL, TERMS_COMPLEX, TERMS_EULER = 24, 62, 40  # (SWITCH/2π)^n, (|SWITCH + iπ|/2π)^n, (SWITCH/π)^n are rounding
+TERMS_REAL, TERMS_COMPLEX, TERMS_EULER = (
+    24,
+    62,
+    40,
+)  # (SWITCH/2π)^n, (|SWITCH + iπ|/2π)^n, (SWITCH/π)^n are rounding
 
 
 @lru_cache(maxsize=64)
@@ -48,7 +52,11 @@ def _bernoulli(a: float) -> Array:
     c = np.zeros(len(n))
     c[1:] = -polynomials[1:] * (-1.0) ** n[1:] / n[1:]
     r = np.exp(-SWITCH)
-    c[0] = r**a * np.polynomial.polynomial.polyval(r, _powers(a, 1.0)) + np.log(SWITCH) - np.polynomial.polynomial.polyval(SWITCH, c)
+    c[0] = (
+        r**a * np.polynomial.polynomial.polyval(r, _powers(a, 1.0))
+        + np.log(SWITCH)
+        - np.polynomial.polynomial.polyval(SWITCH, c)
+    )
     return c
 
 
@@ -66,7 +74,9 @@ def _euler(a: float) -> Array:
     c = np.zeros(len(n) + 1)
     c[1:] = -np.convolve(inverse, exponential)[: len(n)] / (n + 1.0)
     r = np.exp(-SWITCH)
-    c[0] = r**a * np.polynomial.polynomial.polyval(r, _powers(a, -1.0)) - np.polynomial.polynomial.polyval(SWITCH, c)
+    c[0] = r**a * np.polynomial.polynomial.polyval(
+        r, _powers(a, -1.0)
+    ) - np.polynomial.polynomial.polyval(SWITCH, c)
     return c
 
 

@@ -55,7 +55,14 @@ TITLE_COLUMNS = 56
 BLUE, PALE_BLUE, VERMILLION, INK = "#0072B2", "#cfe4f0", "#D55E00", "#222222"
 INDENTER, HALF_PLANE = "#ececec", "#d4d4d4"
 DASHED, DOTTED = (0, (5, 2.5)), (0, (1, 2))
-ARROW = {"arrowstyle": "-|>", "color": BLUE, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 6}
+ARROW = {
+    "arrowstyle": "-|>",
+    "color": BLUE,
+    "linewidth": 0.9,
+    "shrinkA": 0,
+    "shrinkB": 0,
+    "mutation_scale": 6,
+}
 
 HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for the label
 LOOP_POINTS = 16  # from one turning point to the next; a power of two, so that steps to and fro meet the same loads
@@ -74,11 +81,21 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     """
     view = _View(solution, units)
     sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
-    rows = ["pressure", "gap", *(["shear"] if sheared else []), *(["loop"] if _has_loop(solution) else [])]
+    rows = [
+        "pressure",
+        "gap",
+        *(["shear"] if sheared else []),
+        *(["loop"] if _has_loop(solution) else []),
+    ]
     figure = Figure(figsize=(WIDTH, HEIGHT * len(rows) / 2.0), dpi=DPI, layout="constrained")
-    grid = figure.add_gridspec(len(rows), 1, height_ratios=[1.2 if name == "pressure" else 1.0 for name in rows])
+    grid = figure.add_gridspec(
+        len(rows), 1, height_ratios=[1.2 if name == "pressure" else 1.0 for name in rows]
+    )
     upper = figure.add_subplot(grid[0])
-    shared = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 3 if sheared else 2))]
+    shared = [
+        upper,
+        *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 3 if sheared else 2)),
+    ]
     lower = shared[-1]
     _draw_pressure(upper, view)
     _draw_gap(shared[1], view)
@@ -99,7 +116,9 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
         axes.tick_params(labelbottom=False)
     figure.align_ylabels()
     if title:
-        figure.suptitle(textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False)
+        figure.suptitle(
+            textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False
+        )
     return figure
 
 
@@ -111,7 +130,11 @@ def suffixes() -> tuple[str, ...]:
 def picture_bytes(figure: Figure, suffix: str) -> bytes:
     """The figure as a file of the given suffix, without the time of day, so that the same picture is the same file."""
     stream = io.BytesIO()
-    undated: dict[str, Any] = {"svg": {"Date": None}, "svgz": {"Date": None}, "pdf": {"CreationDate": None}}
+    undated: dict[str, Any] = {
+        "svg": {"Date": None},
+        "svgz": {"Date": None},
+        "pdf": {"CreationDate": None},
+    }
     # Type 42 fonts are what journals accept; the settings hold for this file only.
     with matplotlib.rc_context({"pdf.fonttype": 42, "ps.fonttype": 42, "svg.hashsalt": "sie"}):
         figure.savefig(stream, format=suffix, dpi=DPI, metadata=undated.get(suffix))
@@ -182,7 +205,15 @@ def _draw_pressure(axes: Axes, view: _View) -> None:
     p = np.minimum(view.solution.pressure(x), 4.0 * view.shown)
     top = HEADROOM * view.shown * scale
     axes.fill_between(x * view.factor, p * scale, color=PALE_BLUE, linewidth=0.0, zorder=2)
-    axes.plot(x * view.factor, p * scale, color=BLUE, linewidth=1.2, solid_joinstyle="round", zorder=3, label="pressure")
+    axes.plot(
+        x * view.factor,
+        p * scale,
+        color=BLUE,
+        linewidth=1.2,
+        solid_joinstyle="round",
+        zorder=3,
+        label="pressure",
+    )
     axes.set_ylim(0.0, top)
     axes.set_yticks(_ticks(top))
     axes.set_ylabel(f"$p$ ({stress})", fontproperties=_font())
@@ -196,15 +227,43 @@ def _draw_gap(axes: Axes, view: _View) -> None:
     top = 1.08 * view.highest * scale
     axes.axhspan(-GROUND * top, 0.0, color=HALF_PLANE, linewidth=0.0, zorder=0)
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=2)
-    axes.fill_between(view.x * view.factor, view.loaded * scale, 2.0 * top, color=INDENTER, linewidth=0.0, zorder=0)
+    axes.fill_between(
+        view.x * view.factor,
+        view.loaded * scale,
+        2.0 * top,
+        color=INDENTER,
+        linewidth=0.0,
+        zorder=0,
+    )
     before = "$h(x)$, unloaded" if view.solution.tilt == 0.0 else "$h(x)$ + tilt, unloaded"
-    _draw_surface(axes, view, view.unloaded * scale, color=INK, linewidth=0.8, linestyle=DASHED, zorder=4, label=before)
-    _draw_surface(axes, view, view.loaded * scale, color=VERMILLION, linewidth=1.3, zorder=3, label="under load")
+    _draw_surface(
+        axes,
+        view,
+        view.unloaded * scale,
+        color=INK,
+        linewidth=0.8,
+        linestyle=DASHED,
+        zorder=4,
+        label=before,
+    )
+    _draw_surface(
+        axes,
+        view,
+        view.loaded * scale,
+        color=VERMILLION,
+        linewidth=1.3,
+        zorder=3,
+        label="under load",
+    )
     axes.set_ylim(-GROUND * top, top)
     axes.set_yticks(_ticks(top))
     axes.set_ylabel(f"gap ({length})", fontproperties=_font())
     # Above the panel, where no curve can pass through it.
-    place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
+    place: dict[str, Any] = {
+        "loc": "lower center",
+        "bbox_to_anchor": (0.5, 1.0),
+        "borderaxespad": 0.1,
+    }
     axes.legend(**place, ncols=2, prop=_font(SMALL), frameon=False, handlelength=2.4)
     _name_bodies(axes, view)
 
@@ -219,16 +278,45 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     limit = np.minimum(f * solution.pressure(x), 4.0 * largest)
     q = np.clip(solution.shear(x), -4.0 * largest, 4.0 * largest)
     for k, (lo, hi) in enumerate(solution.stick):
-        axes.axvspan(lo * view.factor, hi * view.factor, color=PALE_BLUE, linewidth=0.0, zorder=0, label="" if k else "stick")
-    both = bool(q.min() < -1e-9 * largest)  # below an axis that ends under 0 the other limit would show two stubs
+        axes.axvspan(
+            lo * view.factor,
+            hi * view.factor,
+            color=PALE_BLUE,
+            linewidth=0.0,
+            zorder=0,
+            label="" if k else "stick",
+        )
+    both = bool(
+        q.min() < -1e-9 * largest
+    )  # below an axis that ends under 0 the other limit would show two stubs
     for sign, label in ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]:
-        axes.plot(x * view.factor, sign * limit * scale, color=INK, linewidth=0.8, linestyle=DASHED, zorder=2, label=label)
-    axes.plot(x * view.factor, q * scale, color=VERMILLION, linewidth=1.3, solid_joinstyle="round", zorder=3, label="$q$")
+        axes.plot(
+            x * view.factor,
+            sign * limit * scale,
+            color=INK,
+            linewidth=0.8,
+            linestyle=DASHED,
+            zorder=2,
+            label=label,
+        )
+    axes.plot(
+        x * view.factor,
+        q * scale,
+        color=VERMILLION,
+        linewidth=1.3,
+        solid_joinstyle="round",
+        zorder=3,
+        label="$q$",
+    )
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     top = HEADROOM * largest * scale
     axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
     axes.set_ylabel(f"$q$ ({stress})", fontproperties=_font())
-    place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
+    place: dict[str, Any] = {
+        "loc": "lower center",
+        "bbox_to_anchor": (0.5, 1.0),
+        "borderaxespad": 0.1,
+    }
     axes.legend(**place, ncols=3, prop=_font(SMALL), frameon=False, handlelength=2.0)
 
 
@@ -243,10 +331,17 @@ def _has_loop(solution: Solution) -> bool:
 def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
     assert isinstance(solution, Followed)
     history = solution.history
-    path = Path([(history.path.points[0][0], 0.0, 0.0), *history.path.points]).subdivided(LOOP_POINTS)
-    shift = np.array([point.shift for point in follow(history.scene, path, history.tol, history.economy)])
+    path = Path([(history.path.points[0][0], 0.0, 0.0), *history.path.points]).subdivided(
+        LOOP_POINTS
+    )
+    shift = np.array(
+        [point.shift for point in follow(history.scene, path, history.tol, history.economy)]
+    )
     Q = np.array(path.points)[:, 1]
-    (along, length), (up, force) = _scaled(float(np.abs(shift).max()) or 1.0, units.length), _scaled(float(np.abs(Q).max()), units.force)
+    (along, length), (up, force) = (
+        _scaled(float(np.abs(shift).max()) or 1.0, units.length),
+        _scaled(float(np.abs(Q).max()), units.force),
+    )
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
     axes.axvline(0.0, color=INK, linewidth=0.6, zorder=1)
     axes.plot(shift * along, Q * up, color=BLUE, linewidth=1.2, solid_joinstyle="round", zorder=3)
@@ -276,28 +371,64 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
     """Dots on the peak, or arrows where the panel cuts the pressure."""
     frame = axes.get_xaxis_transform()
     for x in view.cut:
-        axes.annotate("", (x * view.factor, 1.0), (x * view.factor, 0.87), xycoords=frame, arrowprops=ARROW)
+        axes.annotate(
+            "", (x * view.factor, 1.0), (x * view.factor, 0.87), xycoords=frame, arrowprops=ARROW
+        )
     if not view.cut:
         largest, where = peak(view.solution)
-        axes.plot(np.array(where) * view.factor, np.full(len(where), largest * scale), "o", color=BLUE, markersize=2.2, zorder=4)
+        axes.plot(
+            np.array(where) * view.factor,
+            np.full(len(where), largest * scale),
+            "o",
+            color=BLUE,
+            markersize=2.2,
+            zorder=4,
+        )
 
 
 def _label_peak(axes: Axes, view: _View) -> None:
     """The peak in words, in the headroom above it: towards the middle of the panel, and beside the arrow if there is one."""
     largest, where = peak(view.solution)
-    text = rf"$p_{{\max}}$ = {_quantity(largest, largest, view.units.stress)}" if math.isfinite(largest) else r"$p \to \infty$"
+    text = (
+        rf"$p_{{\max}}$ = {_quantity(largest, largest, view.units.stress)}"
+        if math.isfinite(largest)
+        else r"$p \to \infty$"
+    )
     place = (0.5 * (min(where) + max(where)) - view.left) / (view.right - view.left)
     beside = 0.03 if view.cut and len(where) == 1 else 0.0
-    side = "left" if place < (0.6 if beside else 0.35) else "right" if place > (0.6 if beside else 0.65) else "center"
+    side = (
+        "left"
+        if place < (0.6 if beside else 0.35)
+        else "right"
+        if place > (0.6 if beside else 0.65)
+        else "center"
+    )
     shift = {"left": beside, "right": -beside, "center": 0.0}[side]
-    axes.text(place + shift, 0.97, text, transform=axes.transAxes, ha=side, va="top", color=BLUE, fontproperties=_font(SMALL))
+    axes.text(
+        place + shift,
+        0.97,
+        text,
+        transform=axes.transAxes,
+        ha=side,
+        va="top",
+        color=BLUE,
+        fontproperties=_font(SMALL),
+    )
 
 
 def _label_edges(axes: Axes, view: _View) -> None:
     frame = axes.get_xaxis_transform()
     for name, edge in zip(("x_1", "x_2"), view.solution.edges, strict=True):
         text = f"${name}$ = {_quantity(edge, view.solution.half_width, view.units.length)}"
-        axes.text(edge * view.factor, 1.02, text, transform=frame, ha="center", va="bottom", fontproperties=_font(SMALL))
+        axes.text(
+            edge * view.factor,
+            1.02,
+            text,
+            transform=frame,
+            ha="center",
+            va="bottom",
+            fontproperties=_font(SMALL),
+        )
 
 
 def _name_bodies(axes: Axes, view: _View) -> None:
@@ -307,7 +438,17 @@ def _name_bodies(axes: Axes, view: _View) -> None:
     places = centre + view.solution.half_width * np.array([0.0, -0.6, 0.6])
     freest = places[int(np.argmin(np.interp(places, view.x, view.unloaded)))]
     for text, x, y in (("half-plane", centre, 0.5 * bottom), ("indenter", freest, 0.72 * top)):
-        axes.text(x * view.factor, y, text, ha="center", va="center", color=INK, style="italic", fontproperties=_font(SMALL), zorder=5)
+        axes.text(
+            x * view.factor,
+            y,
+            text,
+            ha="center",
+            va="center",
+            color=INK,
+            style="italic",
+            fontproperties=_font(SMALL),
+            zorder=5,
+        )
 
 
 # -- axes --------------------------------------------------------------------------------------------------------------
@@ -315,7 +456,9 @@ def _name_bodies(axes: Axes, view: _View) -> None:
 
 def _plain(axes: Axes) -> None:
     """Thin lines, none where nothing is read off."""
-    axes.tick_params(labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5, direction="out")
+    axes.tick_params(
+        labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5, direction="out"
+    )
     for name, spine in axes.spines.items():
         spine.set_visible(name in ("left", "bottom"))
         spine.set_linewidth(0.6)

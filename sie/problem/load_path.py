@@ -20,7 +20,9 @@ from sie.numerics.interval import EPS
 from .scene import Scene
 
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
-PROPORTIONAL = 1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+PROPORTIONAL = (
+    1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+)
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,9 @@ class Path:
             raise ValueError("the path has no points: give [(P, Q, σ), ...]")
         touching = next((k for k, (P, _, _) in enumerate(found) if P > 0.0), None)
         if touching is None:
-            raise ValueError("P = 0 at every point of the path: nothing ever touches; add a point with P > 0")
+            raise ValueError(
+                "P = 0 at every point of the path: nothing ever touches; add a point with P > 0"
+            )
         for k, (P, _, _) in enumerate(found):
             if P == 0.0 and k > touching:
                 raise ValueError(f"P of point {k} = 0 is not positive: {TOUCHING}")
@@ -57,12 +61,17 @@ class Path:
         Path([(10.0, 0.0, 0.0), (10.0, 1.0, 0.0), (10.0, 2.0, 0.0)])
         """
         if isinstance(parts, bool) or not isinstance(parts, Integral) or parts < 1:
-            raise ValueError(f"parts = {parts!r} is not a whole number of at least 1: give how many parts a step gets")
+            raise ValueError(
+                f"parts = {parts!r} is not a whole number of at least 1: give how many parts a step gets"
+            )
         shares = [k / int(parts) for k in range(1, int(parts))]
         points = [self.points[0]]
         for end in self.points[1:]:
             start = points[-1]
-            points += [tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)) for share in shares]
+            points += [
+                tuple(a + share * (b - a) for a, b in zip(start, end, strict=True))
+                for share in shares
+            ]
             points.append(end)
         return Path(points)
 
@@ -77,7 +86,10 @@ def _point(k: int, point: Any) -> tuple[float, float, float]:
         values = ()
     if len(values) not in (2, 3):
         raise ValueError(f"point {k} of the path is {point!r}: give (P, Q) or (P, Q, σ)")
-    P, Q, sigma = (arguments.finite(f"{name} of point {k}", v) for name, v in zip("PQσ", (*values, 0.0)[:3], strict=True))
+    P, Q, sigma = (
+        arguments.finite(f"{name} of point {k}", v)
+        for name, v in zip("PQσ", (*values, 0.0)[:3], strict=True)
+    )
     if P < 0.0 or (P == 0.0 and (Q != 0.0 or sigma != 0.0)):
         raise ValueError(f"P of point {k} = {P:g} is not positive: {TOUCHING}")
     return P, Q, sigma
@@ -110,13 +122,17 @@ def states(scene: Scene, path: Path) -> tuple[State, ...]:
     for k, loads in enumerate(path.points):
         P, Q, _ = loads
         if f == 0.0 and Q != 0.0:
-            raise ValueError(f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; give friction > 0")
+            raise ValueError(
+                f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; give friction > 0"
+            )
         try:
             refuse_sliding(f, P, Q)
             before = State((P, 0.0, 0.0), Ladder(_size(f, P, unit))) if k == 0 else state
             state = _stepped(scene, before, loads, unit)
         except ContactError as problem:
-            raise type(problem)(f"step {k} of the path, to (P, Q, σ) = {_shown(loads)}: {problem}", step=k) from None
+            raise type(problem)(
+                f"step {k} of the path, to (P, Q, σ) = {_shown(loads)}: {problem}", step=k
+            ) from None
         found.append(state)
     return tuple(found)
 
@@ -129,7 +145,9 @@ def _size(f: float, P: float, unit: tuple[float, float]) -> float:
     return f * P / abs(unit[0]) if unit[0] else math.inf
 
 
-def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], unit: tuple[float, float]) -> State:
+def _stepped(
+    scene: Scene, before: State, loads: tuple[float, float, float], unit: tuple[float, float]
+) -> State:
     (P0, Q0, sigma0), (P, Q, sigma), f = before.loads, loads, scene.friction
     if f == 0.0:
         return State(loads, Ladder(0.0))
@@ -149,7 +167,9 @@ def _stepped(scene: Scene, before: State, loads: tuple[float, float, float], uni
             "reach P before Q and σ and keep it constant, or leave σ out"
         )
     if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
-        raise ContactError("P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead")
+        raise ContactError(
+            "P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead"
+        )
     if P > P0:
         rise = f * (P - P0)
         k = (Q - Q0) / rise

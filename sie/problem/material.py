@@ -36,7 +36,9 @@ class Elastic:
         object.__setattr__(self, "young", arguments.positive("young", self.young))
         nu = arguments.finite("poisson", self.poisson)
         if not -1.0 < nu <= 0.5:
-            raise ValueError(f"poisson = {nu:g} is outside (-1, 0.5]: no stable isotropic solid has it; metals are near 0.3")
+            raise ValueError(
+                f"poisson = {nu:g} is outside (-1, 0.5]: no stable isotropic solid has it; metals are near 0.3"
+            )
         object.__setattr__(self, "poisson", nu)
         if self.plane not in ("strain", "stress"):
             raise ValueError(f"plane = {self.plane!r} is neither 'strain' nor 'stress'")

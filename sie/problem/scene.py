@@ -47,37 +47,49 @@ class Scene:
 
     def __post_init__(self) -> None:
         if not isinstance(self.profile, Profile):
-            raise ValueError(f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another")
+            raise ValueError(
+                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another"
+            )
         self._check_bodies()
         self._check_loads()
 
     def _check_bodies(self) -> None:
         if (self.body is None) == (self.modulus is None):
             what = "neither" if self.body is None else "both"
-            raise ValueError(f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*")
+            raise ValueError(
+                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*"
+            )
         if self.body is not None:
             if self.poisson is not None:
                 raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
             if self.dundurs is not None:
                 self._set("dundurs", arguments.finite("dundurs", self.dundurs))
                 if self.dundurs != 0.0:
-                    raise ValueError(f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β")
+                    raise ValueError(
+                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β"
+                    )
             if self.indenter is None:
                 self._set("indenter", self.body)
             for name in ("body", "indenter"):
                 if not isinstance(getattr(self, name), (Elastic, Rigid)):
-                    raise ValueError(f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID")
+                    raise ValueError(
+                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID"
+                    )
             if self.body == RIGID == self.indenter:
                 raise ValueError(
                     "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
                 )
             return
         if self.indenter is not None:
-            raise ValueError("indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out")
+            raise ValueError(
+                "indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out"
+            )
         self._set("modulus", arguments.positive("modulus", self.modulus))
         beta = coupling(arguments.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
         if abs(beta) > 0.5:
-            raise ValueError(f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it")
+            raise ValueError(
+                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it"
+            )
         self._set("dundurs", beta)
         if self.poisson is not None:
             self._set("poisson", Elastic(1.0, self.poisson).poisson)
@@ -85,21 +97,30 @@ class Scene:
     def _check_loads(self) -> None:
         if (self.normal_load is None) == (self.half_width is None):
             what = "neither" if self.normal_load is None else "both"
-            raise ValueError(f"{what} of normal_load and half_width given: give exactly one, the other follows")
+            raise ValueError(
+                f"{what} of normal_load and half_width given: give exactly one, the other follows"
+            )
         for name in ("normal_load", "half_width"):
             if getattr(self, name) is not None:
                 largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
                 self._set(name, arguments.positive(name, getattr(self, name), largest))
         self._set("tilt", arguments.measure("tilt", self.tilt))
         if self.moment is not None:
-            self._set("moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT))
+            self._set(
+                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
+            )
             if self.tilt != 0.0:
-                raise ValueError(f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows")
+                raise ValueError(
+                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows"
+                )
         if self.friction != math.inf:
             self._set("friction", arguments.not_negative("friction", self.friction))
             if self.friction:
                 arguments.positive("friction", self.friction)
-        self._set("tangential_load", arguments.measure("tangential_load", self.tangential_load, arguments.LARGEST_LOAD))
+        self._set(
+            "tangential_load",
+            arguments.measure("tangential_load", self.tangential_load, arguments.LARGEST_LOAD),
+        )
         self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
@@ -109,16 +130,22 @@ class Scene:
 
     def _check_sliding(self) -> None:
         if self.sliding not in (-1, 0, 1):
-            raise ValueError(f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0")
+            raise ValueError(
+                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0"
+            )
         self._set("sliding", int(self.sliding))
         if self.sliding and self.tangential_load:
             raise ValueError(
                 f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
             )
         if self.sliding and self.friction == math.inf:
-            raise ValueError(f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction")
+            raise ValueError(
+                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction"
+            )
         if self.sliding and self.friction == 0.0:
-            raise ValueError(f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0")
+            raise ValueError(
+                f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0"
+            )
 
     def _set(self, name: str, value: Any) -> None:
         object.__setattr__(self, name, value)
@@ -129,7 +156,11 @@ class Scene:
         if self.sliding or self.normal_load is None or self.tangential_load == 0.0 or self.bonded:
             return self.sliding
         limit = self.friction * self.normal_load
-        return int(math.copysign(1.0, self.tangential_load)) if abs(abs(self.tangential_load) - limit) <= 4.0 * EPS * limit else 0
+        return (
+            int(math.copysign(1.0, self.tangential_load))
+            if abs(abs(self.tangential_load) - limit) <= 4.0 * EPS * limit
+            else 0
+        )
 
     @property
     def bonded(self) -> bool:

@@ -215,10 +215,14 @@ class Derived(Profile):
     def pieces(self) -> Slope:
         parts, tilt = self._parts
         slopes = [
-            (part.profile.pieces if part.sign > 0.0 else part.profile.pieces.mirrored()).tilted(part.tilt).shifted(part.shift)
+            (part.profile.pieces if part.sign > 0.0 else part.profile.pieces.mirrored())
+            .tilted(part.tilt)
+            .shifted(part.shift)
             for part in parts
         ]
-        while len(slopes) > 1:  # in pairs: no break is merged more often than slopes can be halved in number
+        while (
+            len(slopes) > 1
+        ):  # in pairs: no break is merged more often than slopes can be halved in number
             pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
             slopes = pairs + slopes[2 * len(pairs) :]
         return slopes[0].tilted(tilt)
@@ -232,7 +236,13 @@ class Derived(Profile):
             if isinstance(node, Tilted):
                 total = total + node.tilt * at
             if isinstance(node, Derived):
-                at = at - node.dx if isinstance(node, Shifted) else -at if isinstance(node, Mirrored) else at
+                at = (
+                    at - node.dx
+                    if isinstance(node, Shifted)
+                    else -at
+                    if isinstance(node, Mirrored)
+                    else at
+                )
                 todo += [(operand, at) for operand in node.operands]
             else:
                 total = total + node.height(at)
@@ -371,7 +381,9 @@ class Sum(Derived):
         one, other = _reach(self.first), _reach(self.second)
         lo, hi = max(one[0], other[0]), min(one[1], other[1])
         if not lo < hi:
-            raise ValueError(f"profiles on {one} and {other} do not overlap: shift one of them before adding")
+            raise ValueError(
+                f"profiles on {one} and {other} do not overlap: shift one of them before adding"
+            )
         return lo, hi
 
     @cached_property

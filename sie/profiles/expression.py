@@ -25,7 +25,20 @@ Array = NDArray[np.float64]
 
 _ARGUMENTS = {
     1: (
-        *("sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "arcsinh", "arccosh", "arctanh"),
+        *(
+            "sin",
+            "cos",
+            "tan",
+            "arcsin",
+            "arccos",
+            "arctan",
+            "sinh",
+            "cosh",
+            "tanh",
+            "arcsinh",
+            "arccosh",
+            "arctanh",
+        ),
         *("exp", "expm1", "log", "log1p", "sqrt", "cbrt", "abs", "sign"),
     ),
     2: ("arctan2", "hypot", "minimum", "maximum", "heaviside"),
@@ -49,10 +62,14 @@ _MEANT = {
 }  # fmt: skip
 _STRANGE = re.compile(r"[^A-Za-z0-9_.,()<>=!+\-*/%\s]")
 # Also right after a digit, where Python's parser would warn before it refuses
-_KEYWORD = re.compile(r"(?<![A-Za-z_])(?:and|or|not|in|is|if|else|for|lambda|await|yield|from)(?![A-Za-z_0-9])")
+_KEYWORD = re.compile(
+    r"(?<![A-Za-z_])(?:and|or|not|in|is|if|else|for|lambda|await|yield|from)(?![A-Za-z_0-9])"
+)
 LONGEST = 10_000  # characters; a longer formula is a program's, which can give a function
 DEEPEST = 500  # levels of the syntax tree: Python's own limit depends on where it is called from
-LONGEST_NUMBER = re.compile(r"\d{401}")  # no double needs more digits, and Python's own limit speaks of something else
+LONGEST_NUMBER = re.compile(
+    r"\d{401}"
+)  # no double needs more digits, and Python's own limit speaks of something else
 
 _SIMPLER = "use fewer terms and brackets, or give a Python function"
 
@@ -81,7 +98,11 @@ class Expression:
     def _program(self) -> tuple[_Step, ...]:
         text = self.text.strip()
         if len(text) > LONGEST or LONGEST_NUMBER.search(text):
-            size = f"{len(text)} characters, more than {LONGEST}" if len(text) > LONGEST else "a number of more than 400 digits"
+            size = (
+                f"{len(text)} characters, more than {LONGEST}"
+                if len(text) > LONGEST
+                else "a number of more than 400 digits"
+            )
             raise self._refusal(f"has {size}: shorten it, or give a Python function")
         for pattern in (_STRANGE, _KEYWORD):
             stray = pattern.search(text)
@@ -107,7 +128,11 @@ class Expression:
 
     def _step(self, node: ast.AST) -> tuple[_Step, list[Any]]:
         """What a node does, and the nodes of its operands."""
-        if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool):
+        if (
+            isinstance(node, ast.Constant)
+            and isinstance(node.value, (int, float))
+            and not isinstance(node.value, bool)
+        ):
             return _Step(0, partial(np.float64, _float(node.value))), []
         if isinstance(node, ast.Name):
             return self._named(node.id), []
@@ -116,7 +141,10 @@ class Expression:
         if isinstance(node, ast.Compare):
             operators = [_OPERATORS[type(op)] for op in node.ops if type(op) in _OPERATORS]
             if len(operators) == len(node.ops):
-                return _Step(len(operators) + 1, partial(_compared, operators)), [node.left, *node.comparators]
+                return _Step(len(operators) + 1, partial(_compared, operators)), [
+                    node.left,
+                    *node.comparators,
+                ]
         if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
             return _Step(2, _OPERATORS[type(node.op)]), [node.left, node.right]
         if isinstance(node, ast.UnaryOp) and type(node.op) in _OPERATORS:
@@ -127,7 +155,9 @@ class Expression:
         if name == "x":
             return _Step(0, None)
         if name in _ARITY:
-            raise self._refusal(f"has the function {name} without arguments: write {name}({', '.join('x' * _ARITY[name])})")
+            raise self._refusal(
+                f"has the function {name} without arguments: write {name}({', '.join('x' * _ARITY[name])})"
+            )
         if name not in _CONSTANTS:
             raise self._refusal(f"uses {name!r}: {_advice(name)}")
         return _Step(0, partial(np.float64, _CONSTANTS[name]))
@@ -135,12 +165,16 @@ class Expression:
     def _called(self, node: ast.Call) -> _Step:
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if name == "x" or name in _CONSTANTS or not name:
-            raise self._refusal(f"calls {name or 'what is not a name'} like a function: write * for a product")
+            raise self._refusal(
+                f"calls {name or 'what is not a name'} like a function: write * for a product"
+            )
         if name not in _ARITY:
             raise self._refusal(f"uses {name!r}: {_advice(name)}")
         if len(node.args) != _ARITY[name] or node.keywords:
             given = len(node.args) + len(node.keywords)
-            raise self._refusal(f"calls {name} with {given} arguments: it takes {_ARITY[name]}, without names")
+            raise self._refusal(
+                f"calls {name} with {given} arguments: it takes {_ARITY[name]}, without names"
+            )
         return _Step(_ARITY[name], getattr(np, name))
 
     def _refusal(self, problem: str) -> ValueError:
@@ -149,7 +183,9 @@ class Expression:
 
     def __call__(self, x: Array) -> Array:
         stack: list[Any] = []
-        with np.errstate(all="ignore"):  # what is not finite is refused by who asked, with the place
+        with np.errstate(
+            all="ignore"
+        ):  # what is not finite is refused by who asked, with the place
             for operands, function in self._program:
                 values = [stack.pop() for _ in range(operands)][::-1]
                 stack.append(x if function is None else function(*values))
@@ -184,5 +220,7 @@ def _written(node: ast.AST) -> str:
 
 def _advice(name: str) -> str:
     """What to write in place of a name or sign that is not known."""
-    meant = _MEANT.get(name) or (nearest(name, NAMES) if name.isidentifier() and not keyword.iskeyword(name) else "")
+    meant = _MEANT.get(name) or (
+        nearest(name, NAMES) if name.isidentifier() and not keyword.iskeyword(name) else ""
+    )
     return f"did you mean {meant}?" if meant else f"a formula has {_ALLOWED} and {', '.join(NAMES)}"

@@ -143,8 +143,13 @@ class RoundedFlatFit:
         return float(np.abs(self.residuals).max())
 
     def __repr__(self) -> str:
-        numbers = ", ".join(f"{name}={getattr(self, name):.6g}" for name in ("half_flat", "radius", "centre", "tilt", "offset"))
-        return f"RoundedFlatFit({numbers}; residuals {self.rms:.2g} rms, {self.largest:.2g} at most)"
+        numbers = ", ".join(
+            f"{name}={getattr(self, name):.6g}"
+            for name in ("half_flat", "radius", "centre", "tilt", "offset")
+        )
+        return (
+            f"RoundedFlatFit({numbers}; residuals {self.rms:.2g} rms, {self.largest:.2g} at most)"
+        )
 
 
 def line(x: Array, h: Array) -> tuple[float, float]:
@@ -163,9 +168,15 @@ def reason_at_an_end(x: Array, h: Array) -> str:
     if _arched(x, left):
         return "the trace arches upwards: heights of a surface have the other sign, scale = (1, -1) turns them over"
     if int(np.argmin(h)) in (0, len(h) - 1):
-        return "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
+        return (
+            "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
+        )
     bumps = np.count_nonzero((h[1:-1] < h[:-2]) & (h[1:-1] <= h[2:]))
-    return "the trace has several bumps and touches in several patches, which are not covered yet" if bumps > 1 else ""
+    return (
+        "the trace has several bumps and touches in several patches, which are not covered yet"
+        if bumps > 1
+        else ""
+    )
 
 
 def _arched(x: Array, left: Array) -> bool:
@@ -185,11 +196,19 @@ def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
     s, y = (x - m) / r, (h - h.mean()) / scale
 
     def model(s0: float, a: float) -> Array:
-        return np.stack((np.ones_like(s), s, 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2), axis=1)
+        return np.stack(
+            (np.ones_like(s), s, 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2), axis=1
+        )
 
     start = _scanned(s, y)
     linear = np.linalg.lstsq(model(*start), y, rcond=None)[0]
-    found = least_squares(lambda v: model(v[0], v[1]) @ v[2:] - y, [*start, *linear], xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    found = least_squares(
+        lambda v: model(v[0], v[1]) @ v[2:] - y,
+        [*start, *linear],
+        xtol=1e-14,
+        ftol=1e-14,
+        gtol=1e-14,
+    )
     s0, a, c, t, curvature = found.x.tolist()
     a = abs(a)
     rises = np.abs(s - s0) > a

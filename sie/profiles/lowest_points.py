@@ -31,12 +31,18 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     x, H, piece = _samples(slope, ends)
     sign = np.sign(H)
     if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
-        raise LoadError("the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt")
+        raise LoadError(
+            "the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt"
+        )
     if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
-        raise LoadError("the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt")
+        raise LoadError(
+            "the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt"
+        )
     for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
         if sign[end] == 0 and not np.isfinite(outer):
-            raise LoadError(f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises")
+            raise LoadError(
+                f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises"
+            )
     candidates = _candidates(slope, ends, x, H, piece)
     if len(candidates) == 1:
         z1, z2 = candidates[0]
@@ -74,7 +80,9 @@ def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]
     return (ends[:, :1] + offset).ravel(), H.ravel(), np.repeat(k, len(s))
 
 
-def _candidates(slope: Slope, ends: Array, x: Array, H: Array, piece: NDArray[np.int64]) -> list[tuple[float, float]]:
+def _candidates(
+    slope: Slope, ends: Array, x: Array, H: Array, piece: NDArray[np.int64]
+) -> list[tuple[float, float]]:
     sign = np.sign(H)
     found: list[tuple[float, float]] = []
     moving = np.flatnonzero(sign)
@@ -89,11 +97,18 @@ def _candidates(slope: Slope, ends: Array, x: Array, H: Array, piece: NDArray[np
     for i, j in zip(moving[turn].tolist(), moving[turn + 1].tolist(), strict=True):
         found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
     if sign[moving[-1]] < 0:
-        found.append((_root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]), float(ends[-1, 1])))
+        found.append(
+            (
+                _root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]),
+                float(ends[-1, 1]),
+            )
+        )
     return found
 
 
-def _change(slope: Slope, ends: Array, before: tuple[float, int], after: tuple[float, int]) -> tuple[float, float]:
+def _change(
+    slope: Slope, ends: Array, before: tuple[float, int], after: tuple[float, int]
+) -> tuple[float, float]:
     """Where H stops being negative and starts being positive, between two points (x, piece) with H < 0 < H and no other sign between."""
     (x, i), (y, j) = before, after
     if i == j:
@@ -172,6 +187,8 @@ def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
         end = np.clip(x, a, b)
         beyond = k >= j if right else k <= j
         length = np.where(beyond, end - start, 0.0)
-        H = pieces.local(np.full(len(x), j), np.full(len(x), start), np.zeros(len(x)), length[:, None] * g)
+        H = pieces.local(
+            np.full(len(x), j), np.full(len(x), start), np.zeros(len(x)), length[:, None] * g
+        )
         out += length * (H @ w)
     return out

@@ -35,7 +35,10 @@ FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
-PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
+PATIENCE, HALVINGS = (
+    3,
+    8,
+)  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
 
 
 class Tolerance(NamedTuple):
@@ -48,14 +51,18 @@ class Tolerance(NamedTuple):
 
     def of(self, pieces: Array, values: Array, scale: float) -> Array:
         """For each piece (K, 2) with these values (K, n), where the largest of all is `scale`."""
-        enough = np.full(len(pieces), max(self.relative * scale, min(self.absolute, ROUGHEST * scale)))
+        enough = np.full(
+            len(pieces), max(self.relative * scale, min(self.absolute, ROUGHEST * scale))
+        )
         touches = np.isin(pieces, self.breaks).any(axis=1)
         finer = np.maximum(FINER * self.relative * scale, 4.0 * EPS * np.abs(values).max(axis=1))
         enough[touches] = np.minimum(enough, finer)[touches]
         return enough
 
 
-def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
+def resolved(
+    function: Callable[[Array], Array], breaks: Array, tol: float
+) -> tuple[Array, NDArray[np.int64]]:
     """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
 
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
@@ -83,7 +90,9 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
         level += 1
         open_ = _split(open_, tolerance.breaks if level > PATIENCE else breaks[:0])
     done.sort()
-    return np.array([p[0] for p in done] + [done[-1][1]]), np.array([p[2] for p in done], dtype=np.int64)
+    return np.array([p[0] for p in done] + [done[-1][1]]), np.array(
+        [p[2] for p in done], dtype=np.int64
+    )
 
 
 def _split(pieces: Array, graded_towards: Array) -> Array:
@@ -119,7 +128,10 @@ def _degrees(
     c = chebyshev.transform(values[:, :n])
     enough = tolerance.of(pieces, values, scale)
     # a few ulp of x move the value by rounding: no series can do better
-    floor = np.maximum(enough, EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)))
+    floor = np.maximum(
+        enough,
+        EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)),
+    )
     missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
     settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
     ulp = np.spacing(np.abs(pieces).max(axis=1))
@@ -144,7 +156,9 @@ def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> 
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
     refuse_non_finite(middle[:, None] + 0.0 * s, values)
     left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
-    return sorted(np.abs(left).max(axis=1).tolist())[len(PROBES) // 2]  # np.median imports numpy.ma, which takes longer than a solve
+    return sorted(np.abs(left).max(axis=1).tolist())[
+        len(PROBES) // 2
+    ]  # np.median imports numpy.ma, which takes longer than a solve
 
 
 def refuse_non_finite(x: Array, values: Array) -> None:
@@ -161,8 +175,16 @@ def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
     breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol)
-    k = np.clip(np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1)
-    return Slope(breaks, slope.origins[k], slope.coefficients[k], np.maximum(degrees, slope.degrees[k]), slope.functions)
+    k = np.clip(
+        np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
+    )
+    return Slope(
+        breaks,
+        slope.origins[k],
+        slope.coefficients[k],
+        np.maximum(degrees, slope.degrees[k]),
+        slope.functions,
+    )
 
 
 def integral(slope: Slope, start: float, x: Array) -> Array:
@@ -185,12 +207,16 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
     k = np.arange(len(pieces.degrees))
     lo, length = pieces.breaks[:-1], np.diff(pieces.breaks)
     n = int(pieces.degrees.max()) + 1
-    c = chebyshev.transform(pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n))))
+    c = chebyshev.transform(
+        pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n)))
+    )
     primitive = chebyshev.antiderivative(c) * (0.5 * length)[:, None]
     at = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
     at -= at[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
     s = np.clip((flat - lo[j]) / (0.5 * length[j]) - 1.0, -1.0, 1.0)
-    values = at[j] + np.array([chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)])
+    values = at[j] + np.array(
+        [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
+    )
     return values.reshape(x.shape)

@@ -18,7 +18,13 @@ from sie.errors import ContactError
 from . import fitting
 from .base import Derived, Placed, Profile, of_any_x
 from .slope import Slope
-from .splines import cross_validated, explains, interpolating_spline, longest_lambda, smoothing_spline
+from .splines import (
+    cross_validated,
+    explains,
+    interpolating_spline,
+    longest_lambda,
+    smoothing_spline,
+)
 from .trace_files import Column, is_text, read_columns, read_topography
 
 Array = NDArray[np.float64]
@@ -71,7 +77,9 @@ class Sampled(Profile):
     mended: Mended
     source: str
 
-    def __init__(self, x: ArrayLike, h: ArrayLike, smoothing: Smoothing = 0.0, mend: bool = False) -> None:
+    def __init__(
+        self, x: ArrayLike, h: ArrayLike, smoothing: Smoothing = 0.0, mend: bool = False
+    ) -> None:
         points, heights, mended = _trace(x, h, mend)
         for array in (points, heights):
             array.flags.writeable = False
@@ -104,7 +112,9 @@ class Sampled(Profile):
         factors = _factors(scale)
         if is_text(path):
             if len(tuple(columns)) != 2:
-                raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
+                raise ValueError(
+                    f"columns = {columns!r} is not a pair: give the columns of x and of h"
+                )
             if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
                 raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
             x, h = read_columns(path, tuple(columns), int(skip), keep_missing=mend)
@@ -113,7 +123,9 @@ class Sampled(Profile):
         with np.errstate(over="ignore"):
             scaled = factors[0] * x, factors[1] * h
         if (np.isinf(scaled) & np.isfinite((x, h))).any():
-            raise ValueError(f"scale = {scale!r} takes the trace beyond the range of doubles: {arguments.REMEDY}")
+            raise ValueError(
+                f"scale = {scale!r} takes the trace beyond the range of doubles: {arguments.REMEDY}"
+            )
         made = cls(*scaled, smoothing, mend)
         given = {
             "columns": (columns, (0, 1)),
@@ -122,7 +134,9 @@ class Sampled(Profile):
             "smoothing": (smoothing, 0.0),
             "mend": (mend, False),
         }
-        options = "".join(f", {name}={value!r}" for name, (value, default) in given.items() if value != default)
+        options = "".join(
+            f", {name}={value!r}" for name, (value, default) in given.items() if value != default
+        )
         object.__setattr__(made, "source", f"Sampled.read({str(path)!r}{options})")
         return made
 
@@ -140,7 +154,9 @@ class Sampled(Profile):
         if not isinstance(other, Sampled):
             return NotImplemented
         same = self.smoothing == other.smoothing and len(self.points) == len(other.points)
-        return same and bool((self.points == other.points).all() and (self.heights == other.heights).all())
+        return same and bool(
+            (self.points == other.points).all() and (self.heights == other.heights).all()
+        )
 
     def __hash__(self) -> int:
         return hash((self.points.tobytes(), (self.heights + 0.0).tobytes(), self.smoothing))
@@ -150,12 +166,20 @@ class Sampled(Profile):
     @cached_property
     def lam(self) -> float:
         """λ of the smoothing spline in use; 0 where the spline interpolates."""
-        return cross_validated(self.points, self.heights) if self.smoothing == "gcv" else float(self.smoothing)
+        return (
+            cross_validated(self.points, self.heights)
+            if self.smoothing == "gcv"
+            else float(self.smoothing)
+        )
 
     @cached_property
     def _spline(self) -> tuple[Array, Array]:
         """(breaks, coefficients of h about the left end of each piece, low order first)."""
-        return smoothing_spline(self.points, self.heights, self.lam) if self.lam else interpolating_spline(self.points, self.heights)
+        return (
+            smoothing_spline(self.points, self.heights, self.lam)
+            if self.lam
+            else interpolating_spline(self.points, self.heights)
+        )
 
     @cached_property
     def pieces(self) -> Slope:
@@ -204,7 +228,9 @@ class Sampled(Profile):
         Where its own smoothing is stronger, and the misfit between two x agrees with it: by that.
         """
         clean = self if self.smoothing == "gcv" and not self.outliers else self._cleaned
-        as_good = self.lam > clean.lam and explains(clean.points, clean.heights, self.lam, clean.lam, between)
+        as_good = self.lam > clean.lam and explains(
+            clean.points, clean.heights, self.lam, clean.lam, between
+        )
         return clean.smoothed(self.lam) if as_good else clean
 
     @property
@@ -220,10 +246,14 @@ class Sampled(Profile):
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less the least-squares line through it, or through its part between two x (a flat base, or what is beside a pad)."""
-        lo, hi = (-INF, INF) if between is None else (arguments.real("between", end) for end in between)
+        lo, hi = (
+            (-INF, INF) if between is None else (arguments.real("between", end) for end in between)
+        )
         part = (self.points >= lo) & (self.points <= hi)
         if np.count_nonzero(part) < 2:
-            raise ValueError(f"between = ({lo:g}, {hi:g}) holds {np.count_nonzero(part)} points of the trace: a line needs at least 2")
+            raise ValueError(
+                f"between = ({lo:g}, {hi:g}) holds {np.count_nonzero(part)} points of the trace: a line needs at least 2"
+            )
         offset, slope = fitting.line(self.points[part], self.heights[part])
         return self._remade(self.heights - (offset + slope * self.points), self.smoothing)
 
@@ -279,7 +309,9 @@ def explained(error: ContactError, profile: Profile) -> ContactError:
 def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array, Mended]:
     points, heights = (_numbers(name, values) for name, values in (("x", x), ("h", h)))
     if len(points) != len(heights):
-        raise ValueError(f"{len(points)} values of x and {len(heights)} of h: give a height for each point")
+        raise ValueError(
+            f"{len(points)} values of x and {len(heights)} of h: give a height for each point"
+        )
     missing = ~(np.isfinite(points) & np.isfinite(heights))
     mended = Mended()
     if missing.any():
@@ -296,13 +328,19 @@ def _trace(x: ArrayLike, h: ArrayLike, mend: bool) -> tuple[Array, Array, Mended
     wrong = np.flatnonzero(np.diff(points) <= 0.0)
     if wrong.size:
         k = int(wrong[0])
-        what = "is given twice" if points[k] == points[k + 1] else f"is followed by {points[k + 1]:.9g}"
+        what = (
+            "is given twice"
+            if points[k] == points[k + 1]
+            else f"is followed by {points[k + 1]:.9g}"
+        )
         raise ValueError(
             f"x does not ascend at {len(wrong)} places, the first x[{k}] = {points[k]:.9g} {what}: "
             "mend = True sorts x and averages the heights of equal x"
         )
     if len(points) < FEWEST:
-        raise ValueError(f"{len(points)} points are no trace: a cubic spline needs at least {FEWEST}")
+        raise ValueError(
+            f"{len(points)} points are no trace: a cubic spline needs at least {FEWEST}"
+        )
     _refuse_out_of_range(points, heights)
     return points, heights, mended
 
@@ -324,7 +362,9 @@ def _refuse_out_of_range(points: Array, heights: Array) -> None:
     least = float(np.diff(points).min())
     if size > LONGEST or length < SHORTEST:
         what = f"reaches {size:.3g}" if size > LONGEST else f"is {2.0 * length:.3g} long"
-        raise ValueError(f"the trace {what}: choose a unit in which its length and its heights are between {SHORTEST:g} and {LONGEST:g}")
+        raise ValueError(
+            f"the trace {what}: choose a unit in which its length and its heights are between {SHORTEST:g} and {LONGEST:g}"
+        )
     if least < SMALLEST_STEP * length:
         k = int(np.argmin(np.diff(points)))
         raise ValueError(
@@ -350,18 +390,26 @@ def _smoothing(smoothing: Any, points: Array) -> Smoothing:
     if smoothing == "gcv":
         return "gcv"
     if isinstance(smoothing, str):
-        raise ValueError(f'smoothing = {smoothing!r} is not known: give 0, a number λ > 0, or "gcv"')
+        raise ValueError(
+            f'smoothing = {smoothing!r} is not known: give 0, a number λ > 0, or "gcv"'
+        )
     lam = arguments.not_negative("smoothing", smoothing)
     if lam > longest_lambda(points):
-        raise ValueError(f"smoothing = {lam:g} leaves a straight line of the trace: give less than {longest_lambda(points):.3g}")
+        raise ValueError(
+            f"smoothing = {lam:g} leaves a straight line of the trace: give less than {longest_lambda(points):.3g}"
+        )
     return lam
 
 
 def _factors(scale: Any) -> Sequence[float]:
     factors = tuple(scale) if isinstance(scale, (tuple, list)) else (scale, scale)
     if len(factors) != 2:
-        raise ValueError(f"scale = {scale!r} is not a factor or a pair: give one for x and one for h")
+        raise ValueError(
+            f"scale = {scale!r} is not a factor or a pair: give one for x and one for h"
+        )
     factors = tuple(arguments.finite("scale", f) for f in factors)
     if factors[0] <= 0.0 or factors[1] == 0.0:
-        raise ValueError(f"scale = {scale!r}: the factor of x must be positive and that of h not zero")
+        raise ValueError(
+            f"scale = {scale!r}: the factor of x must be positive and that of h not zero"
+        )
     return factors

@@ -83,7 +83,9 @@ class RoundedFlat(_Convex):
     @cached_property
     def pieces(self) -> Slope:
         a, curvature = self.half_flat, 1.0 / self.radius
-        return polynomial_slope((-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature)))
+        return polynomial_slope(
+            (-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature))
+        )
 
     @of_any_x
     def height(self, x: ArrayLike) -> Array:
@@ -141,9 +143,15 @@ class Power(_Convex):
     def __post_init__(self) -> None:
         m = arguments.finite("exponent", self.exponent)
         if m < 1.0:
-            raise ValueError(f"exponent = {m:g} is below 1: the profile would not be convex; give exponent >= 1")
+            raise ValueError(
+                f"exponent = {m:g} is below 1: the profile would not be convex; give exponent >= 1"
+            )
         object.__setattr__(self, "exponent", m)
-        object.__setattr__(self, "coefficient", arguments.positive("coefficient", self.coefficient, arguments.LARGEST_COEFFICIENT))
+        object.__setattr__(
+            self,
+            "coefficient",
+            arguments.positive("coefficient", self.coefficient, arguments.LARGEST_COEFFICIENT),
+        )
 
     @cached_property
     def pieces(self) -> Slope:
@@ -167,7 +175,9 @@ class Power(_Convex):
 
 def _refuse_high_degree(name: str, coefficients: Sequence[float], highest: int) -> None:
     if len(coefficients) > highest + 1:
-        raise ValueError(f"the degree of {name} is {len(coefficients) - 1}, more than {highest}: give the slope as a function")
+        raise ValueError(
+            f"the degree of {name} is {len(coefficients) - 1}, more than {highest}: give the slope as a function"
+        )
 
 
 def _with_digits(coefficient: float) -> float:
@@ -182,19 +192,31 @@ class Polynomial(Profile):
     coefficients: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        c = tuple(arguments.measure(f"coefficients[{k}]", v, arguments.LARGEST_COEFFICIENT) for k, v in enumerate(self.coefficients))
+        c = tuple(
+            arguments.measure(f"coefficients[{k}]", v, arguments.LARGEST_COEFFICIENT)
+            for k, v in enumerate(self.coefficients)
+        )
         _refuse_high_degree("coefficients", c, HIGHEST_DEGREE)
         if not any(map(_with_digits, c[2:])):
-            raise ValueError(f"coefficients = {c} describe a straight line: contact needs a curved profile, give a term of order 2 or more")
+            raise ValueError(
+                f"coefficients = {c} describe a straight line: contact needs a curved profile, give a term of order 2 or more"
+            )
         object.__setattr__(self, "coefficients", c)
 
     @cached_property
     def pieces(self) -> Slope:
-        return polynomial_slope((-INF, INF), (0.0,), ([k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:],))
+        return polynomial_slope(
+            (-INF, INF),
+            (0.0,),
+            ([k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:],),
+        )
 
     @of_any_x
     def height(self, x: ArrayLike) -> Array:
-        return np.asarray(np.polynomial.polynomial.polyval(arguments.reals("x", x), self.coefficients), dtype=float)
+        return np.asarray(
+            np.polynomial.polynomial.polyval(arguments.reals("x", x), self.coefficients),
+            dtype=float,
+        )
 
     @property
     def axis(self) -> float | None:
@@ -218,7 +240,10 @@ class Piecewise(Profile):
 
     def __init__(self, breaks: Sequence[float], pieces: Sequence[Sequence[float]]) -> None:
         rows = tuple(
-            tuple(arguments.measure(f"pieces[{k}][{j}]", c, arguments.LARGEST_COEFFICIENT) for j, c in enumerate(row))
+            tuple(
+                arguments.measure(f"pieces[{k}][{j}]", c, arguments.LARGEST_COEFFICIENT)
+                for j, c in enumerate(row)
+            )
             for k, row in enumerate(pieces)
         )
         ends = tuple(arguments.real(f"breaks[{k}]", b) for k, b in enumerate(breaks))
@@ -233,13 +258,17 @@ class Piecewise(Profile):
                 arguments.measure(f"breaks[{k}]", end)
         for left, right in pairwise(ends):
             if not left < right:
-                raise ValueError(f"breaks {left:g}, {right:g} do not ascend: sort them and drop duplicates")
+                raise ValueError(
+                    f"breaks {left:g}, {right:g} do not ascend: sort them and drop duplicates"
+                )
         if any(np.isinf(b) for b in ends[1:-1]):
             raise ValueError("an inner break is infinite: only the first and the last may be")
         for k, row in enumerate(rows):
             _refuse_high_degree(f"pieces[{k}]", row, HIGHEST_OF_PIECE)
             if not row:
-                raise ValueError(f"pieces[{k}] is empty: give its one coefficient 0 for a flat piece")
+                raise ValueError(
+                    f"pieces[{k}] is empty: give its one coefficient 0 for a flat piece"
+                )
         object.__setattr__(self, "ends", ends)
         object.__setattr__(self, "coefficients", rows)
 
@@ -249,7 +278,10 @@ class Piecewise(Profile):
     @cached_property
     def pieces(self) -> Slope:
         given = [tuple(map(_with_digits, row)) for row in self.coefficients]
-        rows = [_well_placed(row, lo, hi) for row, lo, hi in zip(given, self.ends[:-1], self.ends[1:], strict=True)]
+        rows = [
+            _well_placed(row, lo, hi)
+            for row, lo, hi in zip(given, self.ends[:-1], self.ends[1:], strict=True)
+        ]
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
     @of_any_x
@@ -261,7 +293,9 @@ class Piecewise(Profile):
         for row, left, right in zip(self.coefficients, self.ends[:-1], self.ends[1:], strict=True):
             integral = np.polynomial.polynomial.polyint(row)
             a, b = np.clip(lo, left, right), np.clip(hi, left, right)
-            h += np.polynomial.polynomial.polyval(b, integral) - np.polynomial.polynomial.polyval(a, integral)
+            h += np.polynomial.polynomial.polyval(b, integral) - np.polynomial.polynomial.polyval(
+                a, integral
+            )
         h = np.where(x < zero, -h, h)
         return np.where((x < self.ends[0]) | (x > self.ends[-1]), INF, h)
 
@@ -294,7 +328,11 @@ def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, t
     candidates = [0.0, *(end for end in (lo, hi) if math.isfinite(end))]
     if len(row) == 2 and row[1] != 0.0:
         candidates.append(min(max(-row[0] / row[1], lo), hi))
-    moved = [(origin, _moved(row, origin)) for origin in dict.fromkeys(candidates) if math.isfinite(origin)]
+    moved = [
+        (origin, _moved(row, origin))
+        for origin in dict.fromkeys(candidates)
+        if math.isfinite(origin)
+    ]
     return min(moved, key=lambda pair: abs(pair[1][0]))
 
 
@@ -340,7 +378,9 @@ class FromFunction(Profile):
     ) -> None:
         function = Expression(slope) if isinstance(slope, str) else slope
         if not callable(function):
-            raise ValueError(f"slope = {slope!r} is not a function: give a function of an array, or an expression in x as text")
+            raise ValueError(
+                f"slope = {slope!r} is not a function: give a function of an array, or an expression in x as text"
+            )
         if len(tuple(domain)) != 2:
             raise ValueError(f"domain = {domain!r} is not a pair: give (lo, hi)")
         lo, hi = (arguments.real("domain", end) for end in domain)
@@ -354,7 +394,9 @@ class FromFunction(Profile):
         inner = tuple(sorted({arguments.measure("breaks", b) for b in breaks}))
         for b in inner:
             if not lo <= b <= hi:
-                raise ValueError(f"break {b:g} is outside the domain ({lo:g}, {hi:g}): leave it out or widen the domain")
+                raise ValueError(
+                    f"break {b:g} is outside the domain ({lo:g}, {hi:g}): leave it out or widen the domain"
+                )
         if parity not in ("even", "none"):
             raise ValueError(f"parity = {parity!r} is neither 'even' nor 'none'")
         object.__setattr__(self, "function", function)
@@ -367,20 +409,33 @@ class FromFunction(Profile):
         """A call at a few points: shape, finiteness, and the parity if it was declared."""
         lo, hi = self.ends
         if not np.isfinite(lo + hi):
-            lo, hi = (lo, lo + 1.0) if np.isfinite(lo) else (hi - 1.0, hi) if np.isfinite(hi) else (-1.0, 1.0)
+            lo, hi = (
+                (lo, lo + 1.0)
+                if np.isfinite(lo)
+                else (hi - 1.0, hi)
+                if np.isfinite(hi)
+                else (-1.0, 1.0)
+            )
         x = lo + (hi - lo) * np.array([0.13, 0.29, 0.5, 0.61, 0.83])
         with np.errstate(all="ignore"):
             values = arguments.real_values("slope", self.function, x)
             arguments.real_values("slope", self.function, x[:, None])
         if not np.isfinite(values).all():
             bad = int(np.argmin(np.isfinite(values)))
-            raise ValueError(f"slope is {values[bad]} at x = {x[bad]:.6g}: it must be finite, narrow the domain")
+            raise ValueError(
+                f"slope is {values[bad]} at x = {x[bad]:.6g}: it must be finite, narrow the domain"
+            )
         if self.symmetric:
             if self.ends[0] != -self.ends[1] or set(self.declared) != {-b for b in self.declared}:
                 raise ValueError(
                     f"parity 'even' with domain {self.ends} and breaks {self.declared}: make them symmetric about 0 or drop the parity"
                 )
-            if not np.allclose(np.asarray(self.function(-x)), -values, rtol=1e-12, atol=1e-12 * float(np.abs(values).max())):
+            if not np.allclose(
+                np.asarray(self.function(-x)),
+                -values,
+                rtol=1e-12,
+                atol=1e-12 * float(np.abs(values).max()),
+            ):
                 raise ValueError("parity 'even' but slope(-x) is not -slope(x): drop the parity")
 
     def __repr__(self) -> str:
@@ -393,7 +448,13 @@ class FromFunction(Profile):
     def pieces(self) -> Slope:
         breaks = (self.ends[0], *self.declared, self.ends[1])
         flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
-        return Slope(flat.breaks, flat.origins, flat.coefficients, flat.degrees, (FunctionTerm(self.function),))
+        return Slope(
+            flat.breaks,
+            flat.origins,
+            flat.coefficients,
+            flat.degrees,
+            (FunctionTerm(self.function),),
+        )
 
     @of_any_x
     def height(self, x: ArrayLike) -> Array:

@@ -68,8 +68,12 @@ class FunctionTerm:
 
     def __call__(self, offset: Array) -> Array:
         """Values at t, given offset = t - shift."""
-        with np.errstate(all="ignore"):  # who resolves the function refuses what is not finite, with the place
-            values: Array = self.sign * arguments.real_values("slope", self.function, self.sign * offset)
+        with np.errstate(
+            all="ignore"
+        ):  # who resolves the function refuses what is not finite, with the place
+            values: Array = self.sign * arguments.real_values(
+                "slope", self.function, self.sign * offset
+            )
         return values
 
 
@@ -128,11 +132,17 @@ class Slope:
 
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
-        k = np.clip(np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1, 0, len(self.origins) - 1)
+        k = np.clip(
+            np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1,
+            0,
+            len(self.origins) - 1,
+        )
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:
-        inside = np.clip(x, self.breaks[0], self.breaks[-1])  # beyond the ends the value is replaced; keep functions in their domain
+        inside = np.clip(
+            x, self.breaks[0], self.breaks[-1]
+        )  # beyond the ends the value is replaced; keep functions in their domain
         return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
 
     @cached_property
@@ -155,7 +165,14 @@ class Slope:
     def rows(self) -> tuple[Row, ...]:
         """The pieces that are not flat, as plain floats."""
         ends = self.breaks.tolist()
-        rows = zip(ends[:-1], ends[1:], self.origins.tolist(), self.coefficients[:, ::-1].tolist(), self.is_zero.tolist(), strict=True)
+        rows = zip(
+            ends[:-1],
+            ends[1:],
+            self.origins.tolist(),
+            self.coefficients[:, ::-1].tolist(),
+            self.is_zero.tolist(),
+            strict=True,
+        )
         return tuple(Row(lo, hi, origin, tuple(c)) for lo, hi, origin, c, zero in rows if not zero)
 
     @cached_property
@@ -166,7 +183,11 @@ class Slope:
     @cached_property
     def few(self) -> bool:
         """Whether plain floats beat arrays."""
-        return not self.functions and len(self.is_zero) - int(self.is_zero.sum()) <= FEW and self.degree <= LOW
+        return (
+            not self.functions
+            and len(self.is_zero) - int(self.is_zero.sum()) <= FEW
+            and self.degree <= LOW
+        )
 
     @cached_property
     def without_functions(self) -> Slope:
@@ -179,7 +200,9 @@ class Slope:
             return False
         if not self.few:
             left, right = self._sides
-            return bool((np.abs(left - right) <= JUMP * np.abs((left, right)).max(initial=0.0)).all())
+            return bool(
+                (np.abs(left - right) <= JUMP * np.abs((left, right)).max(initial=0.0)).all()
+            )
         below, above = self.at_breaks
         rounding = JUMP * max(map(abs, below + above), default=0.0)
         return all(abs(a - b) <= rounding for a, b in zip(below, above, strict=True))
@@ -192,7 +215,9 @@ class Slope:
             before = {row.hi: row for row in self.rows}
             after = {row.lo: row for row in self.rows}
             ends = inner.tolist()  # a flat piece has no row
-            return tuple(before[b].at(b) if b in before else 0.0 for b in ends), tuple(after[b].at(b) if b in after else 0.0 for b in ends)
+            return tuple(before[b].at(b) if b in before else 0.0 for b in ends), tuple(
+                after[b].at(b) if b in after else 0.0 for b in ends
+            )
         left, right = self._sides
         return tuple(left.tolist()), tuple(right.tolist())
 
@@ -200,7 +225,11 @@ class Slope:
     def rises(self) -> tuple[tuple[float, float], ...]:
         """(break, what H rises by there), of the inner breaks where that is more than rounding."""
         found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
-        return tuple((b, above - below) for b, below, above in found if abs(above - below) > JUMP * max(abs(below), abs(above)))
+        return tuple(
+            (b, above - below)
+            for b, below, above in found
+            if abs(above - below) > JUMP * max(abs(below), abs(above))
+        )
 
     def corner(self, x: float) -> tuple[float, float]:
         """What H and H' jump by at a break x; of functions H alone, one ulp beside it."""
@@ -208,13 +237,26 @@ class Slope:
         if not 0 < j < len(self.origins):
             return 0.0, 0.0
         if self.few:  # a flat piece has no row
-            lower, upper = (next((row for row in self.rows if row[end] == x), Row(x, x, x, ())) for end in (1, 0))
+            lower, upper = (
+                next((row for row in self.rows if row[end] == x), Row(x, x, x, ()))
+                for end in (1, 0)
+            )
             below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
         else:
-            k, start, ulp = np.array([j - 1, j]), np.array([x, x]), np.spacing(abs(x)) if self.functions else 0.0
-            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[:, 0].tolist()
+            k, start, ulp = (
+                np.array([j - 1, j]),
+                np.array([x, x]),
+                np.spacing(abs(x)) if self.functions else 0.0,
+            )
+            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[
+                :, 0
+            ].tolist()
             curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
-            kink = float(curvature[1, 0] - curvature[0, 0]) if isinstance(curvature, np.ndarray) else 0.0
+            kink = (
+                float(curvature[1, 0] - curvature[0, 0])
+                if isinstance(curvature, np.ndarray)
+                else 0.0
+            )
         rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
         return (float(above - below) if abs(above - below) > rounding else 0.0), kink
 
@@ -225,13 +267,20 @@ class Slope:
     @cached_property
     def _sides(self) -> tuple[Array, Array]:
         inner, k = self.breaks[1:-1], np.arange(len(self.origins))
-        left, right = (self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0] for j in (k[:-1], k[1:]))
+        left, right = (
+            self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0]
+            for j in (k[:-1], k[1:])
+        )
         return left, right
 
     @cached_property
     def corners(self) -> Array:
         """What jumps at the inner breaks: Taylor coefficients of the polynomials there, from the right less from the left, (N - 1, D)."""
-        k, inner, width = np.arange(len(self.origins)), self.breaks[1:-1], self.coefficients.shape[1]
+        k, inner, width = (
+            np.arange(len(self.origins)),
+            self.breaks[1:-1],
+            self.coefficients.shape[1],
+        )
         return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
 
     @property
@@ -264,12 +313,20 @@ class Slope:
         split = self.split_at(lo).split_at(hi)
         kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
         ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
-        return Slope(ends, split.origins[kept], split.coefficients[kept], split.degrees[kept], split.functions)
+        return Slope(
+            ends,
+            split.origins[kept],
+            split.coefficients[kept],
+            split.degrees[kept],
+            split.functions,
+        )
 
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         breaks, origins = self.breaks + dx, self.origins + dx
-        kept = np.diff(breaks) > 0.0  # a piece that is shorter than the doubles are apart there is gone
+        kept = (
+            np.diff(breaks) > 0.0
+        )  # a piece that is shorter than the doubles are apart there is gone
         if kept.all():
             return replace(self, breaks=breaks, origins=origins, functions=functions)
         ends = np.append(breaks[:-1][kept], breaks[-1])
@@ -285,13 +342,23 @@ class Slope:
         """The sum on the intersection of both domains, broken where either is."""
         lo, hi = max(self.breaks[0], other.breaks[0]), min(self.breaks[-1], other.breaks[-1])
         if not lo < hi:
-            raise ValueError(f"profiles on {self.domain} and {other.domain} do not overlap: shift one of them before adding")
+            raise ValueError(
+                f"profiles on {self.domain} and {other.domain} do not overlap: shift one of them before adding"
+            )
         merged = np.union1d(self.breaks, other.breaks)
         breaks = merged[(merged >= lo) & (merged <= hi)]
-        mine, theirs = (np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other))
+        mine, theirs = (
+            np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other)
+        )
         origins = np.where(
             other.is_zero[theirs]
-            | (~self.is_zero[mine] & (_distance(self.origins[mine], breaks) <= _distance(other.origins[theirs], breaks))),
+            | (
+                ~self.is_zero[mine]
+                & (
+                    _distance(self.origins[mine], breaks)
+                    <= _distance(other.origins[theirs], breaks)
+                )
+            ),
             self.origins[mine],
             other.origins[theirs],
         )
@@ -301,7 +368,9 @@ class Slope:
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
 
 
-def polynomial_slope(breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]) -> Slope:
+def polynomial_slope(
+    breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]
+) -> Slope:
     """A Slope from rows of polynomial coefficients of unequal length."""
     width = max(len(row) for row in coefficients)
     c = np.zeros((len(coefficients), width))
@@ -319,7 +388,11 @@ def _distance(origins: Array, breaks: Array) -> Array:
     lo, hi = breaks[:-1], breaks[1:]
     outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
     one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
-    return np.where(np.isfinite(lo) & np.isfinite(hi), outside, np.where(np.isinf(one_end), np.abs(origins), one_end))
+    return np.where(
+        np.isfinite(lo) & np.isfinite(hi),
+        outside,
+        np.where(np.isinf(one_end), np.abs(origins), one_end),
+    )
 
 
 def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:

@@ -40,7 +40,9 @@ Array = NDArray[np.float64]
 
 ALL_KNOTS = 1000  # up to so many points each is a knot
 FEWEST_KNOTS = 250
-KNOTS_IN_LENGTH = 10.0  # a spline on these differs from that on all points by 1e-5 of what smoothing changes
+KNOTS_IN_LENGTH = (
+    10.0  # a spline on these differs from that on all points by 1e-5 of what smoothing changes
+)
 SHORT = KNOTS_IN_LENGTH**4  # λ over the cube of the mean spacing: up to so many points are averaged
 EXACT_TRACE = 400
 PROBES = 16
@@ -82,7 +84,9 @@ def cross_validated(x: Array, h: Array) -> float:
     grid = np.linspace(-np.log(3.0 * len(x)), 0.0, STEPS)
     best = int(np.argmin([score(u) for u in grid.tolist()]))
     around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, STEPS - 1)])
-    averaging = float(minimize_scalar(score, bounds=around, method="bounded", options={"xatol": REFINED}).x)
+    averaging = float(
+        minimize_scalar(score, bounds=around, method="bounded", options={"xatol": REFINED}).x
+    )
     return float(len(x) * np.exp(4.0 * averaging)) * problem.length**3
 
 
@@ -140,7 +144,9 @@ class _Problem:
         knots = FEWEST_KNOTS * 2 ** int(np.ceil(np.log2(max(needed / FEWEST_KNOTS, 1.0))))
         knots = n if n <= ALL_KNOTS or 2 * knots > n else knots
         if knots not in self._bases:
-            self._bases[knots] = _Basis(self.at, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64))
+            self._bases[knots] = _Basis(
+                self.at, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
+            )
         return self._bases[knots]
 
     def score(self, lam: float) -> float:
@@ -162,7 +168,9 @@ class _Problem:
             return self.x, self._in_given_units(_reinsch(self.at, self.h, lam))
         basis = self.basis(lam)
         knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
-        return self.x[basis.chosen], self._in_given_units(_pieces(knots, spline(knots), spline(knots, 2)))
+        return self.x[basis.chosen], self._in_given_units(
+            _pieces(knots, spline(knots), spline(knots, 2))
+        )
 
     def _in_given_units(self, c: Array) -> Array:
         c = c * (self.unit / self.length ** np.arange(4.0))
@@ -200,7 +208,9 @@ def _pieces(x: Array, f: Array, second: Array) -> Array:
     last = chord[-1] + step[-1] * (second[-2] + 2.0 * second[-1]) / 6.0
     slope = np.append(chord - step * (2.0 * second[:-1] + second[1:]) / 6.0, last)
     excess = slope[:-1] + slope[1:] - 2.0 * chord
-    return np.stack((f[:-1], slope[:-1], (chord - slope[:-1] - excess) / step, excess / (step * step)), axis=1)
+    return np.stack(
+        (f[:-1], slope[:-1], (chord - slope[:-1] - excess) / step, excess / (step * step)), axis=1
+    )
 
 
 @dataclass
@@ -260,7 +270,9 @@ class _Basis:
 
     @cached_property
     def _probes(self) -> tuple[Array, Array]:
-        signs: Array = np.where(np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0)
+        signs: Array = np.where(
+            np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0
+        )
         projected: Array = self.values.T @ signs
         return signs, projected
 

@@ -80,7 +80,13 @@ def scattered(contact: Interval, start_at: int = 0) -> Array:
     return x[(x > contact.x1) & (x < contact.x2)]
 
 
-def misfit(slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS, start_at: int = 0) -> tuple[Array, Array]:
+def misfit(
+    slope: Slope,
+    resolutions: Sequence[Known],
+    contact: Interval,
+    tol: float = EPS,
+    start_at: int = 0,
+) -> tuple[Array, Array]:
     """(x, how far the worst of some resolutions is from H) on scattered points.
 
     0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own making, and of x.
@@ -122,7 +128,9 @@ def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interva
     return max(apart, float(missed[worst]), float(np.abs(slope(near) - known(near)).max()))
 
 
-def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS) -> tuple[float, ...]:
+def between_points(
+    slope: Slope, resolutions: Sequence[Known], contact: Interval, tol: float = EPS
+) -> tuple[float, ...]:
     """Breaks around what a resolution of the slope has missed.
 
     Of neighbouring points that were missed the worst, and the points beside them.
@@ -141,7 +149,9 @@ def between_points(slope: Slope, resolutions: Sequence[Known], contact: Interval
     return _new(places, slope, contact)
 
 
-def between_pieces(slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS) -> tuple[float, ...]:
+def between_pieces(
+    slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS
+) -> tuple[float, ...]:
     """Breaks where two pieces of a resolution differ at their common end, which is no break."""
     lo, hi, _ = pieces
     apart, difference = _apart(slope, pieces, contact, tol)
@@ -158,7 +168,9 @@ def between_pieces(slope: Slope, pieces: Pieces, contact: Interval, tol: float =
     return _new(places, slope, contact)
 
 
-def _apart(slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS) -> tuple[NDArray[np.bool_], Array]:
+def _apart(
+    slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS
+) -> tuple[NDArray[np.bool_], Array]:
     """(where two neighbouring pieces differ by more than rounding, by how much), (K - 1,) each."""
     lo, hi, c = pieces
     difference = np.abs(c.sum(axis=1)[:-1] - (c @ (-1.0) ** np.arange(c.shape[1]))[1:])
@@ -167,7 +179,9 @@ def _apart(slope: Slope, pieces: Pieces, contact: Interval, tol: float = EPS) ->
     length, size = hi - lo, np.abs(c).sum(axis=1)
     steep = np.minimum(np.abs(c) @ np.arange(c.shape[1]) ** 2 / (0.5 * length), size / length)
     rounding = STEEPER * np.spacing(np.maximum(np.abs(lo), np.abs(hi))) * steep
-    allowed = MISSED * tol * float(size.max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
+    allowed = (
+        MISSED * tol * float(size.max()) + _noise(slope, contact) + rounding[1:] + rounding[:-1]
+    )
     return (difference > allowed) & ~np.isin(hi[:-1], slope.breaks), difference
 
 
@@ -176,7 +190,9 @@ def _noise(slope: Slope, contact: Interval) -> float:
 
 
 def _new(places: list[float], slope: Slope, contact: Interval) -> tuple[float, ...]:
-    return tuple(p for p in dict.fromkeys(places) if contact.x1 < p < contact.x2 and p not in slope.breaks)
+    return tuple(
+        p for p in dict.fromkeys(places) if contact.x1 < p < contact.x2 and p not in slope.breaks
+    )
 
 
 def _jump(slope: Slope, lo: float, hi: float, size: float) -> float | None:

@@ -65,7 +65,9 @@ class Cycle:
 
     def __post_init__(self) -> None:
         if len(self.states) < 2:
-            raise ValueError(f"{len(self.states)} states make no cycle: give the solutions at two or more steps of the load")
+            raise ValueError(
+                f"{len(self.states)} states make no cycle: give the solutions at two or more steps of the load"
+            )
 
     @cached_property
     def size(self) -> int:
@@ -87,7 +89,9 @@ class Cycle:
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
         """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where Poisson's ratio is known."""
         stresses = [state.stress(x, y) for state in self.states]
-        names = ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
+        names = (
+            ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
+        )
         values = ((name, np.stack([getattr(s, name) for s in stresses])) for name in names)
         return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
 

@@ -72,7 +72,9 @@ class Tractions:
     @property
     def known_body(self) -> Elastic:
         if self.body is None:
-            raise ValueError("strains need the elastic constants of the body: give the body by young and poisson in place of modulus")
+            raise ValueError(
+                "strains need the elastic constants of the body: give the body by young and poisson in place of modulus"
+            )
         return self.body
 
     @cached_property
@@ -130,7 +132,9 @@ class Stress:
         self.x, self.y = np.broadcast_arrays(*(_real(name, v) for name, v in (("x", x), ("y", y))))
         above = self.y < 0.0
         if above.any():
-            raise ValueError(f"y = {self.y[above].flat[0]:g} is above the surface: give depths y >= 0")
+            raise ValueError(
+                f"y = {self.y[above].flat[0]:g} is above the surface: give depths y >= 0"
+            )
 
     def __repr__(self) -> str:
         return f"Stress(at points of shape {self.x.shape})"
@@ -187,7 +191,9 @@ class Stress:
     @property
     def max_shear(self) -> Array:
         shear = self.in_plane_shear
-        return np.maximum(shear, 0.5 * (shear + np.abs(_times(self.tractions.out_of_plane, self._s))))
+        return np.maximum(
+            shear, 0.5 * (shear + np.abs(_times(self.tractions.out_of_plane, self._s)))
+        )
 
     @property
     def principal(self) -> tuple[Array, Array, Array]:
@@ -274,7 +280,10 @@ class Stress:
             p = t.pressure(x)
             hilbert = hilbert_of_shear(t, x, p)
             D = np.empty(x.shape, dtype=complex)
-            D.real, D.imag = hilbert - 0.5 * t.bulk_stress, 0.0 - t.shear(x)  # no -0 where there is no shear
+            D.real, D.imag = (
+                hilbert - 0.5 * t.bulk_stress,
+                0.0 - t.shear(x),
+            )  # no -0 where there is no shear
             return -p - hilbert + 0.5 * t.bulk_stress, D
         Phi, dPhi, Fq = potentials(t, x + 1j * y)
         return Phi.imag + 0.5 * t.bulk_stress, Fq - y * dPhi - 0.5 * t.bulk_stress

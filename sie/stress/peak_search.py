@@ -35,7 +35,10 @@ from .half_plane import Tractions, hilbert_of_shear, potentials
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-NEAR, NEAR_OF_MANY = 0.05, 1.0  # g of a mark: this fraction of the smaller gap beside it, more where there are many marks
+NEAR, NEAR_OF_MANY = (
+    0.05,
+    1.0,
+)  # g of a mark: this fraction of the smaller gap beside it, more where there are many marks
 FINEST = 1e-12  # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is rounding
 RESOLVED = 1e-8  # half-widths: how near to each other many marks are looked at
 MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
@@ -44,16 +47,31 @@ OUTSIDE = 1.8  # half-widths: how far beside the contact the scan looks, and ...
 FAR = 1e3  # ... the surface
 DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
 LEVELS = 6  # depths between two decisions of what to leave out
-SPACING, CELL = 0.15, 0.03  # of the depth: columns nearer to a mark than that are left out, and others nearer to each other than that
+SPACING, CELL = (
+    0.15,
+    0.03,
+)  # of the depth: columns nearer to a mark than that are left out, and others nearer to each other than that
 ALONE = 8.0  # depths: columns farther apart are no neighbours
-HOPELESS, WINDOW = 0.8, 4.0  # what stays below this fraction of the largest value at one scale, on a surface so many depths wide, is left
+HOPELESS, WINDOW = (
+    0.8,
+    4.0,
+)  # what stays below this fraction of the largest value at one scale, on a surface so many depths wide, is left
 WORTH = 0.85  # of the largest value known: maxima of the scan below it, which is off by its curvature over a cell, are not polished
 MOST_STARTS = 48
-CIRCLE, RADIUS = 6, 400.0  # points, and the depth over the radius: the third derivative is still good to seven digits
-PATIENCE, CLOSE = 12, 0.99  # steps after which a start goes on only if it is within that fraction of the highest
+CIRCLE, RADIUS = (
+    6,
+    400.0,
+)  # points, and the depth over the radius: the third derivative is still good to seven digits
+PATIENCE, CLOSE = (
+    12,
+    0.99,
+)  # steps after which a start goes on only if it is within that fraction of the highest
 STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
 SETTLED = 1e-7  # of the depth: after it the step to come, its square, is below rounding
-SAME_VALUE, STUCK = 4e-15, 1e-9  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
+SAME_VALUE, STUCK = (
+    4e-15,
+    1e-9,
+)  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
 TOGETHER = 1e-3  # of the depth
 LEFT = 0.25  # of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the surface
 INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
@@ -95,7 +113,10 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     """The largest value in the body, with every place where it is taken (ties within TIED), those on the left first."""
     mesh = mesh_of(tractions)
     above = surface_values(tractions, mesh.x)
-    found = [*on_surface(tractions, measure, mesh, above), *beneath_infinite_pressure(tractions, measure)]
+    found = [
+        *on_surface(tractions, measure, mesh, above),
+        *beneath_infinite_pressure(tractions, measure),
+    ]
     found += inside(tractions, measure, mesh, above, found)
     best = max(m.value for m in found)
     r = 0.5 * float(np.diff(tractions.pressure.interval)[0])
@@ -104,7 +125,10 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     for m in sorted(tied, key=lambda m: (m.y > 0.0, -m.value)):
         # Towards a jump of h' the largest value is approached: what is tied with it on the way is not another place
         apart = (RISING if m.y else SAME_PLACE) * r
-        if all(abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r) for t in ties):
+        if all(
+            abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r)
+            for t in ties
+        ):
             ties.append(Maximum(best, m.x, m.y))
     return tuple(sorted(ties, key=lambda m: m.x))
 
@@ -148,7 +172,10 @@ def mesh_of(tractions: Tractions) -> Mesh:
     from_right = np.minimum.accumulate((g + marks)[::-1])[::-1] - marks
     g = np.minimum(g, np.maximum(np.minimum(from_left, from_right), g.min()))
     half = 0.5 * gaps
-    left, right = np.append(half, OUTSIDE * r), np.insert(half, 0, OUTSIDE * r)  # how far columns go on both sides of a mark
+    left, right = (
+        np.append(half, OUTSIDE * r),
+        np.insert(half, 0, OUTSIDE * r),
+    )  # how far columns go on both sides of a mark
     (k, d), (j, e) = _graded(g, left), _graded(g, right)
     x = np.unique(np.concatenate((tractions.marks, marks[k] + d, marks[j] - e)))
     return Mesh(marks, g, x, np.minimum(*_from_marks(marks, x)[:2]))
@@ -156,7 +183,9 @@ def mesh_of(tractions: Tractions) -> Mesh:
 
 def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
     """(marks, distances) of columns beside them, in cells that grow in proportion to the distance plus g."""
-    step = 0.5 * np.log(RATIO)  # at every depth the columns beside a mark then lie in the same directions from it
+    step = 0.5 * np.log(
+        RATIO
+    )  # at every depth the columns beside a mark then lie in the same directions from it
     count = np.ceil(np.log1p(until / g) / step).astype(np.intp)
     k = np.repeat(np.arange(len(g)), count)
     i = np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)
@@ -168,7 +197,9 @@ def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
 # -- inside ------------------------------------------------------------------------------------------------------------
 
 
-def inside(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: list[Maximum]) -> list[Maximum]:
+def inside(
+    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: list[Maximum]
+) -> list[Maximum]:
     """Local maxima below the surface that may be larger than the known ones; `above` are the values over the columns."""
     best = max(m.value for m in known)
     if np.isinf(best):
@@ -176,13 +207,17 @@ def inside(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, kno
     rows = _rows(tractions, measure, mesh, above, best)
     floor = WORTH * max(best, *(value.max() for _, _, value in rows))
     scanned = _starts(rows, floor)
-    starts = np.concatenate((scanned, _beneath(tractions, measure, mesh, [m.x for m in known if m.value >= floor])))
+    starts = np.concatenate(
+        (scanned, _beneath(tractions, measure, mesh, [m.x for m in known if m.value >= floor]))
+    )
     if not starts.size:
         return []
     # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest value is not taken anywhere
     z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts)))
     values = measure.value(_values(tractions, z))
-    return [Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)]
+    return [
+        Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)
+    ]
 
 
 def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
@@ -195,7 +230,10 @@ def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
         left = np.where(apart[:-1], -np.inf, np.append(-np.inf, value[:-1]))
         right = np.where(apart[1:], -np.inf, np.append(value[1:], -np.inf))
         top = np.flatnonzero((value >= left) & (value >= right) & (value >= floor))
-        for other, margin in ((k - 1, 0.0), (k + 1, SAME_VALUE)):  # towards a mark a value may stay the same but for rounding
+        for other, margin in (
+            (k - 1, 0.0),
+            (k + 1, SAME_VALUE),
+        ):  # towards a mark a value may stay the same but for rounding
             if 0 <= other < len(rows) and top.size:
                 _, x_other, value_other = rows[other]
                 nearest = _nearest(x_other, x[top])
@@ -208,17 +246,34 @@ def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
     return z[np.argsort(-np.concatenate(values), kind="stable")][:MOST_STARTS]
 
 
-def _rows(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: float) -> list[tuple[float, Array, Array]]:
+def _rows(
+    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: float
+) -> list[tuple[float, Array, Array]]:
     """(depth, abscissae, values) of the scan, the deepest first; a few depths at a time."""
     columns, shallow, distance = mesh.x, SHALLOW * mesh.scale(mesh.x), mesh.distance
     y, rows, best = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), [], known
     while columns.size:
         levels = y / RATIO ** np.arange(LEVELS)
-        wanted = [(shallow <= y) & ((distance == 0.0) | (distance >= SPACING * y)) for y in levels.tolist()]
-        xs = [_thinned(columns[these], CELL * y) for these, y in zip(wanted, levels.tolist(), strict=True)]
-        value = measure.value(_values(tractions, np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])))
+        wanted = [
+            (shallow <= y) & ((distance == 0.0) | (distance >= SPACING * y))
+            for y in levels.tolist()
+        ]
+        xs = [
+            _thinned(columns[these], CELL * y)
+            for these, y in zip(wanted, levels.tolist(), strict=True)
+        ]
+        value = measure.value(
+            _values(
+                tractions,
+                np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)]),
+            )
+        )
         ends = np.cumsum([0, *map(len, xs)])
-        new = [(level, x, value[i:j]) for level, x, (i, j) in zip(levels.tolist(), xs, pairwise(ends), strict=True) if len(x)]
+        new = [
+            (level, x, value[i:j])
+            for level, x, (i, j) in zip(levels.tolist(), xs, pairwise(ends), strict=True)
+            if len(x)
+        ]
         if not new:
             break
         rows += new
@@ -228,7 +283,12 @@ def _rows(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, know
         beside = np.maximum(value[np.maximum(k - 1, 0)], value[np.minimum(k, len(x) - 1)])
         bound = measure.value(_bounds(columns, above, WINDOW * levels[-1]))
         stay = (np.maximum(beside, bound) >= HOPELESS * best) & (shallow < levels[-1])
-        columns, shallow, distance, above = columns[stay], shallow[stay], distance[stay], above[:, stay]
+        columns, shallow, distance, above = (
+            columns[stay],
+            shallow[stay],
+            distance[stay],
+            above[:, stay],
+        )
         y /= RATIO**LEVELS
     return rows
 
@@ -245,7 +305,9 @@ def _bounds(x: Array, above: Array, window: float) -> Array:
     low = np.minimum(np.minimum(low[:, :-2], low[:, 2:]), low[:, 1:-1])
     high = np.maximum(np.maximum(high[:, :-2], high[:, 2:]), high[:, 1:-1])
     largest_there = np.maximum(-low, high)
-    swing = np.where(np.isinf(largest_there), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(axis=0)
+    swing = np.where(np.isinf(largest_there), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(
+        axis=0
+    )
     return np.repeat(largest_there + swing, np.diff(np.append(first, len(x))), axis=1)
 
 
@@ -289,7 +351,9 @@ def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> 
         stuck = trust <= STUCK
         rest.append(before[stuck & ~done])
         keep = ~done & ~stuck & (new.imag > lowest) & ((k < PATIENCE) | (here >= CLOSE * highest))
-        z, before, value, trust, lowest = _distinct(new[keep], before[keep], value[keep], trust[keep], lowest[keep])
+        z, before, value, trust, lowest = _distinct(
+            new[keep], before[keep], value[keep], trust[keep], lowest[keep]
+        )
     rest.append(z)
     return np.concatenate(rest)
 
@@ -306,7 +370,10 @@ def _newton(measure: Measure, at: Local) -> Complex:
     g, G = measure.gradient(at.value), measure.hessian(at.value)
     gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
     Gx, Gy = (G * at.x).sum(axis=1), (G * at.y).sum(axis=1)
-    hxx, hxy, hyy = ((g * second + u * Gv).sum(axis=0) for second, u, Gv in ((at.xx, at.x, Gx), (at.xy, at.x, Gy), (at.yy, at.y, Gy)))
+    hxx, hxy, hyy = (
+        (g * second + u * Gv).sum(axis=0)
+        for second, u, Gv in ((at.xx, at.x, Gx), (at.xy, at.x, Gy), (at.yy, at.y, Gy))
+    )
     mean, half = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
     angle = 0.5 * np.arctan2(2.0 * hxy, hxx - hyy)
     cos, sin = np.cos(angle), np.sin(angle)
@@ -334,7 +401,9 @@ def _local(tractions: Tractions, z: Complex) -> Local:
     Phi, dPhi, Fq = (f.reshape(len(z), CIRCLE) for f in potentials(tractions, circle))
     n = np.arange(3)
     taylor = omega.conj()[:, None] ** n * (RADIUS**n * (1.0, 1.0, 2.0) / CIRCLE)
-    (P0, P1, P2), (D1, D2, D3), (Q0, Q1, Q2) = (f.T for f in (Phi @ taylor, (y[:, None] * dPhi) @ taylor, Fq @ taylor))
+    (P0, P1, P2), (D1, D2, D3), (Q0, Q1, Q2) = (
+        f.T for f in (Phi @ taylor, (y[:, None] * dPhi) @ taylor, Fq @ taylor)
+    )
     s = (P0.imag, P1.imag, P1.real, P2.imag, P2.real, -P2.imag)
     D = (Q0 - D1, Q1 - D2, -D1 - 1j * (D2 - Q1), Q2 - D3, -D2 - 1j * (D3 - Q2), -2j * D2 + D3 - Q2)
     half = 0.5 * tractions.bulk_stress
@@ -359,7 +428,9 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
     padded = np.concatenate(([-np.inf], value, [-np.inf]))
     best = value.max()
     if np.isinf(best):
-        return [Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)]
+        return [
+            Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)
+        ]
     floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
     columns = top
@@ -370,14 +441,21 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
     left = left[(left >= 0) & (left < len(x) - 1)]
     lo, hi = x[left], x[left + 1]
     inset = np.maximum(AT_MARK * (hi - lo), np.spacing(np.maximum(np.abs(lo), np.abs(hi))))
-    lo, hi = lo + np.where(np.isin(lo, tractions.marks), inset, 0.0), hi - np.where(np.isin(hi, tractions.marks), inset, 0.0)
+    lo, hi = (
+        lo + np.where(np.isin(lo, tractions.marks), inset, 0.0),
+        hi - np.where(np.isin(hi, tractions.marks), inset, 0.0),
+    )
     roots = _roots(lambda t: _slope(tractions, measure, t), lo, hi)
     at_root = measure.value(surface_values(tractions, roots))
     highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
     np.maximum.at(highest, np.searchsorted(x, roots), at_root)
     tops = columns[value[columns] >= np.maximum(highest[columns], highest[columns + 1])]
     places = ((value[tops], x[tops]), (at_root, roots))
-    return [Maximum(float(v), float(t), 0.0) for values, at in places for v, t in zip(values, at, strict=True)]
+    return [
+        Maximum(float(v), float(t), 0.0)
+        for values, at in places
+        for v, t in zip(values, at, strict=True)
+    ]
 
 
 def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
@@ -397,7 +475,9 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
     x, on = x[unseen], on[:, unseen]
     Fq = on[1] + 1j * on[2]
     x1, x2 = tractions.pressure.interval
-    beneath = _values(tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128))
+    beneath = _values(
+        tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128)
+    )
     C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
     largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
     value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
@@ -409,9 +489,15 @@ def surface_values(tractions: Tractions, x: Array) -> Array:
     p, q = tractions.pressure(x), tractions.shear(x)
     hilbert = hilbert_of_shear(tractions, x, p)
     if tractions.shear.interval == tractions.pressure.interval:
-        for x_edge, limit in zip(tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True):
+        for x_edge, limit in zip(
+            tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True
+        ):
             edge = (x == x_edge) & np.isfinite(p)
-            p, q, hilbert = np.where(edge, 0.0, p), np.where(edge, 0.0, q), np.where(edge, limit, hilbert)
+            p, q, hilbert = (
+                np.where(edge, 0.0, p),
+                np.where(edge, 0.0, q),
+                np.where(edge, limit, hilbert),
+            )
     half = 0.5 * tractions.bulk_stress
     return np.stack((half - p - hilbert, hilbert - half, -q))
 
@@ -443,11 +529,19 @@ def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
     for k in range(ROOT_STEPS if x.size else 0):
         before = x
         middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
-        x = np.where((secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle)
+        x = np.where(
+            (secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle
+        )
         f = slope(x)
         up = f > 0.0
-        again = np.where(last == np.where(up, 1.0, -1.0), 0.5, 1.0)  # an end kept twice loses weight
-        fb, fa, last = np.where(up, again * fb, f), np.where(up, f, again * fa), np.where(up, 1.0, -1.0)
+        again = np.where(
+            last == np.where(up, 1.0, -1.0), 0.5, 1.0
+        )  # an end kept twice loses weight
+        fb, fa, last = (
+            np.where(up, again * fb, f),
+            np.where(up, f, again * fa),
+            np.where(up, 1.0, -1.0),
+        )
         a, b = np.where(up, x, a), np.where(up, b, x)
         if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
             break

@@ -61,7 +61,9 @@ class Peak(NamedTuple):
     x: float
 
 
-def elastic_limit(tractions: Tractions, normal_load: float, criterion: Criterion = "mises") -> YieldPoint:
+def elastic_limit(
+    tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
+) -> YieldPoint:
     """The yield point of a body under these tractions. ValueError for an unknown criterion, or if Poisson's ratio is needed and missing."""
     if criterion not in CRITERIA:
         raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
@@ -71,7 +73,10 @@ def elastic_limit(tractions: Tractions, normal_load: float, criterion: Criterion
         maxima = largest(tractions, _quadratic(kappa / np.sqrt(3.0)))
         found.append((float(np.sqrt(maxima[0].value)), maxima))
     else:
-        in_plane, across = largest(tractions, _quadratic(0.0)), largest(tractions, _sum_of_shears(kappa))
+        in_plane, across = (
+            largest(tractions, _quadratic(0.0)),
+            largest(tractions, _sum_of_shears(kappa)),
+        )
         found += [(float(np.sqrt(in_plane[0].value)), in_plane), (0.5 * across[0].value, across)]
     stress, maxima = max(found, key=lambda f: f[0])
     x1, x2 = tractions.pressure.interval
@@ -86,7 +91,9 @@ def peak_tension(tractions: Tractions) -> Peak:
 
     Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
     """
-    for edge, x, outward in zip(tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True):
+    for edge, x, outward in zip(
+        tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True
+    ):
         q = float(tractions.shear(np.array([edge]))[0])
         if q * outward == np.inf:
             return Peak(np.inf, x)

@@ -84,7 +84,9 @@ def in_order(function: Callable[[Array], Any], x: Array) -> Any:
 
 def refuse_side(side: int) -> None:
     if side not in (-1, 0, 1):
-        raise ValueError(f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side")
+        raise ValueError(
+            f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side"
+        )
 
 
 class Density(ABC):
@@ -126,13 +128,23 @@ class Density(ABC):
         values: Array = self._everywhere(function, x.ravel(), self._of_force).reshape(x.shape)
         return values
 
-    def _in_plane(self, function: Callable[[Complex], Complex], z: ArrayLike, side: int, derivative: bool = False) -> Complex:
+    def _in_plane(
+        self,
+        function: Callable[[Complex], Complex],
+        z: ArrayLike,
+        side: int,
+        derivative: bool = False,
+    ) -> Complex:
         refuse_side(side)
         z = arguments.complexes("z", z)
-        values: Complex = self._everywhere(function, z.ravel(), self._steepness_of_force if derivative else self._of_force).reshape(z.shape)
+        values: Complex = self._everywhere(
+            function, z.ravel(), self._steepness_of_force if derivative else self._of_force
+        ).reshape(z.shape)
         return values
 
-    def _everywhere(self, function: Callable[[Any], Any], z: Any, tail: Callable[[Any], Any]) -> Any:
+    def _everywhere(
+        self, function: Callable[[Any], Any], z: Any, tail: Callable[[Any], Any]
+    ) -> Any:
         near = np.abs(z) <= self.horizon
         if near.all():
             return function(z)

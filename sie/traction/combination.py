@@ -59,7 +59,11 @@ class Combination(Density):
 
     @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
-        return tuple((factor * inner, part) for factor, density in self.terms for inner, part in density.bases)
+        return tuple(
+            (factor * inner, part)
+            for factor, density in self.terms
+            for inner, part in density.bases
+        )
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
@@ -68,7 +72,13 @@ class Combination(Density):
 
     def _limit(self, x: float, end: int) -> float:
         return sum(
-            factor * (d.hilbert_at_edges[end] if d.interval[end] == x else float(d.hilbert(np.array([x]))[0])) for factor, d in self.terms
+            factor
+            * (
+                d.hilbert_at_edges[end]
+                if d.interval[end] == x
+                else float(d.hilbert(np.array([x]))[0])
+            )
+            for factor, d in self.terms
         )
 
     def __call__(self, x: ArrayLike) -> Array:
@@ -82,15 +92,25 @@ class Combination(Density):
 
     def _at_infinity(self, x: float) -> float:
         """The sum where terms are infinite: finite where their strengths cancel."""
-        total, size = self.strength(x), sum(abs(factor * density.strength(x)) for factor, density in self.terms)
+        total, size = (
+            self.strength(x),
+            sum(abs(factor * density.strength(x)) for factor, density in self.terms),
+        )
         if abs(total) > CANCELLED * size:
             return math.copysign(math.inf, total)
         return float(np.mean(self(self._beside(x))))
 
     def _steepness(self, x: float) -> float:
         """The derivative where those of terms are infinite: finite where they cancel, each in proportion to its strength if it has one."""
-        steep = [(factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag)) for factor, d in self.terms]
-        infinite = [math.copysign(factor * strength, factor * slope) for factor, strength, slope in steep if math.isinf(slope)]
+        steep = [
+            (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
+            for factor, d in self.terms
+        ]
+        infinite = [
+            math.copysign(factor * strength, factor * slope)
+            for factor, strength, slope in steep
+            if math.isinf(slope)
+        ]
         if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
             return math.copysign(math.inf, sum(infinite))
         return float(np.mean(self.cauchy_derivative(self._beside(x)).imag))
@@ -120,14 +140,18 @@ class Combination(Density):
         F = self._without_nan([F for F, _ in pairs], z, lambda x: -side * float(self(x)))
         return F, self._without_nan([dF for _, dF in pairs], z, lambda x: side * self._steepness(x))
 
-    def _without_nan(self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]) -> Complex:
+    def _without_nan(
+        self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]
+    ) -> Complex:
         """The sum of values at z, with the imaginary part from elsewhere at real z where terms are infinite."""
         with np.errstate(invalid="ignore"):
             total: Complex = self._total(values)
         lost = np.isnan(total)
         if lost.any():
             for place in zip(*np.nonzero(np.atleast_1d(lost & ~np.isnan(z))), strict=True):
-                np.atleast_1d(total.imag)[place] = imaginary(float(np.atleast_1d(np.real(z))[place]))
+                np.atleast_1d(total.imag)[place] = imaginary(
+                    float(np.atleast_1d(np.real(z))[place])
+                )
         return total
 
     def _total(self, values: list[Any]) -> Any:

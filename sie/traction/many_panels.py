@@ -75,7 +75,9 @@ def place(pieces: Pieces, k: Index, z: Any) -> Any:
 
 def within(pieces: Pieces, k: Index, s: Any) -> NDArray[np.bool_]:
     if np.iscomplexobj(s):
-        within: NDArray[np.bool_] = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= pieces.reach[k]
+        within: NDArray[np.bool_] = (
+            np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= pieces.reach[k]
+        )
         return within
     return np.asarray(np.abs(s) <= pieces.reach_in_s[k])
 
@@ -91,9 +93,14 @@ def _closed(pieces: Pieces, pairs: tuple[Index, Index, Any], root: Any, log_of: 
     k, i, s = pairs
     g = pieces.geometry
     difference = np.zeros_like(s)
-    for end, sign, edge in ((1, 1.0, len(pieces.series) - 1 if g.cut_right else -1), (0, -1.0, 0 if g.cut_left else -1)):
+    for end, sign, edge in (
+        (1, 1.0, len(pieces.series) - 1 if g.cut_right else -1),
+        (0, -1.0, 0 if g.cut_left else -1),
+    ):
         inner = np.flatnonzero(k != edge)
         of = k[inner]
-        difference[inner] += sign * log_of(g.ends[end][of], g.root_left[end][of], g.root_right[end][of], i[inner])
+        difference[inner] += sign * log_of(
+            g.ends[end][of], g.root_left[end][of], g.root_right[end][of], i[inner]
+        )
     H = chebyshev.evaluate(pieces.series.T[:, k], s)
     return H * difference + root[i] * chebyshev.evaluate_second_kind(pieces.continuation.T[:, k], s)

@@ -98,24 +98,35 @@ class BatchedPlane:
         add_pairs(to[0], i, (pieces.charge[k] * pole).sum(axis=1))
         add_pairs(to[1], i, (pieces.charge[k] * (pole * pole)).sum(axis=1))
 
-    def _add_closed(self, k: Index, i: Index, s: Complex, points: Points, to: tuple[Complex, Complex, Complex]) -> None:
+    def _add_closed(
+        self, k: Index, i: Index, s: Complex, points: Points, to: tuple[Complex, Complex, Complex]
+    ) -> None:
         V, dV, N = to
         c, at = self._series, points.at(i)
         J0 = self._angles(k, at)
         Q = chebyshev.evaluate_second_kind(c.Q[:, k], s)
         add_pairs(V, i, chebyshev.evaluate(c.H[:, k], s) * J0 + at.R * Q)
         add_pairs(dV, i, chebyshev.evaluate_second_kind(c.dH[:, k], s) * J0)
-        steep = at.mean * Q + chebyshev.evaluate(c.ends[:, k], s) + at.left * at.right * chebyshev.evaluate_second_kind(c.dQ[:, k], s)
+        steep = (
+            at.mean * Q
+            + chebyshev.evaluate(c.ends[:, k], s)
+            + at.left * at.right * chebyshev.evaluate_second_kind(c.dQ[:, k], s)
+        )
         add_pairs(N, i, steep + self._poles_at(k, i, at.z))
 
     def _angles(self, k: Index, at: Points) -> Complex:
         """L_hi - L_lo of each pair; at the edges they are 0 and π/cos πε."""
         g, last = self.panels.geometry, len(self.panels.series) - 1
         J0 = np.zeros(len(k), dtype=complex)
-        for end, sign, edge in ((1, 1.0, last if g.cut_right else -1), (0, -1.0, 0 if g.cut_left else -1)):
+        for end, sign, edge in (
+            (1, 1.0, last if g.cut_right else -1),
+            (0, -1.0, 0 if g.cut_left else -1),
+        ):
             inner = np.flatnonzero(k != edge)
             of = k[inner]
-            J0[inner] += sign * self.plane.logarithm((g.ends[end][of], g.root_left[end][of], g.root_right[end][of]), at.at(inner))
+            J0[inner] += sign * self.plane.logarithm(
+                (g.ends[end][of], g.root_left[end][of], g.root_right[end][of]), at.at(inner)
+            )
         if g.cut_left:
             J0[k == 0] -= np.pi / self.panels.cos
         return J0
@@ -130,7 +141,10 @@ class BatchedPlane:
             found: NDArray[np.bool_] = known[place] == other
             return found
 
-        with_next, with_previous = is_near(pair + 1) & (k < len(p.jump) - 1), is_near(pair - 1) & (k > 0)
+        with_next, with_previous = (
+            is_near(pair + 1) & (k < len(p.jump) - 1),
+            is_near(pair - 1) & (k > 0),
+        )
         at_hi = np.where(with_next, p.jump[k], -p.leaving[k])
         at_lo = np.where(with_previous, 0.0, p.entering[k])
         out = np.zeros_like(z)
@@ -160,7 +174,15 @@ class BatchedPlane:
         n, half = p.degree + 1, p.half_length[:, None]
         w = self._poles.w
         divided = [chebyshev.divided(np.eye(n), sign) for sign in (-1.0, 1.0)]
-        ends = (w[0][:, None] * (p.series @ divided[0]) - w[1][:, None] * (p.series @ divided[1])) / half
+        ends = (
+            w[0][:, None] * (p.series @ divided[0]) - w[1][:, None] * (p.series @ divided[1])
+        ) / half
         dH = np.arange(1, n) * p.series[:, 1:] / half
-        dQ = p._continuation @ chebyshev.second_kind_derivative(np.eye(n - 1)) / half if n > 1 else np.zeros((len(half), 0))
-        return _Series(p.series.T, dH.T, ends.T if n > 1 else np.zeros((1, len(half))), p._continuation.T, dQ.T)
+        dQ = (
+            p._continuation @ chebyshev.second_kind_derivative(np.eye(n - 1)) / half
+            if n > 1
+            else np.zeros((len(half), 0))
+        )
+        return _Series(
+            p.series.T, dH.T, ends.T if n > 1 else np.zeros((1, len(half))), p._continuation.T, dQ.T
+        )

@@ -137,7 +137,9 @@ class SlopeDensity(Density):
             for k, near, far in ((self.k1, left, right), (self.k2, right, left)):
                 edge = near == 0.0
                 ratio = far / np.where(edge, 1.0, near)
-                p += np.where(edge, np.inf if k else 0.0, 0.5 * k * self._edge(ratio, on_left=near is left))
+                p += np.where(
+                    edge, np.inf if k else 0.0, 0.5 * k * self._edge(ratio, on_left=near is left)
+                )
         return p
 
     def _edge(self, ratio: Array, on_left: bool) -> Array:
@@ -146,14 +148,22 @@ class SlopeDensity(Density):
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
         """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0; real: beside the contact)."""
-        root = np.sqrt(left) / np.sqrt(right) if np.iscomplexobj(left) else np.sqrt(np.abs(left / right))
+        root = (
+            np.sqrt(left) / np.sqrt(right)
+            if np.iscomplexobj(left)
+            else np.sqrt(np.abs(left / right))
+        )
         return 0.5 * (self.k2 * root - self.k1 / root)
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:
         """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one side of the contact."""
         G, continued = in_order(self._beside, x)
         if self.k1 or self.k2:
-            G = G - self._singular_outside(self.contact.from_left(x), -self.contact.from_right(x)) / self.half_modulus
+            G = (
+                G
+                - self._singular_outside(self.contact.from_left(x), -self.contact.from_right(x))
+                / self.half_modulus
+            )
         return G, continued
 
     def hilbert(self, x: ArrayLike) -> Array:
@@ -170,7 +180,9 @@ class SlopeDensity(Density):
                 out[side] = self.half_modulus * (continued - G)
         if self.k1 or self.k2:
             far = np.abs(flat - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
-            out[far] = self._far_in_upper(np.asarray(flat[far] + 1j * shallow(self.contact.r), dtype=np.complex128))[0].real
+            out[far] = self._far_in_upper(
+                np.asarray(flat[far] + 1j * shallow(self.contact.r), dtype=np.complex128)
+            )[0].real
         return out
 
     def _hilbert_inside(self, x: Array) -> Array:
@@ -236,7 +248,9 @@ class SlopeDensity(Density):
         far = np.abs(z - self.contact.m) > FAR_FIELD * 2.0 * self.contact.r
         out = np.empty((2, *z.shape), dtype=complex)
         out[:, far] = self._far_in_upper(z[far])
-        out[:, ~far] = self.half_modulus * np.array(self._pair(z[~far])) + self._singular_pair(z[~far], far=False)
+        out[:, ~far] = self.half_modulus * np.array(self._pair(z[~far])) + self._singular_pair(
+            z[~far], far=False
+        )
         return out[0], out[1]
 
     def _far_in_upper(self, z: Complex) -> Complex:
@@ -249,7 +263,8 @@ class SlopeDensity(Density):
         root, inverse = root1 / root2, root2 / root1
         sum_of_roots = root1 + root2
         ends = (
-            (self.k2 / root2 + self.k1 / root1) * (r / sum_of_roots)  # root - 1 = 2r / (root2 (root1 + root2))
+            (self.k2 / root2 + self.k1 / root1)
+            * (r / sum_of_roots)  # root - 1 = 2r / (root2 (root1 + root2))
             if far
             else 0.5 * (self.k2 * root - self.k1 * inverse)
         )
@@ -258,7 +273,9 @@ class SlopeDensity(Density):
     def _on_surface(self, x: Array, side: int) -> Complex:
         """F' at real x: from the body's side, just below the surface; infinite where p' is."""
         c = self.contact
-        at_edge = ((x == c.x1) | (x == c.x2)) & (np.minimum(abs(c.from_left(x)), abs(c.from_right(x))) == 0.0)
+        at_edge = ((x == c.x1) | (x == c.x2)) & (
+            np.minimum(abs(c.from_left(x)), abs(c.from_right(x))) == 0.0
+        )
         inside = np.where(at_edge, np.nextafter(x, c.m), x)
         dF = self._both_in_upper(inside + 1j * shallow(c.r))[1]
         left_edge, right_edge = at_edge & (x == c.x1), at_edge & (x == c.x2)
@@ -320,7 +337,9 @@ class TransformDensity(SlopeDensity):
     def _off_axis(self, z: Complex) -> Complex:
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         # ρ = 1/(s + sqrt(s-1) sqrt(s+1)): the other form, s - sqrt(...), cancels
-        return self._powers(2.0 * self.contact.r / (left + right + 2.0 * np.sqrt(left) * np.sqrt(right)))
+        return self._powers(
+            2.0 * self.contact.r / (left + right + 2.0 * np.sqrt(left) * np.sqrt(right))
+        )
 
     def _pair(self, z: Complex) -> tuple[Complex, Complex]:
         F, dF = self._far_pair(z)
@@ -392,12 +411,18 @@ class OnPanels(SlopeDensity):
         y, ends = x - axis, axis + BESIDE_CUSP * b * np.array([-1.0, 1.0])
         beside = ends - axis  # of the rounded ends
         left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
-        return self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+        return (
+            self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+        )
 
-    def _pair_beside_cusp(self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Complex:
+    def _pair_beside_cusp(
+        self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]
+    ) -> Complex:
         """The same of the potential and its derivative, (2, n), at Im z > 0."""
         y, start = z - axis, np.array([1j * BESIDE_CUSP * b])
-        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(laws, start, b)
+        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(
+            laws, start, b
+        )
         out = self._potentials_of_powers(laws, y, b)
         out[0] += rest + steep * (y - start)
         out[1] += steep
@@ -423,7 +448,9 @@ class OnPanels(SlopeDensity):
     @property
     def _slope_at_edges(self) -> tuple[float, float]:
         p, g = self.panels, self.panels.geometry
-        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0  # a flat piece there was left out
+        left = (
+            float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
+        )  # a flat piece there was left out
         return left, float(p.series[-1].sum()) if g.cut_right else 0.0
 
     def _beside(self, x: Array) -> tuple[Array, Array]:
@@ -433,7 +460,12 @@ class OnPanels(SlopeDensity):
     def _off_axis(self, z: Complex) -> Complex:
         if not self._cusps:
             return self._off_axis_by_pieces(z)
-        values: Complex = self._joined(z, self._off_axis_by_pieces, lambda *at: self._pair_beside_cusp(*at)[0], np.empty_like(z))
+        values: Complex = self._joined(
+            z,
+            self._off_axis_by_pieces,
+            lambda *at: self._pair_beside_cusp(*at)[0],
+            np.empty_like(z),
+        )
         return values
 
     def _off_axis_by_pieces(self, z: Complex) -> Complex:
@@ -479,7 +511,11 @@ class OnPanels(SlopeDensity):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        inner = {e for e in self.panels.geometry.ends.ravel().tolist() if self.contact.x1 < e < self.contact.x2}
+        inner = {
+            e
+            for e in self.panels.geometry.ends.ravel().tolist()
+            if self.contact.x1 < e < self.contact.x2
+        }
         return (self.contact.x1, *sorted(inner), self.contact.x2)
 
 

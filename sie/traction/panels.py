@@ -79,7 +79,9 @@ class Panels:
             q: Array = self.series[:, 1:] * nu.T
             return q
         nu[1:] *= 2.0
-        return np.stack([(self.series[:, m + 1 :] * nu[: d - m].T).sum(axis=1) for m in range(d)], axis=1)
+        return np.stack(
+            [(self.series[:, m + 1 :] * nu[: d - m].T).sum(axis=1) for m in range(d)], axis=1
+        )
 
     def _means(self) -> Array:
         """μ_n = ∫ T_n(s)/w dt over every piece, n < degree: (degree, K)."""
@@ -96,7 +98,9 @@ class Panels:
         if self.degree <= 1:
             return np.full(len(self.series), 2.0 * GROWTH)  # a straight line loses half of ρ
         c = np.abs(self.series)
-        c[:, 1] = np.maximum(c[:, 1], c.max(axis=1))  # even a constant loses like ρ: two logarithms that nearly cancel
+        c[:, 1] = np.maximum(
+            c[:, 1], c.max(axis=1)
+        )  # even a constant loses like ρ: two logarithms that nearly cancel
         return chebyshev.reach(c, GROWTH)
 
     @cached_property
@@ -109,7 +113,9 @@ class Panels:
     def _serves_contact(self) -> list[bool]:
         """Pieces whose closed form serves the whole contact."""
         g = self.geometry
-        farthest = 2.0 * self.contact.r * np.maximum(g.left[1], g.right[0]) / self.half_length - 1.0  # largest |s| on the contact
+        farthest = (
+            2.0 * self.contact.r * np.maximum(g.left[1], g.right[0]) / self.half_length - 1.0
+        )  # largest |s| on the contact
         serves: list[bool] = (farthest <= np.maximum(self._reach_in_s, 1.0)).tolist()
         return serves
 
@@ -127,7 +133,17 @@ class Panels:
         offset, WH = self._rule(int(_order_beyond(np.minimum(reach, SEPARATED)).max()))
         g = self.geometry
         sums = KernelSums(g.ends[0] + g.tails[0], g.length, offset, WH)
-        return Pieces(g, self.half_length, self.series, self._continuation, self.reach, reach, offset, WH, sums)
+        return Pieces(
+            g,
+            self.half_length,
+            self.series,
+            self._continuation,
+            self.reach,
+            reach,
+            offset,
+            WH,
+            sums,
+        )
 
     def _rule(self, n: int) -> tuple[Array, Array]:
         offset, _, weight, _ = self.geometry.nodes(n)
@@ -140,7 +156,10 @@ class Panels:
         if g.slope.continuous:
             return []
         at: dict[float, float] = {}
-        entering, leaving = self.series @ (-1.0) ** np.arange(self.degree + 1), self.series.sum(axis=1)
+        entering, leaving = (
+            self.series @ (-1.0) ** np.arange(self.degree + 1),
+            self.series.sum(axis=1),
+        )
         for k, (lo, hi) in enumerate(g.ends.T.tolist()):
             if not (g.cut_left and k == 0):
                 at[lo] = at.get(lo, 0.0) + float(entering[k])
@@ -148,21 +167,32 @@ class Panels:
                 at[hi] = at.get(hi, 0.0) - float(leaving[k])
         least = SEEN_JUMP if g.slope.functions else JUMP
         # of coefficients given about x = 0, rounding grows with the distance from there
-        steepest = float((np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length).max(initial=0.0))
-        return [(e, float(np.copysign(np.inf, jump))) for e, jump in at.items() if abs(jump) > least * max(self.scale, abs(e) * steepest)]
+        steepest = float(
+            (np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length).max(initial=0.0)
+        )
+        return [
+            (e, float(np.copysign(np.inf, jump)))
+            for e, jump in at.items()
+            if abs(jump) > least * max(self.scale, abs(e) * steepest)
+        ]
 
     # -- V, for 1-d arrays; real ones must ascend ----------------------------------------------------------------------
 
     def on_contact(self, x: Array) -> Array:
         """w(x) PV∫ H / (w (t - x)) dt for x inside the contact; infinite at a jump of H."""
         width = 2.0 * self.contact.r
-        root_left, root_right = np.sqrt(self.contact.from_left(x) / width), np.sqrt(self.contact.from_right(x) / width)
+        root_left, root_right = (
+            np.sqrt(self.contact.from_left(x) / width),
+            np.sqrt(self.contact.from_right(x) / width),
+        )
         kinks_only = self.geometry.slope.continuous and not self.many
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> Array:
             a, b = e_right * root_left[at], e_left * root_right[at]
             total = a + b
-            y = 2.0 * np.minimum(a, b) / total  # Λ = ln|1 - y|: small towards the edges, y -> 1 at the break
+            y = (
+                2.0 * np.minimum(a, b) / total
+            )  # Λ = ln|1 - y|: small towards the edges, y -> 1 at the break
             if kinks_only:  # there Λ has a factor that vanishes, and its rounding with it
                 kink: Array = np.log1p(-np.minimum(y, 1.0 - EPS))
                 return kink
@@ -172,7 +202,9 @@ class Panels:
             if near.size:
                 scale = total[near]
                 d = np.abs((x[at] - e)[near]) / (width * scale)
-                scale[d == 0.0] = d[d == 0.0] = 1.0  # at the break itself the logarithm has the factor 0, or the pressure is infinite
+                scale[d == 0.0] = d[d == 0.0] = (
+                    1.0  # at the break itself the logarithm has the factor 0, or the pressure is infinite
+                )
                 out[near] = np.log(d / scale)
             return out
 
@@ -195,7 +227,9 @@ class Panels:
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> Array:
             if on_right:
-                near_edge: Array = -2.0 * np.arctan2(root_right[at] * e_left, root_left[at] * e_right)
+                near_edge: Array = -2.0 * np.arctan2(
+                    root_right[at] * e_left, root_left[at] * e_right
+                )
                 return near_edge
             far_edge: Array = 2.0 * np.arctan2(root_left[at] * e_right, root_right[at] * e_left)
             return far_edge
@@ -228,7 +262,9 @@ class Panels:
 
         return self._in_the_plane(z, root1 * root2, log_of)
 
-    def _in_the_plane(self, z: NDArray[np.complex128], R: NDArray[np.complex128], log_of: Any) -> NDArray[np.complex128]:
+    def _in_the_plane(
+        self, z: NDArray[np.complex128], R: NDArray[np.complex128], log_of: Any
+    ) -> NDArray[np.complex128]:
         """`off_axis`, from the root and the functions of the breaks, which vanish at the right edge and are π/cos at the left one."""
         V: NDArray[np.complex128]
         V, near, _ = self._combined(z, R, log_of)
@@ -281,9 +317,18 @@ class Panels:
     @cached_property
     def _places(self) -> list[tuple[float, float, float]]:
         """(lo, its tail, half-length) of every piece as plain floats."""
-        return list(zip(self.geometry.ends[0].tolist(), self.geometry.tails[0].tolist(), self.half_length.tolist(), strict=True))
+        return list(
+            zip(
+                self.geometry.ends[0].tolist(),
+                self.geometry.tails[0].tolist(),
+                self.half_length.tolist(),
+                strict=True,
+            )
+        )
 
-    def _regions(self, z: Any, serves: list[bool] | None = None) -> list[tuple[Any, tuple[Any, ...]]]:
+    def _regions(
+        self, z: Any, serves: list[bool] | None = None
+    ) -> list[tuple[Any, tuple[Any, ...]]]:
         """For every piece: the indices of z within reach of its closed form, and those beyond (slices of the ascending real ones)."""
         whole = (slice(None), ())
         if serves is not None and all(serves):
@@ -291,16 +336,24 @@ class Panels:
         if np.iscomplexobj(z):
             return [self._split_plane(k, z) for k in range(len(self.series))]
         g = self.geometry
-        middle, reach = g.ends[0] + (g.tails[0] + self.half_length), self._reach_in_s * self.half_length
+        middle, reach = (
+            g.ends[0] + (g.tails[0] + self.half_length),
+            self._reach_in_s * self.half_length,
+        )
         first, last = z.searchsorted(middle - reach), z.searchsorted(middle + reach, side="right")
-        return [(slice(i, j), (slice(0, i), slice(j, None))) for i, j in zip(first.tolist(), last.tolist(), strict=True)]
+        return [
+            (slice(i, j), (slice(0, i), slice(j, None)))
+            for i, j in zip(first.tolist(), last.tolist(), strict=True)
+        ]
 
     def _split_plane(self, k: int, z: NDArray[np.complex128]) -> tuple[Any, tuple[Any, ...]]:
         s = self._s(k, z)
         near = np.abs(s + np.sqrt(s - 1.0) * np.sqrt(s + 1.0)) <= self.reach[k]
         return np.flatnonzero(near), (np.flatnonzero(~near),)
 
-    def _combined(self, z: Any, root: Any, log_of: Any, on_contact: bool = False) -> tuple[Any, Any, Any]:
+    def _combined(
+        self, z: Any, root: Any, log_of: Any, on_contact: bool = False
+    ) -> tuple[Any, Any, Any]:
         """Σ over the pieces: closed form within reach, quadrature beyond. Edges contribute no logarithm: log_of takes interior breaks.
 
         With it, where the closed forms of the first and of the last piece were used.
@@ -325,7 +378,9 @@ class Panels:
                 J0 = J0 - log_of(ends[0][k], root_left[0][k], root_right[0][k], near)
             s, n = self._s(k, z[near]), self.lengths[k]
             H = chebyshev.evaluate(self.series[k, :n], s)
-            V[near] += H * J0 + root[near] * chebyshev.evaluate_second_kind(self._continuation[k, : n - 1], s)
+            V[near] += H * J0 + root[near] * chebyshev.evaluate_second_kind(
+                self._continuation[k, : n - 1], s
+            )
         return (V, regions[0][0], regions[-1][0]) if regions else (V, (), ())
 
     def _quadrature(self, k: int, z: Any) -> Any:
@@ -336,7 +391,9 @@ class Panels:
 
 def _order_beyond(reach_in_s: Array) -> NDArray[np.int64]:
     """Gauss-Legendre nodes, an even number, of a piece that is taken from |s| = reach on."""
-    s = 2.0 * np.sqrt(0.5 * (reach_in_s + 1.0)) - 1.0  # at an edge the angle goes like the square root of the distance
+    s = (
+        2.0 * np.sqrt(0.5 * (reach_in_s + 1.0)) - 1.0
+    )  # at an edge the angle goes like the square root of the distance
     decay = np.log(s + np.sqrt(s * s - 1.0))
     needed = np.ceil(math.log(GROWTH / EPS) / (2.0 * decay)) + 2
     order: NDArray[np.int64] = (2 * np.ceil(needed / 2)).astype(np.int64)

@@ -30,12 +30,17 @@ class Geometry:
     Only the first and the last piece can be cut by an edge. Building one costs a few microseconds: the search for the edges builds many.
     """
 
-    def __init__(self, slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False) -> None:
+    def __init__(
+        self, slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False
+    ) -> None:
         """`lower` cuts off all that is left of it (the axis of a symmetric contact)."""
         b = slope.breaks
         floor, floor_tail = (contact.x1, contact.tail1) if lower is None else (lower, 0.0)
         first = max(int(b.searchsorted(floor, side="left" if floor_tail < 0.0 else "right")) - 1, 0)
-        last = min(int(b.searchsorted(contact.x2, side="right" if contact.tail2 > 0.0 else "left")), len(b) - 1)
+        last = min(
+            int(b.searchsorted(contact.x2, side="right" if contact.tail2 > 0.0 else "left")),
+            len(b) - 1,
+        )
         k = np.arange(first, last)
         if not keep_zero and slope.has_zero:
             k = k[~slope.is_zero[k]]
@@ -54,7 +59,11 @@ class Geometry:
         if n and k[0] == first and ends[0, 0] <= floor:
             self.cut_left = lower is None
             ends[0, 0], self.tails[0, 0] = floor, floor_tail
-            distance[:, 0, 0] = (0.0, width) if lower is None else (contact.from_left(lower), contact.from_right(lower))
+            distance[:, 0, 0] = (
+                (0.0, width)
+                if lower is None
+                else (contact.from_left(lower), contact.from_right(lower))
+            )
             length[0] = distance[0, 1, 0] - distance[0, 0, 0]
         if n and k[-1] == last - 1 and ends[1, -1] >= contact.x2:
             self.cut_right = True
@@ -71,7 +80,9 @@ class Geometry:
     def angles(self) -> tuple[Array, Array | float, Array]:
         """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular length), each (K, 1)."""
         (a, c), (b, d) = self.root_left, self.root_right
-        angle = 2.0 * np.arctan2(self.length / (2.0 * self.contact.r * (b * c + a * d)), a * c + b * d)
+        angle = 2.0 * np.arctan2(
+            self.length / (2.0 * self.contact.r * (b * c + a * d)), a * c + b * d
+        )
         if self._all_right:
             return 2.0 * np.arctan2(b, a)[:, None], -1.0, angle[:, None]
         left = self.left[0] + self.left[1] < 1.0
@@ -82,12 +93,23 @@ class Geometry:
         """Some of the pieces; quadrature only."""
         part = copy(self)
         part.k = self.k[chosen]
-        part.ends, part.tails, part.length = self.ends[:, chosen], self.tails[:, chosen], self.length[chosen]
+        part.ends, part.tails, part.length = (
+            self.ends[:, chosen],
+            self.tails[:, chosen],
+            self.length[chosen],
+        )
         part.left, part.right = self.left[:, chosen], self.right[:, chosen]
         part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
-        part.cut_left, part.cut_right = self.cut_left and bool(chosen[0]), self.cut_right and bool(chosen[-1])
+        part.cut_left, part.cut_right = (
+            self.cut_left and bool(chosen[0]),
+            self.cut_right and bool(chosen[-1]),
+        )
         from_edge, sign, length = self.angles
-        part.angles = from_edge[chosen], sign[chosen] if isinstance(sign, np.ndarray) else sign, length[chosen]
+        part.angles = (
+            from_edge[chosen],
+            sign[chosen] if isinstance(sign, np.ndarray) else sign,
+            length[chosen],
+        )
         return part
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
@@ -108,7 +130,10 @@ class Geometry:
         """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
         if n == 2 == self.slope.coefficients.shape[1] and not self.slope.functions:
             half = 0.5 * self.length
-            return np.stack((self.slopes(half[:, None])[:, 0], half * self.slope.coefficients[self.k, 1]), axis=1)
+            return np.stack(
+                (self.slopes(half[:, None])[:, 0], half * self.slope.coefficients[self.k, 1]),
+                axis=1,
+            )
         offset = (0.5 * self.length)[:, None] * (1.0 + chebyshev.points(n))
         return chebyshev.transform(self.slopes(offset))
 

@@ -104,7 +104,10 @@ class Plane:
             if near is None:
                 self._add_closed_form(k, s, every, (V, dV, N), shared)
                 continue
-            for at, add in ((np.flatnonzero(near), self._add_closed_form), (np.flatnonzero(~near), self._add_quadrature)):
+            for at, add in (
+                (np.flatnonzero(near), self._add_closed_form),
+                (np.flatnonzero(~near), self._add_quadrature),
+            ):
                 if at.size:
                     part = (V[at], dV[at], N[at])
                     add(k, s[at], every.at(at), part, {})
@@ -136,7 +139,14 @@ class Plane:
         near: NDArray[np.bool_] = np.abs(s - 1.0) + np.abs(s + 1.0) <= rho + 1.0 / rho
         return None if near.all() else near
 
-    def _add_closed_form(self, k: int, s: Complex, at: Points, to: tuple[Complex, Complex, Complex], shared: dict[float, Complex]) -> None:
+    def _add_closed_form(
+        self,
+        k: int,
+        s: Complex,
+        at: Points,
+        to: tuple[Complex, Complex, Complex],
+        shared: dict[float, Complex],
+    ) -> None:
         H, dH, ends, Q, dQ = self._series[k]
         V, dV, N = to
         J0 = self._angle(k, at, shared)
@@ -149,7 +159,14 @@ class Plane:
         if len(dQ):
             N += at.left * at.right * chebyshev.evaluate_second_kind(dQ, s)
 
-    def _add_quadrature(self, k: int, s: Complex, at: Points, to: tuple[Complex, Complex, Complex], shared: dict[float, Complex]) -> None:
+    def _add_quadrature(
+        self,
+        k: int,
+        s: Complex,
+        at: Points,
+        to: tuple[Complex, Complex, Complex],
+        shared: dict[float, Complex],
+    ) -> None:
         """V = R S and V' = ((z - m) S + R² S')/R,  S = ∫H / (w (t - z)) dt."""
         V, _, N = to
         offset, WH = self.panels._far_rules[k]
@@ -186,7 +203,9 @@ class Plane:
                 if jump == 0.0:
                     continue
             else:
-                jump = H_after * (1.0 if near_after is None else near_after) - H_before * (1.0 if near_before is None else near_before)
+                jump = H_after * (1.0 if near_after is None else near_after) - H_before * (
+                    1.0 if near_before is None else near_before
+                )
             N += w * jump / (z - e)
 
     # -- what depends on the pieces only -------------------------------------------------------------------------------
@@ -214,7 +233,15 @@ class Plane:
                 if end:
                     w = self.weight(end)
                     ends[: n - 1] -= sign * w / half * chebyshev.divided(c, sign)
-            rows.append((c, np.arange(1, n) * c[1:] / half, ends, q, chebyshev.second_kind_derivative(q) / half))
+            rows.append(
+                (
+                    c,
+                    np.arange(1, n) * c[1:] / half,
+                    ends,
+                    q,
+                    chebyshev.second_kind_derivative(q) / half,
+                )
+            )
         return rows
 
     @cached_property
@@ -231,8 +258,15 @@ class Plane:
         steepest = max((abs(v) for pair in steepness.values() for v in pair), default=0.0)
         least = SEEN_JUMP if p.geometry.slope.functions else JUMP
         infinite = {e for e, _ in p.jumps}
-        found = ((e, -math.inf if e in infinite else math.copysign(math.inf, b - a)) for e, (a, b) in steepness.items())
-        return tuple((e, s) for e, s in found if e in infinite or abs(steepness[e][1] - steepness[e][0]) > least * steepest)
+        found = (
+            (e, -math.inf if e in infinite else math.copysign(math.inf, b - a))
+            for e, (a, b) in steepness.items()
+        )
+        return tuple(
+            (e, s)
+            for e, s in found
+            if e in infinite or abs(steepness[e][1] - steepness[e][0]) > least * steepest
+        )
 
     @cached_property
     def _breaks(self) -> list[tuple[float, float, int | None, int | None, float, float]]:

@@ -48,9 +48,15 @@ class SlidingGeometry(Geometry):
     """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that ends at an edge, Gauss-Legendre in
     ln τ on others. The slope is broken at the middle of the contact, so that no piece comes near both edges."""
 
-    def __init__(self, slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False) -> None:
+    def __init__(
+        self, slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False
+    ) -> None:
         lo, hi = slope.domain
-        super().__init__(slope.split_at(contact.m) if lo < contact.m < hi else slope, contact, keep_zero=keep_zero)
+        super().__init__(
+            slope.split_at(contact.m) if lo < contact.m < hi else slope,
+            contact,
+            keep_zero=keep_zero,
+        )
         self.epsilon = epsilon
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array]:
@@ -65,11 +71,24 @@ class SlidingGeometry(Geometry):
         offset, angle, weight = np.empty((3, len(self.k), n))
         g, w = chebyshev.gauss_legendre(n)
         u = folds[interior, None] * g
-        from_left = (a[interior] ** 2)[:, None] * np.exp(u) / ((b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u))
-        from_right = (b[interior] ** 2)[:, None] / ((b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u))
+        from_left = (
+            (a[interior] ** 2)[:, None]
+            * np.exp(u)
+            / ((b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u))
+        )
+        from_right = (b[interior] ** 2)[:, None] / (
+            (b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u)
+        )
         offset[interior] = width * (a[interior] ** 2)[:, None] * np.expm1(u) * from_right
-        angle[interior] = 2.0 * np.arcsin(np.sqrt(np.where(left[interior, None], from_left, from_right)))
-        weight[interior] = folds[interior, None] * w * from_left ** (0.5 - self.epsilon) * from_right ** (0.5 + self.epsilon)
+        angle[interior] = 2.0 * np.arcsin(
+            np.sqrt(np.where(left[interior, None], from_left, from_right))
+        )
+        weight[interior] = (
+            folds[interior, None]
+            * w
+            * from_left ** (0.5 - self.epsilon)
+            * from_right ** (0.5 + self.epsilon)
+        )
         for k in np.flatnonzero(~interior).tolist():
             offset[k], angle[k], weight[k] = self._at_edge(k, n)
         return offset, angle, weight, np.where(left, 1.0, -1.0)[:, None]
@@ -79,7 +98,11 @@ class SlidingGeometry(Geometry):
         at_left = self.cut_left and k == 0
         sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
         g, w = edge_rule(n, sign)
-        root_near, root_far = (self.root_left[1, k], self.root_right[1, k]) if at_left else (self.root_right[0, k], self.root_left[0, k])
+        root_near, root_far = (
+            (self.root_left[1, k], self.root_right[1, k])
+            if at_left
+            else (self.root_right[0, k], self.root_left[0, k])
+        )
         whole = 2.0 * math.atan2(root_near, root_far)
         angle = whole * g
         # t - lo, from the left edge, or from lo towards the right edge, as products
@@ -100,7 +123,9 @@ def edge_rule(n: int, power: float) -> tuple[Array, Array]:
     return g, w
 
 
-def sliding_moments(slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False) -> Moments:
+def sliding_moments(
+    slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False
+) -> Moments:
     """`moments` with dt/w for dφ, and C2 = ∫ H (1/2 - 2ε² - 2ε s - s²) dt/w, s = (t - m)/r."""
     g = SlidingGeometry(slope, contact, epsilon, keep_zero)
     if not len(g.k):
@@ -124,17 +149,30 @@ def _summed(g: SlidingGeometry) -> Moments:
     e = g.epsilon
     C2 = float(np.vdot(WH, 0.5 - 2.0 * e * e - 2.0 * e * s - s * s))
     positive, negative = np.maximum(WH, 0.0).sum(), -np.minimum(WH, 0.0).sum()
-    return Moments(float(WH.sum()), float(np.vdot(WH, s)), C2, JR, JL, float(positive), float(negative), *sizes(g, weight, H))
+    return Moments(
+        float(WH.sum()),
+        float(np.vdot(WH, s)),
+        C2,
+        JR,
+        JL,
+        float(positive),
+        float(negative),
+        *sizes(g, weight, H),
+    )
 
 
 def _derivative(g: SlidingGeometry, offset: Array) -> Array:
     """H' at the nodes, from each piece's Chebyshev series: it steers Newton's steps only."""
     half = np.maximum(0.5 * g.length[:, None], SHORTEST)
     series = g.chebyshev_slope(max(g.slope.degree + 1, 2))
-    series[np.abs(series[:, 1:]).sum(axis=1) <= 4.0 * EPS * np.abs(series[:, 0])] = 0.0  # rounding on a piece that short
+    series[np.abs(series[:, 1:]).sum(axis=1) <= 4.0 * EPS * np.abs(series[:, 0])] = (
+        0.0  # rounding on a piece that short
+    )
     derivative = np.polynomial.chebyshev.chebder(series, axis=1)
     s = offset / half - 1.0
-    out: Array = np.einsum("nkm,kn->km", chebyshev.polynomials(derivative.shape[1], s), derivative) / half
+    out: Array = (
+        np.einsum("nkm,kn->km", chebyshev.polynomials(derivative.shape[1], s), derivative) / half
+    )
     return out
 
 
@@ -157,7 +195,10 @@ class SlidingPanels(Panels):
 
     def __init__(self, geometry: SlidingGeometry, I0: float = 0.0) -> None:
         super().__init__(geometry, I0)
-        self.at_left, self.at_right = 0.5 + geometry.epsilon, 0.5 - geometry.epsilon  # the exponents of w
+        self.at_left, self.at_right = (
+            0.5 + geometry.epsilon,
+            0.5 - geometry.epsilon,
+        )  # the exponents of w
         self.cos = math.cos(math.pi * geometry.epsilon)
 
     def _means(self) -> Array:
@@ -176,14 +217,19 @@ class SlidingPanels(Panels):
             away, towards = e_left**2 * right[at], e_right**2 * left[at]  # their ratio is τ_e / ζ
             out = np.empty_like(away)
             inside = away <= towards
-            for mask, near, far, power in ((inside, away, towards, self.at_right), (~inside, towards, away, self.at_left)):
+            for mask, near, far, power in (
+                (inside, away, towards, self.at_right),
+                (~inside, towards, away, self.at_left),
+            ):
                 y = np.maximum(np.abs((x[at] - e)[mask]) / far[mask], least)
                 y[y == 0.0] = EPS  # V is set to infinity there
                 y = np.minimum(y, 1.0)
                 out[mask] = -lerch.log(power, np.where(y < 0.5, 1.0 - y, near[mask] / far[mask]), y)
             return out
 
-        V: Array = self._combined(x, left**self.at_left * right**self.at_right, log_of, on_contact=True)[0]
+        V: Array = self._combined(
+            x, left**self.at_left * right**self.at_right, log_of, on_contact=True
+        )[0]
         for e, infinite in self.jumps:
             V[x == e] = infinite
         return V
@@ -196,7 +242,11 @@ class SlidingPanels(Panels):
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> Array:
             ratio = (e_left / e_right) ** 2 * (right[at] / left[at])
-            return -lerch.arctan(self.at_right, ratio) if on_right else lerch.arctan(self.at_left, 1.0 / ratio)
+            return (
+                -lerch.arctan(self.at_right, ratio)
+                if on_right
+                else lerch.arctan(self.at_left, 1.0 / ratio)
+            )
 
         return self._continued(x, R, log_of, on_right)
 
@@ -204,11 +254,17 @@ class SlidingPanels(Panels):
         from_left, from_right = self.contact.from_left(z), self.contact.from_right(z)
 
         def log_of(e: float, e_left: float, e_right: float, at: Any) -> NDArray[np.complex128]:
-            return self.function_of_break((e, e_left, e_right), z[at], from_left[at], from_right[at])
+            return self.function_of_break(
+                (e, e_left, e_right), z[at], from_left[at], from_right[at]
+            )
 
-        return self._in_the_plane(z, from_left**self.at_left * (-from_right) ** self.at_right, log_of)
+        return self._in_the_plane(
+            z, from_left**self.at_left * (-from_right) ** self.at_right, log_of
+        )
 
-    def function_of_break(self, end: tuple[Any, Any, Any], z: Complex, from_left: Complex, from_right: Complex) -> Complex:
+    def function_of_break(
+        self, end: tuple[Any, Any, Any], z: Complex, from_left: Complex, from_right: Complex
+    ) -> Complex:
         """What stands for the logarithm of the break e in the upper half-plane, given (e, sqrt((e - x1)/2r), sqrt((x2 - e)/2r))."""
         e, e_left, e_right = end
         away, towards = e_left**2 * from_right, e_right**2 * from_left
@@ -223,7 +279,9 @@ class SlidingPanels(Panels):
         return out
 
     def _far_root(self, z: Any, z_m: Any) -> Any:
-        return (self.contact.from_left(z) / z_m) ** self.at_left * (-self.contact.from_right(z) / z_m) ** self.at_right
+        return (self.contact.from_left(z) / z_m) ** self.at_left * (
+            -self.contact.from_right(z) / z_m
+        ) ** self.at_right
 
 
 class SlidingPlane(Plane):
@@ -235,7 +293,9 @@ class SlidingPlane(Plane):
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         p = self.panels
         R = left**p.at_left * right**p.at_right
-        return Points(z, left, right, left, right, R, left * right / R, p.at_left * right + p.at_right * left)
+        return Points(
+            z, left, right, left, right, R, left * right / R, p.at_left * right + p.at_right * left
+        )
 
     def weight(self, end: tuple[Any, Any, Any]) -> Any:
         p = self.panels
@@ -300,13 +360,17 @@ class SlidingDensity(PanelDensity):
         logarithm = lerch.log1p(2.0 * r / right) if far else np.log(left / right)
         power = np.expm1 if far else np.exp
         ends = self.k2 * power(at_left * logarithm) - self.k1 * power((at_left - 1.0) * logarithm)
-        steep = self.k2 * at_left * np.exp(at_left * logarithm) - self.k1 * (at_left - 1.0) * np.exp((at_left - 1.0) * logarithm)
+        steep = self.k2 * at_left * np.exp(at_left * logarithm) - self.k1 * (
+            at_left - 1.0
+        ) * np.exp((at_left - 1.0) * logarithm)
         return np.array([half * ends, -2.0 * half * r * steep / (left * right)])
 
     def _hilbert_inside(self, x: Array) -> Array:
         # Where p is infinite so is this; only the slope's part is given there, as for similar bodies
         p = self(x)
-        return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * np.where(np.isfinite(p), p, 0.0)
+        return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * np.where(
+            np.isfinite(p), p, 0.0
+        )
 
     def _beside(self, x: Array) -> tuple[Array, Array]:
         V, continued = self.panels.beside(x)
@@ -318,4 +382,6 @@ class SlidingDensity(PanelDensity):
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
         ratio = left / right if np.iscomplexobj(left) else np.abs(left / right)
-        return (0.5 / self.panels.cos) * (self.k2 * ratio ** (0.5 + self.epsilon) - self.k1 * ratio ** (self.epsilon - 0.5))
+        return (0.5 / self.panels.cos) * (
+            self.k2 * ratio ** (0.5 + self.epsilon) - self.k1 * ratio ** (self.epsilon - 0.5)
+        )
