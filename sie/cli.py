@@ -27,17 +27,17 @@ from itertools import combinations
 from types import ModuleType
 from typing import Any, NoReturn
 
-from . import __version__, interrupt
+from . import __version__, files, interrupt
 from .errors import ContactError
 from .history import follow
 from .interrupt import INTERRUPTED
-from .io import export, files, scene_file
+from .io import export, scene_file
 from .io.mesh_comparison import Comparison, compare, read_mesh
 from .io.report import summary
 from .io.sample_points import POINTS
 from .io.scene_file import SceneFile
 from .io.stress_grid import SIZE, SUFFIXES, Grid, file_bytes
-from .io.toml_values import nearest, told
+from .messages import nearest, with_short_words
 from .plan import UNASKED, WANTS, plan
 from .problem.load_path import Path
 from .solution import Solution, solve
@@ -80,7 +80,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except (ValueError, ContactError, OSError) as problem:
         _forget_output()
-        _complain(" ".join(told(_sentence(problem)).split()))
+        _complain(" ".join(with_short_words(_sentence(problem)).split()))
         return REFUSED
     except MemoryError:
         _forget_output()

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 import sie
-from sie import __main__ as command
+from sie import cli as command
+from sie import files
 from sie.certificate.pressure_check import Certificate
 from sie.cli import main
-from sie.io import files, report, sample_points, scene_file
+from sie.io import report, sample_points, scene_file
 from sie.plan import WANTS
 from sie.profiles.shapes import profile_kinds
 

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from sie.io.files import write_files
+from sie.files import write_files
 
 from . import readme
 from .report import Section, machine, number, page

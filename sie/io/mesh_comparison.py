@@ -24,10 +24,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.profiles.trace_files import MESH, header_of, read_columns
+from sie.messages import nearest
+from sie.profiles.trace_files import MESH, read_table
 from sie.solution import Solution
-
-from .toml_values import nearest
 
 Array = NDArray[np.float64]
 
@@ -191,7 +190,8 @@ class Comparison:
 def read_mesh(path: str | Path) -> Mesh:
     """The columns x, y and whatever of QUANTITIES the header names; without a header the first two are x and p."""
     path = Path(path)
-    header, width = header_of(path, most=MESH)
+    table = read_table(path, MESH)
+    header, width = table.header, table.width
     names = [NAMES.get(name, name) for name in header] or ["x", "p"]
     known = [name for name in names[:width] if name in ("x", "y", *QUANTITIES)]
     found = [name for name in known if name in QUANTITIES]
@@ -201,13 +201,8 @@ def read_mesh(path: str | Path) -> Mesh:
         raise ValueError(
             f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
-    columns = dict(
-        zip(
-            known,
-            read_columns(path, tuple(names.index(name) for name in known), most=MESH),
-            strict=True,
-        )
-    )
+    indices = tuple(names.index(name) for name in known)
+    columns = dict(zip(known, table.columns(indices), strict=True))
     for name, values in columns.items():
         largest = float(np.abs(values).max())
         if largest > LARGEST:

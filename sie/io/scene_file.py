@@ -36,6 +36,8 @@ from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
 
+from sie import files
+from sie.messages import choices, nearest, shortened, suggestion, with_short_words
 from sie.plan import WANTS
 from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
@@ -44,7 +46,7 @@ from sie.profiles.base import Profile
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import profile_kinds
 
-from . import files, toml_values
+from . import toml_values
 
 
 class SceneFileError(ValueError):
@@ -153,7 +155,7 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
     try:
         return _scene_file(table, folder)
     except ValueError as problem:
-        raise SceneFileError(f"{name}: {toml_values.told(problem)}") from None
+        raise SceneFileError(f"{name}: {with_short_words(problem)}") from None
 
 
 def _decoded(data: bytes, name: str) -> str:
@@ -178,9 +180,7 @@ def example(kind: str) -> str:
     Raises ValueError, with the nearest name, for one that is not known.
     """
     if kind not in _examples():
-        raise ValueError(
-            f'there is no example "{kind}": {toml_values.suggestion(kind, _examples())}'
-        )
+        raise ValueError(f'there is no example "{kind}": {suggestion(kind, _examples())}')
     return (resources.files("sie.examples") / f"{kind}.toml").read_text(encoding="utf-8")
 
 
@@ -348,17 +348,15 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted."""
     kinds = profile_kinds()
     if "kind" not in table:
-        meant = next((key for key in table if toml_values.nearest(key, ["kind"])), "")
+        meant = next((key for key in table if nearest(key, ["kind"])), "")
         raise ValueError(
             f'{where} has no key "{meant}": did you mean "kind"?'
             if meant
-            else f"{where} lacks kind: give kind = {toml_values.choices(kinds)}"
+            else f"{where} lacks kind: give kind = {choices(kinds)}"
         )
     kind = toml_values.text(f"{where} kind", table["kind"])
     if kind not in kinds:
-        raise ValueError(
-            f'{where} kind = "{kind}" is not known: {toml_values.suggestion(kind, kinds)}'
-        )
+        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, kinds)}')
     measured = kind == "sampled" and not table.keys().isdisjoint(
         _FILE.keys() - _PARAMETERS[kind].keys()
     )
@@ -389,7 +387,7 @@ def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
             else f"{problem.strerror}"
         )
         raise ValueError(
-            f'path = "{toml_values.shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
+            f'path = "{shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
         ) from None
 
 
@@ -450,9 +448,7 @@ def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
     """The names, if all of them can be asked for; ValueError, with the nearest that can, if not."""
     for name in names:
         if name not in WANTS:
-            raise ValueError(
-                f'{where} "{name}" is not known: {toml_values.suggestion(name, WANTS)}'
-            )
+            raise ValueError(f'{where} "{name}" is not known: {suggestion(name, WANTS)}')
     return tuple(names)
 
 
@@ -460,9 +456,7 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
     """Where a stray key belongs: near a known one, in another table (a header was forgotten), or to another kind of profile."""
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
     if here == f"[{key}]" or (of_profile and key == "profile"):
-        return toml_values.suggestion(
-            {"load": "normal_load", "profile": "kind"}.get(key, key), known
-        )
+        return suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
     if here:
         elsewhere = dict.fromkeys(
             ("title", "want"), "it stands at the top of the file, before the first [table]"
@@ -474,7 +468,7 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
         elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
         if key in elsewhere:
             return elsewhere[key]
-    if not toml_values.nearest(key, known):
+    if not nearest(key, known):
         homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
         kinds = [
             kind
@@ -482,8 +476,8 @@ def _remedy(key: str, known: Iterable[str], here: str) -> str:
             if key in readers or (kind == "sampled" and key in _FILE)
         ]
         if of_profile and kinds:
-            return f"it belongs to kind {toml_values.choices(kinds)}"
+            return f"it belongs to kind {choices(kinds)}"
         homes += ["[profile]"] if key == "kind" or kinds or key in _MODIFIERS else []
         if homes:
             return f"it belongs in {' or '.join(homes)}"
-    return toml_values.suggestion(key, known)
+    return suggestion(key, known)

@@ -1,14 +1,13 @@
-"""Entries of a scene file, each with the sentence that refuses it, and the nearest to a name that is not known."""
+"""Entries of a scene file: each reader returns a value or refuses it in one sentence."""
 
 from __future__ import annotations
 
-import difflib
-import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
+from sie.messages import shortened
+
 Reader = Callable[[str, Any], Any]
-LONGEST = 60  # letters of a value that are shown
 
 
 def number(where: str, value: Any) -> float:
@@ -111,38 +110,3 @@ def shown(value: Any) -> str:
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))
-
-
-def shortened(text: str) -> str:
-    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
-
-
-def told(sentence: object) -> str:
-    """A sentence without words that nobody reads: a key or a formula may be as long as a file."""
-    return re.sub(r"\S{256,}", lambda word: shortened(word[0]), str(sentence))
-
-
-# -- names that are not known ------------------------------------------------------------------------------------------
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that `name` was most likely meant to be, "" if none is near.
-
-    >>> nearest("normal_laod", ["normal_load", "tangential_load"])
-    'normal_load'
-    """
-    if len(name) > LONGEST:
-        return ""
-    by_letters = {k.lower().replace("_", "-"): k for k in known}
-    found = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
-    return by_letters[found[0]] if found else ""
-
-
-def suggestion(name: str, known: Iterable[str]) -> str:
-    near = nearest(name, known)
-    return f'did you mean "{near}"?' if near else f"choose {choices(known)}"
-
-
-def choices(names: Iterable[str]) -> str:
-    quoted = [f'"{name}"' for name in names]
-    return f"{', '.join(quoted[:-1])} or {quoted[-1]}" if len(quoted) > 1 else quoted[0]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.io.toml_values import nearest
+from sie.messages import nearest, shortened
 
 Array = NDArray[np.float64]
 
@@ -178,8 +178,7 @@ class Expression:
         return _Step(_ARITY[name], getattr(np, name))
 
     def _refusal(self, problem: str) -> ValueError:
-        text = self.text if len(self.text) <= 60 else self.text[:57] + "..."
-        return ValueError(f"expression {text!r} {problem}")
+        return ValueError(f"expression {shortened(self.text)!r} {problem}")
 
     def __call__(self, x: Array) -> Array:
         stack: list[Any] = []
@@ -215,7 +214,7 @@ def _written(node: ast.AST) -> str:
         text = ast.unparse(node)
     except RecursionError:
         text = type(node).__name__
-    return repr(text if len(text) <= 60 else text[:57] + "...")
+    return repr(shortened(text))
 
 
 def _advice(name: str) -> str:

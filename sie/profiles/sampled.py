@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -25,7 +24,7 @@ from .splines import (
     longest_lambda,
     smoothing_spline,
 )
-from .trace_files import Column, is_text, read_columns, read_topography
+from .trace_files import Column, read_trace
 
 Array = NDArray[np.float64]
 Smoothing = float | Literal["gcv"]
@@ -110,16 +109,7 @@ class Sampled(Profile):
         Raises ValueError, with the numbers of the lines, where values are missing, and OSError where there is no file.
         """
         factors = _factors(scale)
-        if is_text(path):
-            if len(tuple(columns)) != 2:
-                raise ValueError(
-                    f"columns = {columns!r} is not a pair: give the columns of x and of h"
-                )
-            if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
-                raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
-            x, h = read_columns(path, tuple(columns), int(skip), keep_missing=mend)
-        else:
-            x, h = read_topography(path)
+        x, h = read_trace(path, columns, skip, keep_missing=mend)
         with np.errstate(over="ignore"):
             scaled = factors[0] * x, factors[1] * h
         if (np.isinf(scaled) & np.isfinite((x, h))).any():
