@@ -38,17 +38,10 @@ from .problem.load_path import Path
 from .problem.material import RIGID, Elastic
 from .problem.scene import Scene
 from .profiles.base import Profile
+from .profiles.from_function import FromFunction
+from .profiles.polynomials import Piecewise, Polynomial
 from .profiles.sampled import Sampled
-from .profiles.shapes import (
-    Flat,
-    FromFunction,
-    Parabola,
-    Piecewise,
-    Polynomial,
-    Power,
-    RoundedFlat,
-    Wedge,
-)
+from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
 from .stress.fretting import Cycle

@@ -17,9 +17,9 @@ from sie.certificate.pressure_check import Certificate
 from sie.cli import main
 from sie.io import report, sample_points, scene_file
 from sie.plan import WANTS
-from sie.profiles.shapes import profile_kinds
+from sie.profiles import kinds
 
-KINDS = list(profile_kinds())
+KINDS = list(kinds.KINDS)
 
 
 @pytest.fixture

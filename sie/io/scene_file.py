@@ -31,8 +31,9 @@ import codecs
 import pathlib
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import partial
 from importlib import resources
 from typing import Any
 
@@ -43,10 +44,22 @@ from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
+from sie.profiles.kinds import KINDS
 from sie.profiles.sampled import Sampled
-from sie.profiles.shapes import profile_kinds
 
-from . import toml_values
+from .scene_tables import (
+    LOADS,
+    MODIFIERS,
+    TOP,
+    Entries,
+    entries_of,
+    entries_of_file,
+    read_values,
+    remedy,
+    require,
+    values_of,
+)
+from .toml_values import table_of, text, texts
 
 
 class SceneFileError(ValueError):
@@ -77,6 +90,7 @@ class Units:
 
 
 UNITS = Units()
+EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
@@ -174,89 +188,26 @@ def _decoded(data: bytes, name: str) -> str:
 # -- examples ----------------------------------------------------------------------------------------------------------
 
 
-def example(kind: str) -> str:
-    """The commented example of a profile kind, or of a kind of loading, as TOML text.
+def example(name: str) -> str:
+    """The commented example of a kind of profile or of loading, as TOML text.
 
     Raises ValueError, with the nearest name, for one that is not known.
     """
-    if kind not in _examples():
-        raise ValueError(f'there is no example "{kind}": {suggestion(kind, _examples())}')
-    return (resources.files("sie.examples") / f"{kind}.toml").read_text(encoding="utf-8")
+    known = example_names()
+    if name not in known:
+        raise ValueError(f'there is no example "{name}": {suggestion(name, known)}')
+    return (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def examples() -> dict[str, str]:
     """The name of each example and its title."""
-    return {kind: parse(example(kind), f"{kind}.toml").title for kind in _examples()}
+    return {name: parse(example(name), f"{name}.toml").title for name in example_names()}
 
 
-def _examples() -> tuple[str, ...]:
-    return (*profile_kinds(), "partial-slip", "fretting-cycle", "sliding")
-
-
-# -- what each table may hold ------------------------------------------------------------------------------------------
-
-_BODY: dict[str, toml_values.Reader] = {
-    "young": toml_values.number,
-    "poisson": toml_values.number,
-    "plane": toml_values.text,
-    "rigid": toml_values.flag,
-}
-_LOAD_KEYS = (
-    "normal_load",
-    "half_width",
-    "tilt",
-    "moment",
-    "friction",
-    "tangential_load",
-    "sliding",
-    "bulk_stress",
-)
-_PATH_REPLACES = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
-_TABLES: dict[str, dict[str, toml_values.Reader]] = {
-    "units": {"length": toml_values.text, "force": toml_values.text, "stress": toml_values.text},
-    "body": _BODY,
-    "indenter": _BODY,
-    "pair": {
-        "modulus": toml_values.number,
-        "dundurs": toml_values.number,
-        "poisson": toml_values.number,
-    },
-    "load": dict.fromkeys(_LOAD_KEYS, toml_values.number) | {"path": toml_values.rows},
-}
-_TOP: tuple[str, ...] = ("title", "want", "profile", *_TABLES)
-_MODIFIERS: dict[str, toml_values.Reader] = {
-    "mirrored": toml_values.flag,
-    "tilted": toml_values.number,
-    "shifted": toml_values.number,
-}
-# Parameters of each profile kind; the optional ones are those of "function" but for its slope.
-_PARAMETERS: dict[str, dict[str, toml_values.Reader]] = {
-    "parabola": {"radius": toml_values.number},
-    "rounded-flat": {"half_flat": toml_values.number, "radius": toml_values.number},
-    "flat": {"half_width": toml_values.number},
-    "wedge": {"slope": toml_values.number},
-    "power": {"exponent": toml_values.number, "coefficient": toml_values.number},
-    "polynomial": {"coefficients": toml_values.numbers},
-    "piecewise": {"breaks": toml_values.numbers, "pieces": toml_values.rows},
-    "function": {
-        "slope": toml_values.text,
-        "breaks": toml_values.numbers,
-        "domain": toml_values.numbers,
-        "parity": toml_values.text,
-    },
-    "sampled": {
-        "x": toml_values.numbers,
-        "h": toml_values.numbers,
-        "smoothing": toml_values.number_or_text,
-        "mend": toml_values.flag,
-    },
-}
-_OPTIONAL = {"function": {"breaks", "domain", "parity"}, "sampled": {"smoothing", "mend"}}
-# Of kind "sampled" in place of x and h.
-_FILE: dict[str, toml_values.Reader] = {
-    "path": toml_values.text, "columns": toml_values.columns, "scale": toml_values.number_or_pair, "skip": toml_values.whole,
-    "smoothing": toml_values.number_or_text, "mend": toml_values.flag,
-}  # fmt: skip
+def example_names() -> tuple[str, ...]:
+    """The kinds of profile, then the kinds of loading."""
+    stems = {file.name.removesuffix(".toml") for file in EXAMPLES.iterdir()}
+    return (*KINDS, *sorted(stems - KINDS.keys()))
 
 
 # -- from tables to a scene --------------------------------------------------------------------------------------------
@@ -264,21 +215,21 @@ _FILE: dict[str, toml_values.Reader] = {
 
 def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     for key in top:
-        if key not in _TOP:
-            raise ValueError(f'there is no key or table "{key}": {_remedy(key, _TOP, "")}')
+        if key not in TOP:
+            raise ValueError(f'there is no key or table "{key}": {remedy(key, TOP, "")}')
     for name, content in (
         ("profile", 'kind = "parabola" or another'),
         ("load", "normal_load or half_width"),
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
-    loads = _taken("load", top["load"])
+    loads = values_of("load", top["load"])
     path = _path(loads)
     return SceneFile(
         scene=Scene(profile=_profile(top["profile"], folder), **_bodies(top), **loads),
-        title=toml_values.text("title", top.get("title", "")),
-        units=Units(**_taken("units", top.get("units", {}))),
-        want=wants("want", toml_values.texts("want", top.get("want", []))),
+        title=text("title", top.get("title", "")),
+        units=Units(**values_of("units", top.get("units", {}))),
+        want=wants("want", texts("want", top.get("want", []))),
         path=path,
         reads=tuple(
             folder / term["path"]
@@ -292,7 +243,7 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
     """The turning points of [load] path; in `loads` the last of them takes its place."""
     if "path" not in loads:
         return ()
-    both = [name for name in _PATH_REPLACES if name in loads]
+    both = [name for name in LOADS if name in loads]
     if both:
         raise ValueError(
             f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out"
@@ -307,30 +258,8 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
     return points
 
 
-def _taken(name: str, value: Any) -> dict[str, Any]:
-    """The values of the table [name], none unknown, each of its type."""
-    return _values(f"[{name}]", toml_values.table(name, value), _TABLES[name])
-
-
-def _values(
-    where: str, table: Mapping[str, Any], readers: Mapping[str, toml_values.Reader], kind: str = ""
-) -> dict[str, Any]:
-    for key in table:
-        if key not in readers:
-            raise ValueError(f'{where}{kind} has no key "{key}": {_remedy(key, readers, where)}')
-    return {key: readers[key](f"{where} {key}", value) for key, value in table.items()}
-
-
-def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None:
-    missing = [name for name in names if name not in values]
-    if missing:
-        raise ValueError(
-            f"{where} lacks {' and '.join(missing)}: give {' and '.join(f'{name} = ...' for name in missing)}"
-        )
-
-
 def _profile(value: Any, folder: pathlib.Path) -> Profile:
-    first = dict(toml_values.table("profile", value))
+    first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError(
@@ -346,54 +275,59 @@ def _profile(value: Any, folder: pathlib.Path) -> Profile:
 
 def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     """One term of the profile: its kind, then mirrored, tilted, shifted."""
-    kinds = profile_kinds()
+    kind = _kind(where, table)
+    make, entries = _maker(kind, table, folder)
+    readers = {"kind": text, **entries.readers, **MODIFIERS}
+    values = read_values(where, table, readers, kind=f' of kind "{kind}"')
+    require(f'{where} of kind "{kind}"', values, entries.required)
+    given = {name: v for name, v in values.items() if name in entries.readers}
+    with _Naming(where):
+        profile = make(**given)
+        profile = profile.mirrored() if values.get("mirrored") else profile
+        return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+
+
+def _kind(where: str, table: dict[str, Any]) -> str:
     if "kind" not in table:
         meant = next((key for key in table if nearest(key, ["kind"])), "")
         raise ValueError(
             f'{where} has no key "{meant}": did you mean "kind"?'
             if meant
-            else f"{where} lacks kind: give kind = {choices(kinds)}"
+            else f"{where} lacks kind: give kind = {choices(KINDS)}"
         )
-    kind = toml_values.text(f"{where} kind", table["kind"])
-    if kind not in kinds:
-        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, kinds)}')
-    measured = kind == "sampled" and not table.keys().isdisjoint(
-        _FILE.keys() - _PARAMETERS[kind].keys()
-    )
-    readers = _FILE if measured else _PARAMETERS[kind]
-    values = _values(
-        where, table, {"kind": toml_values.text, **readers, **_MODIFIERS}, kind=f' of kind "{kind}"'
-    )
-    _required(
-        f'{where} of kind "{kind}"',
-        values,
-        ["path"] if measured else (name for name in readers if name not in _OPTIONAL.get(kind, ())),
-    )
-    given = {name: v for name, v in values.items() if name in readers}
-    with _Naming(where):
-        profile: Profile = _measured(folder, **given) if measured else kinds[kind](**given)
-        profile = profile.mirrored() if values.get("mirrored") else profile
-        return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+    kind = text(f"{where} kind", table["kind"])
+    if kind not in KINDS:
+        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, KINDS)}')
+    return kind
 
 
-def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
+def _maker(
+    kind: str, table: dict[str, Any], folder: pathlib.Path
+) -> tuple[Callable[..., Profile], Entries]:
+    """The function that makes a profile of the kind, and its parameters. A trace may be in a file."""
+    make = KINDS[kind]
+    entries, of_file = entries_of(make), entries_of_file()
+    if make is Sampled and table.keys() & (of_file.readers.keys() - entries.readers.keys()):
+        return partial(_trace, folder), of_file
+    return make, entries
+
+
+def _trace(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
     """A trace in a file, which is named from the scene file's folder."""
     try:
         return Sampled.read(folder / path, **options)
     except OSError as problem:
-        why = (
-            "there is no such file"
-            if isinstance(problem, FileNotFoundError)
-            else f"{problem.strerror}"
-        )
+        absent = isinstance(problem, FileNotFoundError)
+        why = "there is no such file" if absent else problem.strerror
         raise ValueError(
-            f'path = "{shortened(path)}" is not read, {why}: give the trace\'s file, from where the scene file is'
+            f'path = "{shortened(path)}" is not read, {why}: '
+            "give the trace's file, from where the scene file is"
         ) from None
 
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
-    pair = _taken("pair", top.get("pair", {}))
+    pair = values_of("pair", top.get("pair", {}))
     if "pair" in top and pair.keys() != {"dundurs"}:
         for name in ("body", "indenter"):
             if name in top:
@@ -405,7 +339,7 @@ def _bodies(top: dict[str, Any]) -> dict[str, Any]:
             raise ValueError(
                 "there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus"
             )
-        _required("[pair]", pair, ["modulus"])
+        require("[pair]", pair, ["modulus"])
     return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
 
 
@@ -416,12 +350,12 @@ def _body(name: str, value: Any) -> Body:
                 f'{name} = "{value}" is not known: write {name} = "rigid", or a table [{name}] with young and poisson'
             )
         return RIGID
-    values = _taken(name, value)
+    values = values_of(name, value)
     if values.pop("rigid", False):
         if values:
             raise ValueError(f"[{name}] is rigid and has {', '.join(values)}: leave one out")
         return RIGID
-    _required(f"[{name}]", values, ("young", "poisson"))
+    require(f"[{name}]", values, ("young", "poisson"))
     with _Naming(f"[{name}]"):
         return Elastic(**values)
 
@@ -450,34 +384,3 @@ def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
         if name not in WANTS:
             raise ValueError(f'{where} "{name}" is not known: {suggestion(name, WANTS)}')
     return tuple(names)
-
-
-def _remedy(key: str, known: Iterable[str], here: str) -> str:
-    """Where a stray key belongs: near a known one, in another table (a header was forgotten), or to another kind of profile."""
-    known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))
-    if here == f"[{key}]" or (of_profile and key == "profile"):
-        return suggestion({"load": "normal_load", "profile": "kind"}.get(key, key), known)
-    if here:
-        elsewhere = dict.fromkeys(
-            ("title", "want"), "it stands at the top of the file, before the first [table]"
-        )
-        elsewhere |= {
-            name: f"it is a table of its own, write the header [{name}] and its keys below it"
-            for name in ("profile", *_TABLES)
-        }
-        elsewhere["plus"] = "terms are not nested, write one [[profile.plus]] after the other"
-        if key in elsewhere:
-            return elsewhere[key]
-    if not nearest(key, known):
-        homes = [f"[{table}]" for table, readers in _TABLES.items() if key in readers]
-        kinds = [
-            kind
-            for kind, readers in _PARAMETERS.items()
-            if key in readers or (kind == "sampled" and key in _FILE)
-        ]
-        if of_profile and kinds:
-            return f"it belongs to kind {choices(kinds)}"
-        homes += ["[profile]"] if key == "kind" or kinds or key in _MODIFIERS else []
-        if homes:
-            return f"it belongs in {' or '.join(homes)}"
-    return suggestion(key, known)

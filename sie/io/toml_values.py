@@ -85,7 +85,7 @@ def columns(where: str, value: Any) -> tuple[int | str, ...]:
     )
 
 
-def table(where: str, value: Any) -> dict[str, Any]:
+def table_of(where: str, value: Any) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
     if isinstance(value, list):

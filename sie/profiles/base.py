@@ -46,6 +46,12 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
 class Profile(ABC):
     """An indenter. Lengths in any unit; slopes are pure numbers (radians, small)."""
 
+    def _require_positive(self, *names: str, largest: float = arguments.LARGEST) -> None:
+        """Replace fields of a profile that is being built by floats. ValueError unless > 0."""
+        for name in names:
+            value = arguments.positive(name, getattr(self, name), largest)
+            object.__setattr__(self, name, value)
+
     @property
     @abstractmethod
     def pieces(self) -> Slope:
