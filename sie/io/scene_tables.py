@@ -16,9 +16,10 @@ from numpy.typing import ArrayLike
 from sie.messages import choices, nearest, suggestion
 from sie.profiles.base import Parity
 from sie.profiles.kinds import KINDS
-from sie.profiles.sampled import Sampled, Smoothing
+from sie.profiles.sampled import Sampled
 from sie.profiles.slope import Vectorised
 from sie.profiles.trace_files import Column
+from sie.profiles.trace_values import Smoothing
 
 from .toml_values import (
     Reader,
