@@ -1,17 +1,21 @@
 """A mesh result beside the exact answer: error norms, and the shift in x that fits best.
 
-With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them (over points scattered in the body,
-sums with equal weights)
+With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them
+(over points scattered in the body, sums with equal weights)
 
     l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
     resultant = ∫f_mesh over that of f on the whole contact, less 1
-    shift     the d for which f(x - d) is nearest to f_mesh in l2: a mesh whose origin is elsewhere, or a contact that creeps
-    factor    the c for which c f is nearest to f_mesh in l2: told where it is no matter of accuracy, but of units or of signs
+    shift     the d for which f(x - d) is nearest to f_mesh in l2: another origin of the mesh, or
+              a contact that creeps
+    factor    the c for which c f is nearest to f_mesh in l2; given where it shows other units or
+              signs, and not a lack of accuracy
 
-A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges, corners) are left out and counted.
+A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges,
+corners) are left out and counted.
 
-Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth is y >= 0, as everywhere here. In a file
-whose y points out of the body (none is positive) depth is -y, and σ_xy has the other sign.
+Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth
+is y >= 0, as everywhere here. In a file whose y points out of the body (none is positive) depth is
+-y, and σ_xy has the other sign.
 """
 
 from __future__ import annotations
@@ -32,7 +36,8 @@ Array = NDArray[np.float64]
 
 Exact = Callable[[Solution, Array, Array], Array]
 
-# The columns of a file that can be compared: their names, and the exact values at points (x, depth).
+# The columns of a file that can be compared: their names, and the exact values at points (x,
+# depth).
 TRACTIONS: dict[str, Exact] = {
     "p": lambda solution, x, y: solution.pressure(x),
     "q": lambda solution, x, y: solution.shear(x),
@@ -78,15 +83,13 @@ FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
-FACTORS = (
-    0.5,
-    2.0,
-)  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
+# Between these factors a mesh is inaccurate; beyond them its units or signs differ.
+FACTORS = (0.5, 2.0)
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """The columns of a file: x, depth y (0 on the surface), and the quantities that were found in it, by ascending x.
+    """The columns of a file, by ascending x: x, depth y (0 on the surface) and its quantities.
 
     `others` are the columns that were passed over, by name, or by number where there is no header.
     """
@@ -110,7 +113,10 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Difference:
-    """What a mesh result differs by from the exact one, relative; `at` and `depth` are where most, `infinite` points were left out."""
+    """How much a mesh result differs from the exact one, relative.
+
+    The difference is largest at x = `at`, y = `depth`; `infinite` points were left out.
+    """
 
     points: int
     infinite: int
@@ -127,7 +133,7 @@ class Difference:
 
     @property
     def suspicion(self) -> str:
-        """What a factor far from 1 asks for, if it explains more than half of what the mesh holds."""
+        """What a factor far from 1 suggests, if it explains more than half of the difference."""
         if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
             return ""
         return (
@@ -173,7 +179,8 @@ class Comparison:
                 f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
                 *(
                     [
-                        f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: {d.suspicion}"
+                        f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: "
+                        f"{d.suspicion}"
                     ]
                     if d.suspicion
                     else []
@@ -188,7 +195,7 @@ class Comparison:
 
 
 def read_mesh(path: str | Path) -> Mesh:
-    """The columns x, y and whatever of QUANTITIES the header names; without a header the first two are x and p."""
+    """The columns x, y and those of QUANTITIES that the header names; x and p without a header."""
     path = Path(path)
     table = read_table(path, MESH)
     header, width = table.header, table.width
@@ -199,7 +206,8 @@ def read_mesh(path: str | Path) -> Mesh:
         near = next((name for name in header if nearest(name, ("x", *QUANTITIES, *NAMES))), "")
         hint = f' (is "{near}" one of them?)' if near else ""
         raise ValueError(
-            f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
+            f"{path.name} has the columns {', '.join(header)}{hint}: "
+            f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
         )
     indices = tuple(names.index(name) for name in known)
     columns = dict(zip(known, table.columns(indices), strict=True))
@@ -207,7 +215,8 @@ def read_mesh(path: str | Path) -> Mesh:
         largest = float(np.abs(values).max())
         if largest > LARGEST:
             raise ValueError(
-                f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines"
+                f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: "
+                "delete such lines"
             )
     y = _depths(path.name, columns)
     order = np.lexsort((y, columns["x"]))
@@ -225,7 +234,8 @@ def read_mesh(path: str | Path) -> Mesh:
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(
-                f"{path.name} holds {len(x)} points of {name}{where}: a comparison needs at least two"
+                f"{path.name} holds {len(x)} points of {name}{where}: "
+                "a comparison needs at least two"
             )
     return mesh
 
@@ -237,7 +247,8 @@ def _depths(name: str, columns: dict[str, Array]) -> Array:
         return np.zeros(len(columns["x"]))
     if y.min() < 0.0 < y.max():
         raise ValueError(
-            f"{name} has y from {y.min():.6g} to {y.max():.6g}: the body is on one side of y = 0, leave the other out"
+            f"{name} has y from {y.min():.6g} to {y.max():.6g}: "
+            "the body is on one side of y = 0, leave the other out"
         )
     if y.min() < 0.0 and "sxy" in columns:
         columns["sxy"] = -columns["sxy"]
@@ -245,12 +256,13 @@ def _depths(name: str, columns: dict[str, Array]) -> Array:
 
 
 def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
-    """Every quantity of the mesh against the exact one. Raises ValueError where the points miss the contact."""
+    """Every quantity of the mesh against the exact one. ValueError if no point is in contact."""
     x1, x2 = solution.edges
     if np.count_nonzero((mesh.x > x1) & (mesh.x < x2)) < 2:
         raise ValueError(
             f"fewer than two points of {mesh.name} are in the contact [{x1:.6g}, {x2:.6g}], "
-            f"x runs from {mesh.x[0]:.6g} to {mesh.x[-1]:.6g}: are the units of length, or the origins, the same?"
+            f"x runs from {mesh.x[0]:.6g} to {mesh.x[-1]:.6g}: "
+            "are the units of length, or the origins, the same?"
         )
     return Comparison(mesh, tol, {name: _difference(name, solution, mesh) for name in mesh.values})
 

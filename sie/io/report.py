@@ -111,7 +111,8 @@ def shear_summary(solution: Solution, units: Units) -> str:
         rows.append(
             (
                 "slip",
-                f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p",
+                f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, "
+                f"q = {'+' if sign > 0.0 else '-'}f p",
             )
         )
     rows += [
@@ -162,7 +163,8 @@ def yield_summary(solution: Solution, units: Units) -> str:
         return _rows(
             (
                 "elastic limit",
-                f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface",
+                "0: the stress is infinite at "
+                f"x = {_number(found.x, r)} {units.length} on the surface",
             )
         )
     places = (
@@ -171,7 +173,8 @@ def yield_summary(solution: Solution, units: Units) -> str:
     return _rows(
         (
             "elastic limit",
-            f"P/(bk) = {_number(found.ratio)} (von Mises): this contact yields if k < {_number(found.stress)} {units.stress}",
+            f"P/(bk) = {_number(found.ratio)} (von Mises): "
+            f"this contact yields if k < {_number(found.stress)} {units.stress}",
         ),
         ("weakest point", " and ".join(places)),
     )

@@ -1,27 +1,33 @@
 """Scene files: a contact problem as TOML text, read into a `Scene` with the labels of its units.
 
-    title = "..."                     optional, as is  want = ["edges", "check"], what `sie solve` answers without --want
-    indenter = "rigid"                optional; the other way is a table [indenter]
+    title = "..."       optional
+    want = ["edges"]    optional: what `sie solve` answers without --want
+    indenter = "rigid"  optional; the other way is a table [indenter]
 
-    [units]      length = "mm"  force = "N/mm"  stress = "MPa"      labels only: nothing is converted, any consistent set works
-    [profile]    kind and its parameters; mirrored, tilted, shifted, applied in this order
-                 (a trace: kind = "sampled" with path, a file seen from the scene file's folder, or with x and h)
-    [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
-    [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
-    [indenter]   the same; without it the indenter is made of the body's material
-    [pair]       modulus = E*, dundurs, poisson: in place of [body] and [indenter]; beside them dundurs = 0 alone, which neglects their β
-    [load]       normal_load | half_width, tilt | moment, friction, tangential_load | sliding, bulk_stress;  or, in place of the loads,
-                 path = [[P, Q, σ], ...]: turning points, σ may be left out; the scene is that of the last one
+    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units
+    [profile]           kind and its parameters; mirrored, tilted, shifted, applied in this order;
+                        of kind "sampled" x and h, or path, a file beside the scene file
+    [[profile.plus]]    further terms, each like [profile]: the heights add up, and modifiers act
+                        on their own term
+    [body]              young, poisson, plane = "strain" | "stress"; or rigid = true
+    [indenter]          the same; without it the indenter is made of the body's material
+    [pair]              modulus = E*, dundurs, poisson, in place of [body] and [indenter]; beside
+                        them dundurs = 0 alone, which neglects their β
+    [load]              normal_load | half_width, tilt | moment, friction,
+                        tangential_load | sliding, bulk_stress; or, in place of the loads,
+                        path = [[P, Q, σ], ...], turning points, σ may be left out: the scene is
+                        that of the last one
 
-`sie example` lists commented files to start from. Whatever does not fit is refused in one sentence, a `SceneFileError`, that names the
-file, the table, the value and the remedy; a name that is not known is answered with the nearest that is.
+`sie example` lists commented files to start from. Whatever does not fit is refused in one sentence,
+a `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not
+known is answered with the nearest that is.
 
->>> found = parse('''
+>>> file = parse('''
 ... profile = { kind = "parabola", radius = 100.0 }
 ... pair = { modulus = 80e3 }
 ... load = { normal_load = 50.0 }
 ... ''')
->>> found.scene.profile, found.units.length
+>>> file.scene.profile, file.units.length
 (Parabola(radius=100.0), 'mm')
 """
 
@@ -68,7 +74,7 @@ class SceneFileError(ValueError):
 
 @dataclass(frozen=True)
 class Units:
-    """Labels of the units. They must be consistent, force = stress × length; nothing is converted."""
+    """Labels of consistent units, force = stress × length; nothing is converted."""
 
     length: str = "mm"
     force: str = "N/mm"
@@ -96,7 +102,8 @@ HERE = pathlib.Path()
 MOST_BYTES = 10**6
 # Each is solved and listed, within two seconds together.
 MOST_POINTS = 2000
-# Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene needs three.
+# Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
+# needs three.
 DEEPEST = 20
 # What is not closed ends with the line, or with the file: so each character is looked at once.
 _STRING_OR_COMMENT = re.compile(
@@ -108,7 +115,15 @@ _DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file holds; `want` is empty where the file leaves it to the asker, `reads` are the files that it names."""
+    """What a scene file holds.
+
+    scene    the contact problem; of a path that of its last point
+    title    one line of text
+    units    labels
+    want     what is to be answered, empty if the file does not say
+    path     turning points (P, Q, σ)
+    reads    the files that it names
+    """
 
     scene: Scene
     title: str = ""
@@ -118,7 +133,7 @@ class SceneFile:
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
 
-# -- reading -----------------------------------------------------------------------------------------------------------
+# -- reading -------------------------------------------------------------------------------------
 
 
 def read(path: str | pathlib.Path) -> SceneFile:
@@ -144,10 +159,14 @@ def read(path: str | pathlib.Path) -> SceneFile:
 
 
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
-    """The scene in a TOML text; `name` is what messages call it, `folder` where the files are that it names. Raises SceneFileError."""
+    """The scene in a TOML text. Raises SceneFileError.
+
+    `name` stands for the text in messages; files that it names are looked for in `folder`.
+    """
     if len(text) > MOST_BYTES:
         raise SceneFileError(
-            f"{name} has more than {MOST_BYTES / 1e6:g} MB: put a trace in a file of its own, as path"
+            f"{name} has more than {MOST_BYTES / 1e6:g} MB: "
+            "put a trace in a file of its own, as path"
         )
     text = text if isinstance(text, str) else _decoded(text, name)
     try:
@@ -173,7 +192,8 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
 
 
 def _decoded(data: bytes, name: str) -> str:
-    # Windows PowerShell's `>` writes UTF-16, editors there may write a byte-order mark before UTF-8.
+    # Windows PowerShell's `>` writes UTF-16, editors there may write a byte-order mark before
+    # UTF-8.
     encoding = (
         "utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
     )
@@ -185,7 +205,7 @@ def _decoded(data: bytes, name: str) -> str:
         ) from None
 
 
-# -- examples ----------------------------------------------------------------------------------------------------------
+# -- examples ------------------------------------------------------------------------------------
 
 
 def example(name: str) -> str:
@@ -210,7 +230,7 @@ def example_names() -> tuple[str, ...]:
     return (*KINDS, *sorted(stems - KINDS.keys()))
 
 
-# -- from tables to a scene --------------------------------------------------------------------------------------------
+# -- from tables to a scene ----------------------------------------------------------------------
 
 
 def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
@@ -246,11 +266,13 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
     both = [name for name in LOADS if name in loads]
     if both:
         raise ValueError(
-            f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; leave {both[0]} out"
+            f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; "
+            f"leave {both[0]} out"
         )
     if len(loads["path"]) > MOST_POINTS:
         raise ValueError(
-            f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: follow it in Python, by sie.follow"
+            f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: "
+            "follow it in Python, by sie.follow"
         )
     with _Naming("[load]"):
         points = Path(loads.pop("path")).points
@@ -263,7 +285,8 @@ def _profile(value: Any, folder: pathlib.Path) -> Profile:
     plus = first.pop("plus", [])
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError(
-            "profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term"
+            "profile.plus is not a list of tables: "
+            "write the header [[profile.plus]], in double brackets, before each term"
         )
     total = _term("[profile]", first, folder)
     for k, term in enumerate(plus, start=1):
@@ -304,7 +327,7 @@ def _kind(where: str, table: dict[str, Any]) -> str:
 def _maker(
     kind: str, table: dict[str, Any], folder: pathlib.Path
 ) -> tuple[Callable[..., Profile], Entries]:
-    """The function that makes a profile of the kind, and its parameters. A trace may be in a file."""
+    """The function that makes a profile of the kind, and its parameters; a trace may be a file."""
     make = KINDS[kind]
     entries, of_file = entries_of(make), entries_of_file()
     if make is Sampled and table.keys() & (of_file.readers.keys() - entries.readers.keys()):
@@ -332,12 +355,14 @@ def _bodies(top: dict[str, Any]) -> dict[str, Any]:
         for name in ("body", "indenter"):
             if name in top:
                 raise ValueError(
-                    f"both [pair] and [{name}] are given: [pair] stands for both bodies, leave one out; or give dundurs = 0 alone in it"
+                    f"both [pair] and [{name}] are given: "
+                    "[pair] stands for both bodies, leave one out; or give dundurs = 0 alone in it"
                 )
     if "body" not in top:
         if "pair" not in top:
             raise ValueError(
-                "there is neither [body] nor [pair]: give [body] with young and poisson, or [pair] with modulus"
+                "there is neither [body] nor [pair]: "
+                "give [body] with young and poisson, or [pair] with modulus"
             )
         require("[pair]", pair, ["modulus"])
     return {name: _body(name, top[name]) for name in ("body", "indenter") if name in top} | pair
@@ -347,7 +372,8 @@ def _body(name: str, value: Any) -> Body:
     if isinstance(value, str):
         if value != "rigid":
             raise ValueError(
-                f'{name} = "{value}" is not known: write {name} = "rigid", or a table [{name}] with young and poisson'
+                f'{name} = "{value}" is not known: '
+                f'write {name} = "rigid", or a table [{name}] with young and poisson'
             )
         return RIGID
     values = values_of(name, value)
@@ -375,7 +401,7 @@ class _Naming:
             raise ValueError(f"{self.where} {problem}") from None
 
 
-# -- names that are not known ------------------------------------------------------------------------------------------
+# -- names that are not known --------------------------------------------------------------------
 
 
 def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:

@@ -13,7 +13,8 @@ Reader = Callable[[str, Any], Any]
 def number(where: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
-            f"{where} = {shown(value)} is not a number: write a plain number, without quotes or units"
+            f"{where} = {shown(value)} is not a number: "
+            "write a plain number, without quotes or units"
         )
     try:
         return float(value)
@@ -28,7 +29,8 @@ def text(where: str, value: Any) -> str:
         raise ValueError(f'{where} = {shown(value)} is not text: put it in quotes, "..."')
     if not value.isprintable():
         raise ValueError(
-            f"{where} = {shown(value)} is not one line of plain text: leave out line ends and control characters"
+            f"{where} = {shown(value)} is not one line of plain text: "
+            "leave out line ends and control characters"
         )
     return value
 

@@ -1,7 +1,8 @@
-"""The picture of a mesh result over the exact one: of each quantity both, and below them their difference.
+"""The picture of a mesh result over the exact one, with their difference below.
 
-Points on a line are dots, the exact answer a curve through them. Points scattered in the body are drawn where they are, coloured by the
-mesh's value and by the difference. Differences are parts of the largest exact value.
+Points on a line are dots, the exact answer a curve through them. Points scattered in the body are
+drawn where they are, coloured by the mesh's value and by the difference. Differences are parts of
+the largest exact value.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def overlay(
 
 
 class _Both(NamedTuple):
-    """A quantity at the points of the mesh; the difference is nan where the exact value is infinite."""
+    """A quantity at the points of the mesh; the difference is nan where it is infinite."""
 
     x: Array
     y: Array
@@ -117,7 +118,7 @@ def _draw_curves(
     found: _Both,
     scales: tuple[float, float],
 ) -> None:
-    """The exact curve, the mesh's dots on it, and below the difference; dotted lines at the edges."""
+    """The exact curve, the mesh's dots and, below, the difference; dotted lines at the edges."""
     (upper, lower), (factor, scale) = panels, scales
     fine = np.unique(np.concatenate((abscissae(solution, POINTS), found.x)))
     fine = fine[(fine >= found.x[0]) & (fine <= found.x[-1])]

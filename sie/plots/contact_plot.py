@@ -1,14 +1,17 @@
-"""The picture of a contact, for one column of a journal: the pressure, and below it the gap before and after loading.
+"""The picture of a contact, for one column of a journal: the pressure, and the gap below it.
 
-    upper panel     p(x) with its peak; where it is infinite or a spike far above the rest, the panel is cut and arrows say so
-    lower panel     in the frame of the half-plane's deformed surface: the gap of the unloaded indenter that just touches, h(x) + tilt x
-                    less its lowest value, and the gap under load, 0 in contact. Neither depends on the approach of the bodies, which
-                    plane elasticity leaves undetermined: nothing in the panel is arbitrary.
-    with shear      q(x) between the limits ± f p, the stick zones shaded; and after a path the loop of Q over the shift that slip allows,
-                    a dot on each turning point
+    upper panel     p(x) with its peak; where it is infinite or far above the rest, the panel is cut
+                    and arrows say so
+    lower panel     in the frame of the half-plane's deformed surface: the gap of the unloaded
+                    indenter that just touches, h(x) + tilt x less its lowest value, and the gap
+                    under load, 0 in contact; neither depends on the approach of the bodies, which
+                    plane elasticity leaves undetermined
+    with shear      q(x) between the limits ± f p, the stick zones shaded; and after a path the loop
+                    of Q over the shift that slip allows, with a dot on each turning point
 
-Dotted lines through both panels are the edges x1 and x2. Matplotlib is imported here and by the other pictures (`contours`, `overlay`), and
-nothing imports these before one is asked for; `pyplot` is not used, and no global setting is changed.
+Dotted lines through both panels are the edges x1 and x2. Matplotlib is imported by the modules of
+this folder, and they are imported when a picture is asked for; `pyplot` is not used, and no global
+setting is changed.
 """
 
 from __future__ import annotations
@@ -51,7 +54,8 @@ NOT_OFFERED = {"pgf", "raw", "rgba"}
 FAMILY = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 SIZE, SMALL = 8.0, 7.0
 TITLE_COLUMNS = 56
-# Okabe and Ito (2008): told apart by the colour-blind, and in greyscale by their lightness. Opaque: PostScript knows no transparency.
+# Okabe and Ito (2008): told apart by the colour-blind, and in greyscale by their lightness. Opaque:
+# PostScript knows no transparency.
 BLUE, PALE_BLUE, VERMILLION, INK = "#0072B2", "#cfe4f0", "#D55E00", "#222222"
 INDENTER, HALF_PLANE = "#ececec", "#d4d4d4"
 DASHED, DOTTED = (0, (5, 2.5)), (0, (1, 2))
@@ -65,7 +69,8 @@ ARROW = {
 }
 
 HEADROOM = 1.22  # of the upper panel over the largest pressure it shows: for the label
-LOOP_POINTS = 16  # from one turning point to the next; a power of two, so that steps to and fro meet the same loads
+# From one turning point to the next; a power of two, so that steps to and fro meet the same loads.
+LOOP_POINTS = 16
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 DIGITS = 4
 # A length in mm may be read in these; in other units a power of ten stands before the unit.
@@ -76,8 +81,8 @@ READABLE = (0.1, 1e4)  # largest values that need no other unit
 def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
     """A Matplotlib figure of the pressure and the gap, and of the shear if there is any.
 
-    `units` are labels. The figure is not known to pyplot: save it with figure.savefig("contact.pdf"), or leave it as the last line of a
-    notebook's cell.
+    `units` are labels. The figure is not known to pyplot: save it with
+    figure.savefig("contact.pdf"), or leave it as the last line of a notebook's cell.
     """
     view = _View(solution, units)
     sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
@@ -128,7 +133,7 @@ def suffixes() -> tuple[str, ...]:
 
 
 def picture_bytes(figure: Figure, suffix: str) -> bytes:
-    """The figure as a file of the given suffix, without the time of day, so that the same picture is the same file."""
+    """The figure as a file of that suffix, without a date: the same picture is the same file."""
     stream = io.BytesIO()
     undated: dict[str, Any] = {
         "svg": {"Date": None},
@@ -141,7 +146,7 @@ def picture_bytes(figure: Figure, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-# -- what is drawn -----------------------------------------------------------------------------------------------------
+# -- what is drawn -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -177,7 +182,7 @@ class _View:
 
     @cached_property
     def highest(self) -> float:
-        """The largest gap to be drawn. A flat punch has none, but its picture needs a height: P/E* is the scale of displacements."""
+        """The largest gap to be drawn; of a flat punch P/E*, the scale of displacements."""
         return float(self.unloaded.max()) or self.solution.normal_load / self.solution.scene.Estar
 
     @property
@@ -269,7 +274,7 @@ def _draw_gap(axes: Axes, view: _View) -> None:
 
 
 def _draw_shear(axes: Axes, view: _View) -> None:
-    """q between ± f p; where |q| would leave the panel (sharp edges) it is cut like the pressure."""
+    """q between ± f p; where |q| leaves the panel (sharp edges) it is cut like the pressure."""
     solution, (x1, x2) = view.solution, view.solution.edges
     f, largest = solution.scene.friction, solution.scene.friction * view.shown
     scale, stress = _scaled(largest, view.units.stress)
@@ -364,7 +369,7 @@ def _draw_surface(axes: Axes, view: _View, y: Array, **style: Any) -> None:
     axes.plot(x * view.factor, y, solid_joinstyle="round", **style)
 
 
-# -- labels ------------------------------------------------------------------------------------------------------------
+# -- labels --------------------------------------------------------------------------------------
 
 
 def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
@@ -387,7 +392,7 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
 
 
 def _label_peak(axes: Axes, view: _View) -> None:
-    """The peak in words, in the headroom above it: towards the middle of the panel, and beside the arrow if there is one."""
+    """The peak in words, above it: towards the middle of the panel, and beside an arrow."""
     largest, where = peak(view.solution)
     text = (
         rf"$p_{{\max}}$ = {_quantity(largest, largest, view.units.stress)}"
@@ -451,7 +456,7 @@ def _name_bodies(axes: Axes, view: _View) -> None:
         )
 
 
-# -- axes --------------------------------------------------------------------------------------------------------------
+# -- axes ----------------------------------------------------------------------------------------
 
 
 def _plain(axes: Axes) -> None:

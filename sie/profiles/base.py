@@ -249,7 +249,7 @@ class Profile(ABC):
         return Sum(self, other)
 
 
-# -- profiles made of others --------------------------------------------------------------------
+# -- profiles made of others ---------------------------------------------------------------------
 
 
 class Placed(NamedTuple):

@@ -164,7 +164,7 @@ class Piecewise(Profile):
 
     @cached_property
     def convex(self) -> bool:
-        """Known only for slopes that are linear on each piece; others are checked by their answer."""
+        """Known only for slopes that are linear on each piece; other contacts are verified."""
         s = self.pieces
         if s.coefficients.shape[1] > 2:
             return False

@@ -178,7 +178,7 @@ class Sampled(Profile):
     def __hash__(self) -> int:
         return hash((self.points.tobytes(), (self.heights + 0.0).tobytes(), self.smoothing))
 
-    # -- the spline ---------------------------------------------------------------------------
+    # -- the spline -------------------------------------------------------------------------------
 
     @cached_property
     def lam(self) -> float:
@@ -211,7 +211,7 @@ class Sampled(Profile):
     def ends_are_corners(self) -> tuple[bool, bool]:
         return False, False
 
-    # -- what is known of the measurement -----------------------------------------------------
+    # -- what is known of the measurement ---------------------------------------------------------
 
     @property
     def misfit(self) -> float:
@@ -268,7 +268,7 @@ class Sampled(Profile):
         """(height at x = 0, slope) of the least-squares line, which `levelled` subtracts."""
         return fitting.line(self.points, self.heights)
 
-    # -- other traces made of this one --------------------------------------------------------
+    # -- other traces made of this one ------------------------------------------------------------
 
     def smoothed(self, smoothing: Smoothing = "gcv") -> Sampled:
         """The same trace with another smoothing.
@@ -366,11 +366,15 @@ class Sampled(Profile):
         return made
 
 
-# -- traces in other profiles ----------------------------------------------------------------------
+# -- traces in other profiles --------------------------------------------------------------------
 
 
 class PlacedTrace(NamedTuple):
-    """A trace in a profile: its x is direction x + origin, its slope counts times direction, + tilt."""
+    """A trace in a profile.
+
+    At x of the profile its own x is direction x + origin, and the profile's slope is direction
+    times the trace's slope, + tilt.
+    """
 
     trace: Sampled
     direction: float = 1.0
@@ -391,7 +395,7 @@ def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
 
 
 def explained(error: ContactError, profile: Profile) -> ContactError:
-    """The refusal of a contact, with the reason and the remedy that a trace has. Nothing is solved."""
+    """The refusal of a contact, with the reason and the remedy if the profile has a trace."""
     trace = next((placed.trace for placed in traces_in(profile)), None)
     if trace is None or not error.reached:
         return error

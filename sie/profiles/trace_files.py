@@ -37,7 +37,8 @@ TRACE, MESH = Limit(4 * 10**6, 10**5), Limit(64 * 10**6, 5 * 10**5)
 # Suffixes of text; files with any other suffix are left to SurfaceTopography.
 TEXT = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")
 MISSING = {
-    "", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "*****", "inf", "-inf", "+inf", "bad"
+    "", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "*****",
+    "inf", "-inf", "+inf", "bad",
 }  # fmt: skip
 NAMED = 5  # lines that a message names
 DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"

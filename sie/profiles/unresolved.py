@@ -35,7 +35,8 @@ Known = Callable[[Array], Array]
 
 SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
-MISSED = 32.0  # times what the resolution may miss of the largest slope: what differs by more was not seen
+# Times what the resolution may miss of the largest slope: a larger difference was not resolved.
+MISSED = 32.0
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
 MOST = 64  # places that are looked at more closely at once
@@ -89,7 +90,8 @@ def misfit(
 ) -> tuple[Array, Array]:
     """(x, how far the worst of some resolutions is from H) on scattered points.
 
-    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own making, and of x.
+    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own
+    making, and of x.
     """
     x = scattered(contact, start_at)
     if len(x) < 2:
