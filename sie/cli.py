@@ -277,12 +277,12 @@ def _check_picture(path: pathlib.Path) -> None:
 
 
 def _pictures() -> ModuleType:
-    """The module that draws a contact; nothing else needs Matplotlib."""
+    """The style of the pictures, whose import shows whether there is Matplotlib."""
     try:
-        from .plots import contact_plot  # noqa: PLC0415
+        from .plots import style  # noqa: PLC0415
     except ImportError:
         raise ValueError('--plot needs Matplotlib: pip install "plane-contact[plot]"') from None
-    return contact_plot
+    return style
 
 
 # -- what is given back --------------------------------------------------------------------------
@@ -324,7 +324,9 @@ def _figure(solution: Solution, file: SceneFile) -> Any:
         from .plots.stress_plot import contours  # noqa: PLC0415
 
         return contours(solution, file.units, file.title)
-    return _pictures().picture(solution, file.units, file.title)
+    from .plots.contact_plot import picture  # noqa: PLC0415
+
+    return picture(solution, file.units, file.title)
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:

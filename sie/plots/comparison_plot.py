@@ -7,8 +7,7 @@ the largest exact value.
 
 from __future__ import annotations
 
-import textwrap
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,20 +20,23 @@ from sie.io.sample_points import abscissae, ceiling
 from sie.io.scene_file import UNITS, Units
 from sie.solution import Solution
 
-from .contact_plot import (
+from .style import (
     BLUE,
-    DOTTED,
     DPI,
     HEADROOM,
-    INK,
     POINTS,
     SMALL,
-    TITLE_COLUMNS,
     VERMILLION,
     WIDTH,
-    _font,
-    _plain,
-    _scaled,
+    curve,
+    edge_lines,
+    font,
+    heading,
+    legend,
+    plain,
+    scaled,
+    x_axis,
+    zero_line,
 )
 
 Array = NDArray[np.float64]
@@ -49,11 +51,8 @@ LABELS = {
     "mises": "Mises",
 }
 DIFFERENCE = "difference (%)"
-INK_OF_ALL, SMALLEST, LARGEST = (
-    8000.0,
-    0.5,
-    16.0,
-)  # square points: of all dots together, and of one at least and at most
+# Areas of dots, in square points: of all together, and of one at least and at most.
+INK_OF_ALL, SMALLEST, LARGEST = 8000.0, 0.5, 16.0
 
 
 def overlay(
@@ -63,31 +62,27 @@ def overlay(
     names = list(comparison.differences)
     figure = Figure(figsize=(WIDTH, 0.5 + 2.5 * len(names)), dpi=DPI, layout="constrained")
     panels = figure.subplots(2 * len(names), 1, sharex=True, height_ratios=(1.6, 1.0) * len(names))
-    factor, length = _scaled(solution.half_width, units.length)
+    factor, length = scaled(solution.half_width, units.length)
     for name, upper, lower in zip(names, panels[::2], panels[1::2], strict=True):
-        found = _both(solution, comparison, name)
-        scale, stress = _scaled(found.largest, units.stress)
+        both = _both(solution, comparison, name)
+        scale, stress = scaled(both.largest, units.stress)
         label = f"{LABELS[name]} ({stress})"
         if comparison.mesh.scattered(name):
             for axes, values, text in (
-                (upper, found.mesh * scale, label),
-                (lower, found.percent, DIFFERENCE),
+                (upper, both.mesh * scale, label),
+                (lower, both.percent, DIFFERENCE),
             ):
-                _draw_points(figure, axes, (found.x * factor, found.y * factor), values, text)
-                axes.set_ylabel(f"$y$ ({length})", fontproperties=_font())
+                _draw_points(figure, axes, (both.x * factor, both.y * factor), values, text)
+                axes.set_ylabel(f"$y$ ({length})", fontproperties=font())
         else:
-            _draw_curves((upper, lower), solution, name, found, (factor, scale))
-            upper.set_ylabel(label, fontproperties=_font())
+            _draw_curves((upper, lower), solution, name, both, (factor, scale))
+            upper.set_ylabel(label, fontproperties=font())
         for axes in (upper, lower):
-            _plain(axes)
+            plain(axes)
             axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    panels[-1].set_xlabel(f"$x$ ({length})", fontproperties=_font())
-    panels[-1].xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 2.5, 5, 10]))
+    x_axis(panels[-1], length)
     figure.align_ylabels()
-    if title:
-        figure.suptitle(
-            textwrap.fill(title, TITLE_COLUMNS), fontproperties=_font(), parse_math=False
-        )
+    heading(figure, title)
     return figure
 
 
@@ -115,51 +110,27 @@ def _draw_curves(
     panels: tuple[Axes, Axes],
     solution: Solution,
     name: str,
-    found: _Both,
+    both: _Both,
     scales: tuple[float, float],
 ) -> None:
     """The exact curve, the mesh's dots and, below, the difference; dotted lines at the edges."""
     (upper, lower), (factor, scale) = panels, scales
-    fine = np.unique(np.concatenate((abscissae(solution, POINTS), found.x)))
-    fine = fine[(fine >= found.x[0]) & (fine <= found.x[-1])]
-    curve, bound = (
-        QUANTITIES[name](solution, fine, np.full_like(fine, found.y[0])),
-        2.0 * HEADROOM * found.largest,
-    )
-    upper.plot(
-        fine * factor,
-        np.clip(curve, -bound, bound) * scale,
-        color=BLUE,
-        linewidth=1.0,
-        zorder=2,
-        label="exact",
-    )
-    upper.plot(
-        found.x * factor,
-        found.mesh * scale,
-        "o",
-        color=VERMILLION,
-        markersize=1.8,
-        zorder=3,
-        label="mesh",
-    )
-    finite = found.exact[np.isfinite(found.exact)]
+    fine = np.unique(np.concatenate((abscissae(solution, POINTS), both.x)))
+    fine = fine[(fine >= both.x[0]) & (fine <= both.x[-1])]
+    bound = 2.0 * HEADROOM * both.largest
+    exact = np.clip(QUANTITIES[name](solution, fine, np.full_like(fine, both.y[0])), -bound, bound)
+    curve(upper, fine * factor, exact * scale, BLUE, 1.0, zorder=2, label="exact")
+    dots: dict[str, Any] = {"color": VERMILLION, "markersize": 1.8, "zorder": 3, "label": "mesh"}
+    upper.plot(both.x * factor, both.mesh * scale, "o", **dots)
+    finite = both.exact[np.isfinite(both.exact)]
     low, high = (HEADROOM * float(end) * scale for end in (finite.min(), finite.max()))
     upper.set_ylim(min(0.0, low), max(0.0, high) or None)
-    upper.legend(
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-        borderaxespad=0.1,
-        ncols=2,
-        prop=_font(SMALL),
-        frameon=False,
-    )
-    lower.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
-    lower.plot(found.x * factor, found.percent, color=VERMILLION, linewidth=0.9, zorder=2)
-    lower.set_ylabel(DIFFERENCE, fontproperties=_font())
+    legend(upper, columns=2)
+    zero_line(lower)
+    curve(lower, both.x * factor, both.percent, VERMILLION, 0.9, zorder=2)
+    lower.set_ylabel(DIFFERENCE, fontproperties=font())
     for axes in panels:
-        for edge in solution.edges:
-            axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=0.5)
+        edge_lines(axes, solution.edges, factor, zorder=0.5)
 
 
 def _draw_points(
@@ -172,8 +143,8 @@ def _draw_points(
         *at, c=values, s=size, cmap="RdBu_r", vmin=-bound, vmax=bound, linewidths=0.0
     )
     bar = figure.colorbar(drawn, ax=axes, pad=0.02, aspect=14)
-    bar.set_label(label, fontproperties=_font(SMALL))
+    bar.set_label(label, fontproperties=font(SMALL))
     for text in bar.ax.get_yticklabels():
-        text.set_fontproperties(_font(SMALL))
+        text.set_fontproperties(font(SMALL))
     if not axes.yaxis_inverted():
         axes.invert_yaxis()
