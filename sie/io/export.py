@@ -212,15 +212,13 @@ def turning_points(solution: Followed) -> list[dict[str, Any]]:
     """The loads of each point of a path, its stick zones, and the energy dissipated up to it."""
     names = ("normal_load", "tangential_load", "bulk_stress")
     points = zip(solution.history.path.points, solution.history, strict=True)
-    return [
-        dict(zip(names, loads, strict=True))
-        | (
-            {"stick": [list(zone) for zone in at.stick], "energy_lost": at.energy_lost}
-            if loads[0]
-            else {"stick": [], "energy_lost": 0.0}
-        )
-        for loads, at in points
-    ]
+    rows = []
+    for loads, point in points:
+        stick = [list(zone) for zone in point.stick] if loads[0] else []
+        energy = point.energy_lost if loads[0] else 0.0
+        row = dict(zip(names, loads, strict=True))
+        rows.append(row | {"stick": stick, "energy_lost": energy})
+    return rows
 
 
 def _check(solution: Solution, _points: int) -> dict[str, Any]:
@@ -234,14 +232,13 @@ def _stress(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def _yield(solution: Solution, _points: int) -> dict[str, Any]:
-    found = solution.elastic_limit()
-    places = [list(place) for place in found.places]
+    limit = solution.elastic_limit()
     return {
-        "ratio": found.ratio,
-        "load": found.load,
-        "sqrt_j2": found.stress,
-        "places": places,
-        "criterion": found.criterion,
+        "ratio": limit.ratio,
+        "load": limit.load,
+        "sqrt_j2": limit.stress,
+        "places": [list(place) for place in limit.places],
+        "criterion": limit.criterion,
     }
 
 
@@ -257,8 +254,6 @@ def _finite(value: Any) -> Any:
         return [_finite(v) for v in value]
     if isinstance(value, np.generic):
         value = value.item()
-    return (
-        ("Infinity" if value > 0.0 else "-Infinity")
-        if isinstance(value, float) and math.isinf(value)
-        else value
-    )
+    if isinstance(value, float) and math.isinf(value):
+        return "Infinity" if value > 0.0 else "-Infinity"
+    return value

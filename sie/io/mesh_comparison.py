@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.messages import nearest
-from sie.profiles.trace_files import MESH, read_table
+from sie.profiles.trace_files import MESH, Table, read_table
 from sie.solution import Solution
 
 Array = NDArray[np.float64]
@@ -142,6 +142,25 @@ class Difference:
             else "are the units of load and length the same?"
         )
 
+    def lines(self, name: str, file: str) -> list[str]:
+        """The difference of the quantity `name` as lines of a report."""
+        left_out = f" ({self.infinite} left out, where {name} is infinite)" if self.infinite else ""
+        depth = f", y = {self.depth:.6g}" if self.depth else ""
+        lines = [
+            f"{name}: {self.points} points of {file}{left_out}",
+            f"  l1     {self.l1:.3e}",
+            f"  l2     {self.l2:.3e}",
+            f"  max    {self.largest:.3e} of the largest, at x = {self.at:.6g}{depth}",
+        ]
+        if self.resultant is not None:
+            lines.append(f"  load   {self.resultant:+.3e}")
+        best = "fits best, and leaves l2 ="
+        lines.append(f"  shift  {self.shift:+.6g} {best} {self.l2_shifted:.3e}")
+        if self.suspicion:
+            text = f"{self.factor:+.6g} {best} {self.l2_scaled:.3e}: {self.suspicion}"
+            lines.append(f"  factor {text}")
+        return lines
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -153,39 +172,23 @@ class Comparison:
 
     @property
     def ok(self) -> bool:
+        """Whether the l2 error of every quantity is within the tolerance."""
         return all(d.l2 <= self.tol for d in self.differences.values())
 
     def as_dict(self) -> dict[str, Any]:
-        found = {name: asdict(d) for name, d in self.differences.items()}
+        """All differences, as JSON can hold them."""
         return {
             "file": self.mesh.name,
             "tol": self.tol,
             "ok": self.ok,
-            "differences": found,
+            "differences": {name: asdict(d) for name, d in self.differences.items()},
             "not_compared": list(self.mesh.others),
         }
 
     def __str__(self) -> str:
-        lines = []
-        for name, d in self.differences.items():
-            left_out = f" ({d.infinite} left out, where {name} is infinite)" if d.infinite else ""
-            lines += [
-                f"{name}: {d.points} points of {self.mesh.name}{left_out}",
-                f"  l1     {d.l1:.3e}",
-                f"  l2     {d.l2:.3e}",
-                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}"
-                + (f", y = {d.depth:.6g}" if d.depth else ""),
-                *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
-                f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
-                *(
-                    [
-                        f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: "
-                        f"{d.suspicion}"
-                    ]
-                    if d.suspicion
-                    else []
-                ),
-            ]
+        lines: list[str] = []
+        for name, difference in self.differences.items():
+            lines += difference.lines(name, self.mesh.name)
         if self.mesh.others:
             lines.append(
                 f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}"
@@ -196,48 +199,46 @@ class Comparison:
 
 def read_mesh(path: str | Path) -> Mesh:
     """The columns x, y and those of QUANTITIES that the header names; x and p without a header."""
-    path = Path(path)
     table = read_table(path, MESH)
-    header, width = table.header, table.width
-    names = [NAMES.get(name, name) for name in header] or ["x", "p"]
-    known = [name for name in names[:width] if name in ("x", "y", *QUANTITIES)]
-    found = [name for name in known if name in QUANTITIES]
-    if "x" not in known or not found:
-        near = next((name for name in header if nearest(name, ("x", *QUANTITIES, *NAMES))), "")
-        hint = f' (is "{near}" one of them?)' if near else ""
-        raise ValueError(
-            f"{path.name} has the columns {', '.join(header)}{hint}: "
-            f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
-        )
-    indices = tuple(names.index(name) for name in known)
-    columns = dict(zip(known, table.columns(indices), strict=True))
-    for name, values in columns.items():
-        largest = float(np.abs(values).max())
-        if largest > LARGEST:
-            raise ValueError(
-                f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: "
-                "delete such lines"
-            )
-    y = _depths(path.name, columns)
+    names = [NAMES.get(name, name) for name in table.header] or ["x", "p"]
+    names += map(str, range(len(names), table.width))  # of columns without a name
+    columns = _columns(table, names)
+    y = _depths(table.file, columns)
     order = np.lexsort((y, columns["x"]))
-    passed = names[:width] if header else [*names, *map(str, range(len(names), width))]
-    others = tuple(name for name in passed if name and name not in columns)
-    mesh = Mesh(
-        path.name,
-        columns["x"][order],
-        y[order],
-        {name: columns[name][order] for name in found},
-        others,
-    )
-    for name in found:
+    values = {name: columns[name][order] for name in columns if name in QUANTITIES}
+    others = tuple(name for name in names if name and name not in columns)
+    mesh = Mesh(table.file, columns["x"][order], y[order], values, others)
+    for name in values:
         x, _, _ = mesh.points(name)
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(
-                f"{path.name} holds {len(x)} points of {name}{where}: "
+                f"{table.file} holds {len(x)} points of {name}{where}: "
                 "a comparison needs at least two"
             )
     return mesh
+
+
+def _columns(table: Table, names: list[str]) -> dict[str, Array]:
+    """The columns that can be compared, by name. ValueError unless there are x and a quantity."""
+    known = [name for name in names if name in ("x", "y", *QUANTITIES)]
+    if "x" not in known or not any(name in QUANTITIES for name in known):
+        words = ("x", *QUANTITIES, *NAMES)
+        near = next((name for name in table.header if nearest(name, words)), "")
+        hint = f' (is "{near}" one of them?)' if near else ""
+        raise ValueError(
+            f"{table.file} has the columns {', '.join(table.header)}{hint}: "
+            f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
+        )
+    columns = dict(zip(known, table.columns(tuple(map(names.index, known))), strict=True))
+    for name, values in columns.items():
+        largest = float(np.abs(values).max())
+        if largest > LARGEST:
+            raise ValueError(
+                f"{table.file} has {name} up to {largest:g}, as what is missing may be marked: "
+                "delete such lines"
+            )
+    return columns
 
 
 def _depths(name: str, columns: dict[str, Array]) -> Array:
@@ -277,9 +278,8 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
     exact = exact_at(0.0)
     finite = np.isfinite(exact)
     f, e, w = exact[finite], (values - exact)[finite], weight[finite]
-    measure = (
-        f if f.any() else solution.pressure(x[finite])
-    )  # what ought to be zero is measured by the pressure
+    # A quantity that is zero everywhere is measured by the pressure.
+    measure = f if f.any() else solution.pressure(x[finite])
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
     shift = _best_shift(exact_at, values, weight, solution.half_width)
     below = w @ measure**2
@@ -320,13 +320,12 @@ def _best_shift(
     grid = np.linspace(-FARTHEST_SHIFT * r, FARTHEST_SHIFT * r, SHIFTS)
     best = int(np.argmin([misfit(d) for d in grid.tolist()]))
     around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, SHIFTS - 1)])
-    found = float(
-        minimize_scalar(misfit, bounds=around, method="bounded", options={"xatol": REFINED * r}).x
-    )
-    return found if np.isfinite(misfit(0.0)) and misfit(found) < misfit(0.0) else 0.0
+    options = {"xatol": REFINED * r}
+    shift = float(minimize_scalar(misfit, bounds=around, method="bounded", options=options).x)
+    return shift if np.isfinite(misfit(0.0)) and misfit(shift) < misfit(0.0) else 0.0
 
 
 def _weights(x: Array) -> Array:
-    """Of the trapezoidal rule."""
+    """Weights of the trapezoidal rule."""
     step = np.diff(x)
     return 0.5 * (np.append(step, 0.0) + np.append(0.0, step))

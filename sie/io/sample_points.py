@@ -12,7 +12,7 @@ from sie.solution import Solution
 
 Array = NDArray[np.float64]
 
-POINTS = 401  # in the contact, unless told otherwise
+POINTS = 401  # in the contact, by default
 # Points beside the contact, on each side, as a fraction of those in it, and how far out they reach,
 # in half-widths.
 BESIDE = 0.25
@@ -33,9 +33,9 @@ ABOVE_ORDINARY = 1.4
 def inside(solution: Solution, points: int = POINTS) -> Array:
     """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
-    Points gather at edges and breaks like Chebyshev's. Half of them are shared out by length (in
-    the angle of the contact), half equally, so that a narrow rim has its own. Of very many breaks,
-    as a trace has, none is a place of its own.
+    Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
+    by length (in the angle of the contact), half equally, so that a narrow rim has its own. The
+    breaks of a trace are too many, and are passed over.
     """
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
@@ -53,11 +53,8 @@ def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
 
     They end REACH half-widths away, or where the indenter ends.
     """
-    (x1, x2), (lo, hi), reach = (
-        solution.edges,
-        solution.scene.profile.domain,
-        REACH * solution.half_width,
-    )
+    (x1, x2), (lo, hi) = solution.edges, solution.scene.profile.domain
+    reach = REACH * solution.half_width
     left, right = max(x1 - reach, lo), min(x2 + reach, hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
     x = np.unique(
@@ -100,16 +97,15 @@ def summits(solution: Solution) -> tuple[Summit, ...]:
     x[high], p[high] = _narrowed(
         solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
     )
-    return tuple(Summit(*found) for found in zip(x[top].tolist(), p[top].tolist(), strict=True))
+    return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
 def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
-    found = summits(solution)
-    largest = max(s.p for s in found)
-    return largest, tuple(
-        s.x for s in found if s.p == largest or s.p >= largest * (1.0 - SAME_PEAK)
-    )
+    maxima = summits(solution)
+    largest = max(s.p for s in maxima)
+    least = largest * (1.0 - SAME_PEAK)
+    return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
 
 
 def ceiling(solution: Solution) -> float:

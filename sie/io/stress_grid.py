@@ -45,15 +45,18 @@ class Grid:
 
     @cached_property
     def x(self) -> Array:
+        """Positions along the surface, (nx,)."""
         (x1, x2), r = self.solution.edges, self.solution.half_width
         return np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, self.nx)
 
     @cached_property
     def y(self) -> Array:
+        """Depths, (ny,)."""
         return np.linspace(0.0, DEPTH * self.solution.half_width, self.ny)
 
     @cached_property
     def stress(self) -> Stress:
+        """The stress at all points."""
         return self.solution.stress(self.x, self.y[:, None])
 
 

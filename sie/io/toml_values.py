@@ -1,4 +1,7 @@
-"""Entries of a scene file: each reader returns a value or refuses it in one sentence."""
+"""Readers of the entries of a scene file.
+
+Each returns the value of the entry that `where` names, or raises ValueError with the remedy.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,7 @@ Reader = Callable[[str, Any], Any]
 
 
 def number(where: str, value: Any) -> float:
+    """A number, as a float."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
             f"{where} = {shown(value)} is not a number: "
@@ -25,6 +29,7 @@ def number(where: str, value: Any) -> float:
 
 
 def text(where: str, value: Any) -> str:
+    """One line of text."""
     if not isinstance(value, str):
         raise ValueError(f'{where} = {shown(value)} is not text: put it in quotes, "..."')
     if not value.isprintable():
@@ -36,6 +41,7 @@ def text(where: str, value: Any) -> str:
 
 
 def flag(where: str, value: Any) -> bool:
+    """true or false."""
     if not isinstance(value, bool):
         raise ValueError(
             f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes"
@@ -44,34 +50,41 @@ def flag(where: str, value: Any) -> bool:
 
 
 def listed(where: str, value: Any) -> list[Any]:
+    """A list."""
     if not isinstance(value, list):
         raise ValueError(f"{where} = {shown(value)} is not a list: put it in square brackets")
     return value
 
 
 def numbers(where: str, value: Any) -> tuple[float, ...]:
+    """A list of numbers."""
     if isinstance(value, list) and all(type(v) is float for v in value):
         return tuple(value)  # a trace, without a name for each of its numbers
     return tuple(number(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """A list of lists of numbers."""
     return tuple(numbers(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def texts(where: str, value: Any) -> tuple[str, ...]:
+    """A list of texts."""
     return tuple(text(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def number_or_text(where: str, value: Any) -> float | str:
+    """A number or a text."""
     return value if isinstance(value, str) else number(where, value)
 
 
 def number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
+    """A number or a list of numbers."""
     return numbers(where, value) if isinstance(value, list) else number(where, value)
 
 
 def whole(where: str, value: Any) -> int:
+    """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError(
             f"{where} = {shown(value)} is not a whole number: write one, without quotes"
@@ -80,6 +93,7 @@ def whole(where: str, value: Any) -> int:
 
 
 def columns(where: str, value: Any) -> tuple[int | str, ...]:
+    """A pair of column numbers or names."""
     if len(listed(where, value)) != 2:
         raise ValueError(f"{where} = {shown(value)} is not a pair: give the columns of x and of h")
     return tuple(
@@ -88,6 +102,7 @@ def columns(where: str, value: Any) -> tuple[int | str, ...]:
 
 
 def table_of(where: str, value: Any) -> dict[str, Any]:
+    """A table."""
     if isinstance(value, dict):
         return value
     if isinstance(value, list):

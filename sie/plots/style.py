@@ -68,10 +68,12 @@ def heading(figure: Figure, title: str) -> None:
 
 
 def curve(axes: Axes, x: Array, y: Array, color: str, width: float, **given: Any) -> None:
+    """A line with round joints."""
     axes.plot(x, y, color=color, linewidth=width, solid_joinstyle="round", **given)
 
 
 def zero_line(axes: Axes, zorder: float = 1) -> None:
+    """A thin line at zero."""
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=zorder)
 
 
@@ -95,12 +97,13 @@ def legend(axes: Axes, columns: int, length: float = 2.0) -> None:
 
 
 def x_axis(axes: Axes, length: str) -> None:
+    """Ticks and label of the axis along the surface."""
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=ROUND))
     axes.set_xlabel(f"$x$ ({length})", fontproperties=font())
 
 
 def plain(axes: Axes) -> None:
-    """Thin lines, none where nothing is read off."""
+    """Thin axes on the left and at the bottom only."""
     axes.tick_params(
         labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5, direction="out"
     )
@@ -118,6 +121,7 @@ def ticks(top: float) -> list[float]:
 
 
 def font(size: float = SIZE) -> FontProperties:
+    """The font of all text, formulas included."""
     return FontProperties(family=FAMILY, size=size, math_fontfamily="stix")
 
 

@@ -171,7 +171,7 @@ class Profile(ABC):
 
     @property
     def parity(self) -> Parity:
-        """ "even" if h(-x) = h(x) is known, else "none"."""
+        """Whether h(-x) = h(x) is known: "even", else "none"."""
         return "even" if self.axis == 0.0 else "none"
 
     def tilted(self, slope: float) -> Profile:

@@ -167,12 +167,12 @@ def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> 
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
     refuse_non_finite(middle[:, None] + 0.0 * s, values)
     left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
-    return sorted(np.abs(left).max(axis=1).tolist())[
-        len(PROBES) // 2
-    ]  # np.median imports numpy.ma, which takes longer than a solve
+    # Not np.median: it imports numpy.ma, which takes longer than a solve.
+    return sorted(np.abs(left).max(axis=1).tolist())[len(PROBES) // 2]
 
 
 def refuse_non_finite(x: Array, values: Array) -> None:
+    """ValueError with the place of the first slope that is nan or infinite."""
     bad = ~np.isfinite(values)
     if bad.any():
         raise ValueError(
