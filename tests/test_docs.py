@@ -1,4 +1,4 @@
-"""The documents name what exists: modules, files, links; and the picture is drawn from the imports."""
+"""The documents name modules, files and links that exist; the picture is that of the imports."""
 
 import importlib
 import re
