@@ -471,7 +471,7 @@ def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(mor
     ("points", "said"),
     [
         ([], "no points"),
-        (None, "None is not a sequence of points"),
+        (None, "points = None is not a list"),
         ([(0.0, 0.0), (0.0, 0.0)], "nothing ever touches"),
         ([(1.0,)], r"\(1\.0,\).*give \(P, Q\)"),
         ([(1.0, np.nan)], "Q of point 0 is nan"),
