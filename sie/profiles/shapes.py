@@ -362,8 +362,9 @@ class FromFunction(Profile):
     A function is known by its values at some points. What resolves it is compared with it at 2584
     points of the contact that no function can know beforehand, and a jump, a kink, a cusp or a
     narrow feature that was not declared is found and resolved like one that was. Sampling cannot
-    find what happens (a bump, a dent, two jumps, nan) on less than 5e-4 of the contact, nor what is
-    below 32 ulp of the largest slope or 8 times the roughness of the function's own rounding. The
+    find what happens (a bump, a dent, two jumps, nan) on less than 5e-4 of the contact, but for
+    one kink or jump beside an edge, down to 1e-12 of the contact from it; nor what is below 32 ulp
+    of the largest slope or 8 times the roughness of the function's own rounding. The
     place of a jump is known to one ulp of x. Declare breaks around such places.
     """
 
