@@ -1,5 +1,7 @@
 """Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows nothing of superposition."""
 
+from dataclasses import replace
+
 import mpmath
 import numpy as np
 import pytest
@@ -26,6 +28,11 @@ LOPSIDED = sie.Scene(
     tilt=0.02,
 )
 FP = F * P
+# The contact ends at a corner of the indenter on one side.
+CORNERED = [
+    replace(HERTZ, profile=sie.Piecewise(ends, ((0.0, 1.0),)))
+    for ends in ((-0.3, np.inf), (-np.inf, 0.3))
+]
 
 
 def at_constant_load(scene, *fractions):
@@ -80,11 +87,12 @@ def test_a_closed_loop_closes_after_the_first_cycle_and_is_forgotten():
     assert len(again.history.states[4].ladder.layers) == 1
 
 
-def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
+@pytest.mark.parametrize("scene", [PUNCH, *CORNERED], ids=["smooth", "left corner", "right corner"])
+def test_the_loop_of_load_over_shift_encloses_the_energy_lost(scene):
     """∮Q dδ: by Simpson on one branch, which the other mirrors."""
     n = 201
     Q = 0.8 * np.cos(np.linspace(0.0, np.pi, n))  # from the top down, densely at both ends
-    history = at_constant_load(PUNCH, *Q)
+    history = at_constant_load(scene, *Q)
     t, shift = np.linspace(0.0, np.pi, n), np.array([s.shift for s in history])
     weight = np.full(n, 2.0)
     weight[1::2], weight[[0, -1]] = 4.0, 1.0
