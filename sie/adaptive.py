@@ -34,6 +34,7 @@ FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
+DEEP = 64  # levels, after which x = 0 is such a break
 PATIENCE, HALVINGS = 3, 8  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
 
 
@@ -80,7 +81,12 @@ def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> t
                 x=middle,
             )
         level += 1
-        open_ = _split(open_, tolerance.breaks if level > PATIENCE else breaks[:0])
+        graded_towards = tolerance.breaks if level > PATIENCE else breaks[:0]
+        if level > DEEP:  # only next to x = 0 are doubles so close
+            inside = (open_[:, 0] < 0.0) & (open_[:, 1] > 0.0)
+            left, right = open_[inside] * [1.0, 0.0], open_[inside] * [0.0, 1.0]
+            open_, graded_towards = np.concatenate((open_[~inside], left, right)), np.append(graded_towards, 0.0)
+        open_ = _split(open_, graded_towards)
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array([p[2] for p in done], dtype=np.int64)
 

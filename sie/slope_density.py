@@ -387,10 +387,18 @@ class OnPanels(SlopeDensity):
 
     def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
         """The pressure next to an axis: that of the powers alone, and a straight line."""
-        y, ends = x - axis, axis + BESIDE_CUSP * b * np.array([-1.0, 1.0])
-        beside = ends - axis  # of the rounded ends
-        left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
-        return self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
+        beside, total = self._at_cusp_ends[axis]  # of the rounded ends
+        left, right = (total - self._of_powers(laws, beside, b)).tolist()
+        return self._of_powers(laws, x - axis, b) + left + (right - left) * ((x - axis - beside[0]) / np.ptp(beside))
+
+    @cached_property
+    def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
+        """Where the pieces end beside each axis, counted from it, and the pressure there: asked at once for all."""
+        b = [float(min(self.contact.from_left(axis), self.contact.from_right(axis))) for axis in self._cusps]
+        axes = np.array(list(self._cusps))[:, None]
+        ends = axes + BESIDE_CUSP * np.array(b)[:, None] * [-1.0, 1.0]
+        p = in_order(self._by_pieces, ends.ravel()).reshape(ends.shape)
+        return dict(zip(self._cusps, zip(ends - axes, p, strict=True), strict=True))
 
     def _pair_beside_cusp(self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Complex:
         """The same of the potential and its derivative, (2, n), at Im z > 0."""
