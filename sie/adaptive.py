@@ -55,12 +55,16 @@ class Tolerance(NamedTuple):
         return enough
 
 
-def resolved(function: Callable[[Array], Array], breaks: Array, tol: float) -> tuple[Array, NDArray[np.int64]]:
+def resolved(
+    function: Callable[[Array], Array], breaks: Array, tol: float, cuts: Array | None = None
+) -> tuple[Array, NDArray[np.int64]]:
     """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
 
+    The function is smooth at the `cuts`, from which the refinement starts.
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
-    open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
+    ends = breaks if cuts is None else np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
+    open_ = np.stack((ends[:-1], ends[1:]), axis=1)
     noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
     tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
     done: list[tuple[float, float, int]] = []
@@ -160,12 +164,12 @@ def refuse_non_finite(x: Array, values: Array) -> None:
         )
 
 
-def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:
+def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None = None) -> Slope:
     """The slope on [lo, hi], its functions resolved to tol times the largest |H| there; a slope without functions is returned as it is."""
     if not slope.functions:
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
-    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol)
+    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
     k = np.clip(np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1)
     return Slope(breaks, slope.origins[k], slope.coefficients[k], np.maximum(degrees, slope.degrees[k]), slope.functions)
 
