@@ -56,14 +56,19 @@ class Tolerance(NamedTuple):
 
 
 def resolved(
-    function: Callable[[Array], Array], breaks: Array, tol: float, cuts: Array | None = None
+    function: Callable[[Array], Array],
+    breaks: Array,
+    tol: float,
+    cuts: Array | None = None,
 ) -> tuple[Array, NDArray[np.int64]]:
     """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
 
     The function is smooth at the `cuts`, from which the refinement starts.
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
-    ends = breaks if cuts is None else np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
+    ends = breaks
+    if cuts is not None:
+        ends = np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
     open_ = np.stack((ends[:-1], ends[1:]), axis=1)
     noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
     tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
@@ -89,7 +94,8 @@ def resolved(
         if level > DEEP:  # only next to x = 0 are doubles so close
             inside = (open_[:, 0] < 0.0) & (open_[:, 1] > 0.0)
             left, right = open_[inside] * [1.0, 0.0], open_[inside] * [0.0, 1.0]
-            open_, graded_towards = np.concatenate((open_[~inside], left, right)), np.append(graded_towards, 0.0)
+            open_ = np.concatenate((open_[~inside], left, right))
+            graded_towards = np.append(graded_towards, 0.0)
         open_ = _split(open_, graded_towards)
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array([p[2] for p in done], dtype=np.int64)

@@ -32,7 +32,9 @@ TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])  # panels need no grading to an
 # profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
 # corner of the slope.
 LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
-CLOSING_IN = 0.1  # of its distance from the next break: a resolution halves its pieces towards a break, in shorter ones more happens
+# Of its distance from the next break: a resolution halves its pieces towards a break, and where
+# they are shorter more happens.
+CLOSING_IN = 0.1
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
 LONGEST = np.pi / 32  # of a panel where there are many
 POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
@@ -104,7 +106,7 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
 
 
 def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
-    """Which cuts bound a piece that is shorter than what the grading towards the ends makes of it."""
+    """Which cuts bound a piece that is shorter than the grading towards the ends makes it."""
     k = np.searchsorted(ends, cut, side="right").clip(1, len(ends) - 1)
     distance = np.minimum(cut - ends[k - 1], ends[k] - cut)
     beside = np.diff(cut, prepend=-np.inf, append=np.inf)

@@ -124,8 +124,8 @@ class Growth:
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
         """∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
         ends: list[tuple[float, float, int]] = []
-        for lo, hi in _merged([(P + L, P + max(surface)) for P, L, _, *surface in rows]):
-            self._cover(lo, hi)
+        for together in _merged([(P + L, P + max(surface)) for P, L, _, *surface in rows]):
+            self._cover(*together)
         cuts = self._cuts()
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
@@ -412,10 +412,14 @@ class Growth:
 
 
 def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The union of ranges, as those that do not meet: small steps of a path ask for short ones, each of which would be a panel."""
+    """The union of ranges, as those that do not meet.
+
+    Small steps of a path ask for short ranges, each of which would be a panel.
+    """
     out: list[tuple[float, float]] = []
     for lo, hi in sorted(ranges):
         if out and lo <= out[-1][1] * (1.0 + SAME):
-            lo, hi = out[-1][0], max(hi, out.pop()[1])
-        out.append((lo, hi))
+            out[-1] = out[-1][0], max(hi, out[-1][1])
+        else:
+            out.append((lo, hi))
     return out

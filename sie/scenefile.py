@@ -74,7 +74,7 @@ HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
 # Each is solved and listed, within two seconds together.
-MOST_POINTS = 2000
+MOST_POINTS = 500
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene needs three.
 DEEPEST = 20
 # What is not closed ends with the line, or with the file: so each character is looked at once.

@@ -25,7 +25,9 @@ from .states import Slip
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
-MANY = 12  # terms of a shear, which then are integrated one by one: a rule for all would grow with their number, its cost with the square
+# Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
+# does the cost of a value.
+MANY = 12
 ENDS = 32.0 * EPS  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
 
 
@@ -44,19 +46,30 @@ def shear_certificate(state: Slip, pressure: SlopeDensity, loads: tuple[float, f
     resolution = refined(slope, contact.x1, contact.x2, EPS)
     if len(bases) > MANY and all(isinstance(density, SlopeDensity) for _, density in bases):
         rule = composite_rule(contact, slope, resolution=resolution)
-        parts = ((factor, d, d.contact) for factor, d in bases if isinstance(d, SlopeDensity))
-        terms = [Term(*part, composite_rule(part[2], slope, resolution=resolution)) for part in parts]
+        terms = [
+            Term(factor, d, d.contact, composite_rule(d.contact, slope, resolution=resolution))
+            for factor, d in bases
+            if isinstance(d, SlopeDensity)
+        ]
     else:
-        ends = [c for zone in state.stick for c in zone] + [c for lo, hi, _ in state.slipped for c in (lo, hi)] + list(state.levels)
+        zones = (*state.stick, *(zone[:2] for zone in state.slipped))
+        ends = {*state.levels, *(end for zone in zones for end in zone)}
         x1, x2 = pressure.interval
-        rule = composite_rule(contact, slope, np.array([c for c in set(ends) if x1 < c < x2]), resolution=resolution)
+        inside = np.array([c for c in ends if x1 < c < x2])
+        rule = composite_rule(contact, slope, inside, resolution=resolution)
         terms = [Term(1.0, state.shear, contact, rule)]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # what cannot be measured is infinite, and not ok
-        return _measured(state, pressure, loads, rule, terms, tol)
+        return _measured(state, pressure, loads, rule, terms, tol=tol)
 
 
 def _measured(
-    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, terms: list[Term], tol: float
+    state: Slip,
+    pressure: SlopeDensity,
+    loads: tuple[float, float],
+    rule: Rule,
+    terms: list[Term],
+    *,
+    tol: float,
 ) -> ShearCertificate:
     x, weight = rule.x, rule.weight
     p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
@@ -78,10 +91,10 @@ def _measured(
 
 
 def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
-    """∫q dx, 1/π PV∫q/(x - t) at points of the zone that never slipped, by subtracting q there; and rounding of both.
+    """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
-    Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick zone next to a sharp edge, where q is
-    infinite, it is the nodes there that the equation feels.
+    Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
+    zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
     """
     force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
     for factor, density, contact, (x, _, weight, *_) in terms:
@@ -118,7 +131,10 @@ def _opposing(state: Slip, x: Array) -> float:
 
 
 def _points(state: Slip, terms: list[Term]) -> Array:
-    """Where the equation is measured: over the zone that never slipped, half-way between two nodes, of the nearest the farthest apart."""
+    """Where the equation is measured: over the zone that never slipped, half-way between two nodes.
+
+    Of many terms these are the farthest apart in the neighbourhood.
+    """
     lo, hi = state.untouched
     nodes, near = np.unique(np.concatenate([term.rule.x for term in terms])), len(terms) - 1
     at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)

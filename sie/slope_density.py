@@ -389,14 +389,19 @@ class OnPanels(SlopeDensity):
         """The pressure next to an axis: that of the powers alone, and a straight line."""
         beside, total = self._at_cusp_ends[axis]  # of the rounded ends
         left, right = (total - self._of_powers(laws, beside, b)).tolist()
-        return self._of_powers(laws, x - axis, b) + left + (right - left) * ((x - axis - beside[0]) / np.ptp(beside))
+        y = x - axis
+        along = (y - beside[0]) / np.ptp(beside)
+        return self._of_powers(laws, y, b) + left + (right - left) * along
 
     @cached_property
     def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
-        """Where the pieces end beside each axis, counted from it, and the pressure there: asked at once for all."""
-        b = [float(min(self.contact.from_left(axis), self.contact.from_right(axis))) for axis in self._cusps]
+        """Where the pieces end beside each axis, counted from it, and the pressure there.
+
+        Asked at once for all.
+        """
         axes = np.array(list(self._cusps))[:, None]
-        ends = axes + BESIDE_CUSP * np.array(b)[:, None] * [-1.0, 1.0]
+        b = np.minimum(self.contact.from_left(axes), self.contact.from_right(axes))
+        ends = axes + BESIDE_CUSP * b * [-1.0, 1.0]
         p = in_order(self._by_pieces, ends.ravel()).reshape(ends.shape)
         return dict(zip(self._cusps, zip(ends - axes, p, strict=True), strict=True))
 

@@ -152,7 +152,8 @@ def between_pieces(slope: Slope, pieces: Pieces, contact: Interval, tol: float =
     j = np.flatnonzero(apart)[:MOST]
     brackets = np.stack((hi[j] - near[j], hi[j] + near[j + 1]), axis=1)
     places: list[float] = []
-    for bracket, jump in zip(brackets.tolist(), _jumps(slope, brackets, difference[j]), strict=True):
+    jumps = _jumps(slope, brackets, difference[j])
+    for bracket, jump in zip(brackets.tolist(), jumps, strict=True):
         places += bracket if jump is None else [jump]
     return _new(places, slope, contact)
 
@@ -179,7 +180,7 @@ def _new(places: list[float], slope: Slope, contact: Interval) -> tuple[float, .
 
 
 def _jumps(slope: Slope, brackets: Array, sizes: Array) -> list[float | None]:
-    """In each bracket (J, 2) the double where the slope jumps by about its size; None if it does not.
+    """In each bracket (J, 2) the double where the slope jumps by about its size, or None.
 
     By bisection towards the larger difference, of all at once.
     """
@@ -199,6 +200,6 @@ def _jumps(slope: Slope, brackets: Array, sizes: Array) -> list[float | None]:
     x = np.stack((np.nextafter(lo, -np.inf), lo, hi, np.nextafter(hi, np.inf)), axis=1)
     values = slope.inside(x)
     rises = np.abs(values[:, 2:] - values[:, :-2])
-    steepest = 1 + np.argmax(rises, axis=1)
-    at = x[np.arange(len(x)), steepest].tolist()
-    return [x if rise > JUMP * size else None for x, rise, size in zip(at, rises.max(axis=1), sizes, strict=True)]
+    steepest = x[np.arange(len(x)), 1 + np.argmax(rises, axis=1)].tolist()
+    jumps = (rises.max(axis=1) > JUMP * sizes).tolist()
+    return [at if is_jump else None for at, is_jump in zip(steepest, jumps, strict=True)]

@@ -36,7 +36,11 @@ def widest_contact(search: Search, load: float) -> Found | None:
     r = _half_width(coarse, load, _bracket(coarse, load))
     if r is None:
         return None
-    return _polished(search, load, r) or _polished(search, load, _half_width(search, load, _about(search, r), FEW_STEPS))
+    found = _polished(search, load, r)
+    if found is None:
+        r = _half_width(search, load, _about(search, r), FEW_STEPS)
+        found = _polished(search, load, r)
+    return found
 
 
 def _polished(search: Search, load: float, r: float | None) -> Found | None:
@@ -48,7 +52,12 @@ def _polished(search: Search, load: float, r: float | None) -> Found | None:
         return None
 
 
-def _half_width(search: Search, load: float, bracket: Pair | None, most: int = MAX_STEPS) -> float | None:
+def _half_width(
+    search: Search,
+    load: float,
+    bracket: Pair | None,
+    most: int = MAX_STEPS,
+) -> float | None:
     """That of the contact, about."""
     if bracket is None:
         return None
@@ -70,8 +79,11 @@ def _half_width(search: Search, load: float, bracket: Pair | None, most: int = M
 
 def _about(search: Search, r: float) -> Pair | None:
     """Two half-widths about another, with their loads."""
-    (narrow, less), (wide, more) = ((r * by, _carried(search, r * by)) for by in (1.0 - ASTRAY, 1.0 + ASTRAY))
-    return None if less is None or more is None or not 0.0 < less < more else ((narrow, less), (wide, more))
+    narrow, wide = r * (1.0 - ASTRAY), r * (1.0 + ASTRAY)
+    less, more = _carried(search, narrow), _carried(search, wide)
+    if less is None or more is None or not 0.0 < less < more:
+        return None
+    return (narrow, less), (wide, more)
 
 
 def _coarser(slope: Slope) -> Slope:
@@ -82,7 +94,8 @@ def _coarser(slope: Slope) -> Slope:
     middle, mean = 0.5 * (cuts[1:] + cuts[:-1]), np.diff(h) / np.diff(cuts)
     rise = np.diff(mean) / np.diff(middle)
     breaks = np.concatenate((slope.breaks[:1], middle[1:-1], slope.breaks[-1:]))
-    return polynomial_slope(breaks, middle[:-1], np.stack((mean[:-1], rise), axis=1))
+    lines = list(zip(mean.tolist(), rise.tolist(), strict=False))
+    return polynomial_slope(breaks.tolist(), middle[:-1].tolist(), lines)
 
 
 def _wide_enough(search: Search, load: float) -> float:
@@ -114,9 +127,9 @@ def _bracket(search: Search, load: float) -> Pair | None:
 
 
 def _carried(search: Search, r: float) -> float | None:
-    """The load of the contact of half-width r; None if it ends at a corner."""
+    """The load of the contact of half-width r; None if it ends at a corner, or is not found."""
     try:
         found = search.of_half_width(r)
-    except LoadError:
+    except (LoadError, OverflowError):
         return None
     return None if any(found.sharp) else search.load(found.contact, found.moments or search.moments(found.contact))
