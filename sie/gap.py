@@ -26,7 +26,7 @@ More = Callable[[Array, float], Array] | None
 NODES = 20
 SHORT, SHORT_NODES = 0.125, 6  # ... and so few of them on a panel this short, relative to its θ (all singularities have Re θ = 0) and to 1
 # Half-widths from an edge, as far as a gap is looked at: between them a function needs few pieces.
-DOUBLED: Array = 2.0 ** np.arange(11)
+DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
 LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
 
 
@@ -109,7 +109,7 @@ def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slo
     graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
     even = np.arange(LONGEST, theta_max, LONGEST)
     edge = contact.x2 if side > 0.0 else contact.x1
-    doubled = edge + float(side * contact.r) * DOUBLED
+    doubled = edge + side * contact.r * DOUBLED
     pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS, doubled).breaks
     outside = -(contact.from_right(pieces) if side > 0.0 else contact.from_left(pieces))
     outside = outside[(outside > 0.0) & np.isfinite(outside)]

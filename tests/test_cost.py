@@ -129,7 +129,7 @@ def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
 
 
 def places_for_a_certificate(turns):
-    """At how many points the certificate of a contact with so many turning points asks for tractions."""
+    """At how many points the certificate after so many turning points asks for tractions."""
     path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])
     solved = sie.follow(scene(PUNCH, friction=0.5), path)[-1]
     _, value, places = solved.shear, SlopeDensity.__call__, []
