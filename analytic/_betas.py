@@ -42,7 +42,9 @@ def phi(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
     return pick(lib, y < NEAR_ONE, _phi_below, _phi_near_one, alpha, y, c)
 
 
-def rim_moment(lib: Library, n: int, alpha: Number, rim: Number, length: Number) -> tuple[Number, Number]:
+def rim_moment(
+    lib: Library, n: int, alpha: Number, rim: Number, length: Number
+) -> tuple[Number, Number]:
     """∫_0^d (d-r)^n r^(alpha-1) (L-r)^(-alpha) dr, d the rim and L > d the length, and the change of its logarithm with ln d
     at fixed d/r and L/r, less alpha + n: Y F'/F in d^(n+alpha) L^(-alpha) B(alpha, n+1) F(Y), F = 2F1(alpha, alpha; alpha+n+1; Y).
     """

@@ -93,7 +93,9 @@ def point(value: Number, lib: Library) -> Number:
     try:
         # Adding zero turns an imaginary part of -0.0 into +0.0. Without it z - b and z + b would carry opposite signs
         # of zero, and sqrt(z - b) sqrt(z + b) the wrong sign on x < -b.
-        number = np.asarray(value, dtype=complex)[()] + 0j if lib is np else lib.mpc(lib.convert(value))
+        number = (
+            np.asarray(value, dtype=complex)[()] + 0j if lib is np else lib.mpc(lib.convert(value))
+        )
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"z = {value!r} is not {_kind(lib)}; give {MEANING['z']}.") from None
     return _accept("z", number, _finite(number, lib), "finite")
@@ -112,7 +114,9 @@ def smaller(first: Number, second: Number, lib: Library) -> Number:
 def side_of_cut(side: int) -> int:
     """+1 or -1. ValueError otherwise."""
     if side not in (1, -1):
-        raise ValueError(f"side = {side!r} is neither +1 nor -1; give +1 for the body y > 0, -1 for its mirror image.")
+        raise ValueError(
+            f"side = {side!r} is neither +1 nor -1; give +1 for the body y > 0, -1 for its mirror image."
+        )
     return int(side)
 
 
@@ -164,7 +168,13 @@ def as_result(number: Number) -> Number:
     return number[()] if isinstance(number, np.ndarray) else number
 
 
-def pick(lib: Library, where: Number, yes: Callable[..., Number], no: Callable[..., Number], *args: Number) -> Number:
+def pick(
+    lib: Library,
+    where: Number,
+    yes: Callable[..., Number],
+    no: Callable[..., Number],
+    *args: Number,
+) -> Number:
     """`yes(lib, *args)` where the condition holds, `no(lib, *args)` elsewhere.
 
     Each formula sees only the points of its own domain, so that no nan or overflow arises that would have to be
@@ -186,7 +196,9 @@ def pick(lib: Library, where: Number, yes: Callable[..., Number], no: Callable[.
     return result.reshape(where.shape)
 
 
-def together(lib: Library, function: Callable[..., Number], *calls: tuple[Number, ...]) -> tuple[Number, ...]:
+def together(
+    lib: Library, function: Callable[..., Number], *calls: tuple[Number, ...]
+) -> tuple[Number, ...]:
     """`function(lib, *call)` for each call, in one pass over arrays, which costs less than several."""
     if lib is not np:
         return tuple(function(lib, *call) for call in calls)
@@ -215,7 +227,11 @@ def seen_from(z: Number, side: int) -> Number:
 
 def _broadcast(where: Number, args: tuple[Number, ...]) -> Number:
     shape, others = np.shape(where), _shapes(args)
-    return where if others <= {(), shape} else np.broadcast_to(where, np.broadcast_shapes(shape, *others))
+    return (
+        where
+        if others <= {(), shape}
+        else np.broadcast_to(where, np.broadcast_shapes(shape, *others))
+    )
 
 
 def _shapes(args: tuple[Number, ...]) -> set[tuple[int, ...]]:
@@ -237,7 +253,9 @@ def _float64(value: Number) -> Number:
     if type(value) is float:
         return value
     array = np.asarray(value)
-    if array.dtype.kind not in "fiu":  # strings, complex and other numbers: each must convert by itself
+    if (
+        array.dtype.kind not in "fiu"
+    ):  # strings, complex and other numbers: each must convert by itself
         array = array.astype(object)
     # Python's float, not NumPy's: that one is slow on the left of an array, and most parameters are single numbers.
     return array.astype(float, copy=False) if array.ndim else float(array)
@@ -251,8 +269,14 @@ def _accept(name: str, number: Number, good: Number, demand: str) -> Number:
     if everywhere(good):
         return number
     bad = ~good if isinstance(good, np.ndarray) else True
-    raise ValueError(f"{name} = {first_where(bad, number)[0]} is not {demand}; give {MEANING[name]}.")
+    raise ValueError(
+        f"{name} = {first_where(bad, number)[0]} is not {demand}; give {MEANING[name]}."
+    )
 
 
 def _kind(lib: Library) -> str:
-    return "a number or an array of numbers" if lib is np else "a single number (an mpmath context takes one at a time)"
+    return (
+        "a number or an array of numbers"
+        if lib is np
+        else "a single number (an mpmath context takes one at a time)"
+    )

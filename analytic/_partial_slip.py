@@ -5,7 +5,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, bits, first_where, not_negative, positive, real
+from analytic._lib import (
+    Library,
+    Number,
+    as_result,
+    bits,
+    first_where,
+    not_negative,
+    positive,
+    real,
+)
 
 # Dekker's constant splits a double into two halves whose products are exact.
 SPLITTER = 2.0**27 + 1
@@ -24,25 +33,48 @@ class Traction(NamedTuple):
     left: Number
 
 
-def traction(lib: Library, friction: Number, normal_load: Number, tangential_load: Number, name: str = "tangential_load") -> Traction:
+def traction(
+    lib: Library,
+    friction: Number,
+    normal_load: Number,
+    tangential_load: Number,
+    name: str = "tangential_load",
+) -> Traction:
     """The traction under 0 <= Q <= f P. ValueError for other loads."""
-    f, P, Q = positive("friction", friction, lib), positive("normal_load", normal_load, lib), not_negative(name, tangential_load, lib)
+    f, P, Q = (
+        positive("friction", friction, lib),
+        positive("normal_load", normal_load, lib),
+        not_negative(name, tangential_load, lib),
+    )
     rest = _rest(f, P, Q) if lib is np else f * P - Q
     sliding = rest < 0
     if np.any(sliding):
         bad, most = first_where(sliding, Q, f * P)
-        raise ValueError(f"{name} = {bad} exceeds friction * normal_load = {most}: the bodies slide; give a smaller one.")
+        raise ValueError(
+            f"{name} = {bad} exceeds friction * normal_load = {most}: the bodies slide; give a smaller one."
+        )
     return Traction(Q / P / f, rest / P / f)
 
 
-def turned(lib: Library, friction: Number, normal_load: Number, largest_load: Number, tangential_load: Number) -> tuple[Traction, Traction]:
+def turned(
+    lib: Library,
+    friction: Number,
+    normal_load: Number,
+    largest_load: Number,
+    tangential_load: Number,
+) -> tuple[Traction, Traction]:
     """The tractions of Q_max and of (Q_max - Q)/2, after which the load is down to Q. ValueError unless |Q| <= Q_max."""
     top = traction(lib, friction, normal_load, largest_load, "largest_load")
-    Q, most = real("tangential_load", tangential_load, lib), not_negative("largest_load", largest_load, lib)
+    Q, most = (
+        real("tangential_load", tangential_load, lib),
+        not_negative("largest_load", largest_load, lib),
+    )
     outside = abs(Q) > most
     if np.any(outside):
         bad, limit = first_where(outside, Q, most)
-        raise ValueError(f"tangential_load = {bad} is not between ± largest_load = {limit}; give a load on the way back.")
+        raise ValueError(
+            f"tangential_load = {bad} is not between ± largest_load = {limit}; give a load on the way back."
+        )
     return top, traction(lib, friction, normal_load, (most - Q) / 2)
 
 
@@ -58,7 +90,9 @@ def turned_twice(
     outside = (least > Q) | (most < Q)
     if np.any(outside):
         bad, low, high = first_where(outside, Q, least, most)
-        raise ValueError(f"tangential_load = {bad} is not between least_load = {low} and largest_load = {high}; give one that is.")
+        raise ValueError(
+            f"tangential_load = {bad} is not between least_load = {low} and largest_load = {high}; give one that is."
+        )
     return top, down, traction(lib, friction, normal_load, (Q - least) / 2)
 
 

@@ -12,7 +12,9 @@ def in_period(lib: Library, x: Number, L: Number) -> Number:
     if lib is not np:
         return x - L * lib.nint(x / L)
     rest: Any = np.fmod(x, L)  # exact
-    return rest - L * np.rint(rest / L)  # -L, 0 or L: exact too, for the rest is at least half of what it is taken from
+    return rest - L * np.rint(
+        rest / L
+    )  # -L, 0 or L: exact too, for the rest is at least half of what it is taken from
 
 
 def sine(lib: Library, x: Number, L: Number) -> Number:
@@ -31,7 +33,9 @@ def one_minus_square(lib: Library, z: Number, a: Number, L: Number) -> Number:
     """1 - sin²(pi a/L)/sin²(pi z/L) = sin(pi (z-a)/L) sin(pi (z+a)/L)/sin²(pi z/L), from the distances to ±a."""
     up, flip = _above(lib, z)
     whole = _q_minus_one(lib, up, L)
-    return _back(lib, (_q_minus_one(lib, up - a, L) / whole) * (_q_minus_one(lib, up + a, L) / whole), flip)
+    return _back(
+        lib, (_q_minus_one(lib, up - a, L) / whole) * (_q_minus_one(lib, up + a, L) / whole), flip
+    )
 
 
 def _above(lib: Library, z: Number) -> tuple[Number, Number]:

@@ -52,7 +52,9 @@ def contact_of(half_flat: Number, half_width: Number, rim: Number, lib: Library)
     a = not_negative("half_flat", half_flat, lib)
     if (half_width is None) == (rim is None):
         which = "Neither" if rim is None else "Both"
-        raise ValueError(f"{which} of half_width and rim (= half_width - half_flat) given; give exactly one of them.")
+        raise ValueError(
+            f"{which} of half_width and rim (= half_width - half_flat) given; give exactly one of them."
+        )
     if rim is None:
         b = positive("half_width", half_width, lib)
         _refuse_narrow(a, b)
@@ -95,7 +97,9 @@ def pressure(lib: Library, x: Number, contact: Contact) -> Number:
     other_end = (tau2 * T2, (x + a) / far * contact.scale)
     B_this, B_other = together(lib, B, this_end, other_end)
     sines = 2 * lib.sqrt(tau2) / (1 + tau2) * lib.sqrt(T2) / (1 + T2)
-    return sines * (2 * A(lib, tau2) + B_other + abs(2 * (x > a) - B_this))  # B under the flat, 2 - B on the rim
+    return sines * (
+        2 * A(lib, tau2) + B_other + abs(2 * (x > a) - B_this)
+    )  # B under the flat, 2 - B on the rim
 
 
 def load_angle(lib: Library, contact: Contact) -> Number:
@@ -139,12 +143,20 @@ def _overlap_short_flat(n: int, lib: Library, contact: Contact) -> Number:
 
 def _overlap_long_flat(n: int, lib: Library, contact: Contact) -> Number:
     theta = rim_angle(lib, contact)
-    return pick(lib, (2 * n + 2) * theta < 1, partial(_overlap_series, n), partial(_overlap_closed, n), theta)
+    return pick(
+        lib,
+        (2 * n + 2) * theta < 1,
+        partial(_overlap_series, n),
+        partial(_overlap_closed, n),
+        theta,
+    )
 
 
 def _overlap_closed(n: int, lib: Library, theta: Number) -> Number:
     m = 2 * n + 1
-    return (lib.cos(theta) * lib.sin(m * theta) - m * lib.sin(theta) * lib.cos(m * theta)) / (4 * n * (n + 1))
+    return (lib.cos(theta) * lib.sin(m * theta) - m * lib.sin(theta) * lib.cos(m * theta)) / (
+        4 * n * (n + 1)
+    )
 
 
 def _overlap_series(n: int, lib: Library, theta: Number) -> Number:
@@ -178,7 +190,9 @@ def _odd_series(lib: Library, rho: Number, contact: Contact, weight: int) -> Num
     return total * rho
 
 
-def _end_terms(term: Callable[..., Number], lib: Library, z: Number, contact: Contact) -> tuple[Number, Number]:
+def _end_terms(
+    term: Callable[..., Number], lib: Library, z: Number, contact: Contact
+) -> tuple[Number, Number]:
     """`term` of y = i tau v and of y = i tau/v, with 1 - y² from z - a and from z + a."""
     right, left, _ = _distances(lib, z, contact)
     tau2, scale, a = contact.tau2, contact.scale, contact.a
@@ -239,7 +253,9 @@ def _derivative_far(lib: Library, z: Number, rho: Number, contact: Contact) -> N
 def _pressure_slope(lib: Library, x: Number, contact: Contact) -> Number:
     """pi R/E* p' at x > 0."""
     near = (contact.b - x) + contact.low
-    return pick(lib, (near <= 0) | (x == contact.a), _infinite_slope, _finite_slope, x, near, contact)
+    return pick(
+        lib, (near <= 0) | (x == contact.a), _infinite_slope, _finite_slope, x, near, contact
+    )
 
 
 def _infinite_slope(lib: Library, x: Number, near: Number, contact: Contact) -> Number:

@@ -25,14 +25,20 @@ class Zones(NamedTuple):
     slip: Number  # b - c
 
 
-def contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library) -> tuple[Number, Contact]:
+def contact_of(
+    normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library
+) -> tuple[Number, Contact]:
     P, a = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib)
     R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    return P, Contact(a, rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib), R, E)
+    return P, Contact(
+        a, rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib), R, E
+    )
 
 
 def zones_of(lib: Library, P: Number, contact: Contact, used: Traction) -> Zones:
-    return Zones(*(pick(lib, used.used > 0.5, part, other, P, contact, used) for part, other in _WAYS))
+    return Zones(
+        *(pick(lib, used.used > 0.5, part, other, P, contact, used) for part, other in _WAYS)
+    )
 
 
 def _stick_of_rest(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
@@ -41,7 +47,9 @@ def _stick_of_rest(lib: Library, P: Number, contact: Contact, used: Traction) ->
 
 
 def _stick_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
-    return rounded_flat.rim(normal_load=P * used.left, half_flat=contact.a, radius=contact.R, modulus=contact.E, lib=lib)
+    return rounded_flat.rim(
+        normal_load=P * used.left, half_flat=contact.a, radius=contact.R, modulus=contact.E, lib=lib
+    )
 
 
 def _no_stick(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
@@ -61,7 +69,9 @@ def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> 
         lost = load_between(lib, a, rim - width, width)
         step = (target - lost) / ((a + rim - width) * _theta(lib, a, rim - width))
         width = width + step
-        if everywhere(abs(step) <= 2.0 ** (-bits(lib) / 2) * width):  # what is left is of the order of step²
+        if everywhere(
+            abs(step) <= 2.0 ** (-bits(lib) / 2) * width
+        ):  # what is left is of the order of step²
             break
     return width
 
@@ -121,16 +131,31 @@ def lost(lib: Library, x: Number, contact: Contact, zones: Zones) -> Number:
     shape = {"half_flat": contact.a, "radius": contact.R, "modulus": contact.E, "lib": lib}
     sticks = contact.a + zones.stick > 0  # the apex of a parabola that slides is no contact
     whole = rounded_flat.pressure(x, rim=contact.rim, **shape)
-    stuck = sticks * rounded_flat.pressure(x, rim=zones.stick + (1 - sticks * 1) * contact.rim, **shape)
+    stuck = sticks * rounded_flat.pressure(
+        x, rim=zones.stick + (1 - sticks * 1) * contact.rim, **shape
+    )
     near = ((contact.a - x) + contact.rim) - zones.slip
-    return pick(lib, (2 * stuck > whole) & (near > 0), _lost_by_integral, _lost_by_difference, x, contact, zones, whole - stuck)
+    return pick(
+        lib,
+        (2 * stuck > whole) & (near > 0),
+        _lost_by_integral,
+        _lost_by_difference,
+        x,
+        contact,
+        zones,
+        whole - stuck,
+    )
 
 
-def _lost_by_difference(lib: Library, x: Number, contact: Contact, zones: Zones, difference: Number) -> Number:
+def _lost_by_difference(
+    lib: Library, x: Number, contact: Contact, zones: Zones, difference: Number
+) -> Number:
     return difference
 
 
-def _lost_by_integral(lib: Library, x: Number, contact: Contact, zones: Zones, difference: Number) -> Number:
+def _lost_by_integral(
+    lib: Library, x: Number, contact: Contact, zones: Zones, difference: Number
+) -> Number:
     """(E*/(pi R)) ∫ theta(sqrt(x² + u²)) du, which is smooth; s² - a² = (c² - a²) + (u² - u_c²)."""
     a, rim = contact.a, contact.rim
     near = (a - x) + rim

@@ -39,7 +39,9 @@ def inverse_tangent(lib: Library, z: Number, b: Number) -> Number:
 def bounded_remainder(lib: Library, z: Number, b: Number, eps: Number) -> Number:
     """z + 2 eps b - X(z), which decays, for z off the cut."""
     rho = b / (z + root(lib, z, b))
-    return pick(lib, abs(rho) * abs(rho) < SMALL_SQUARE, _bounded_far, _bounded_near, z, b, eps, rho)
+    return pick(
+        lib, abs(rho) * abs(rho) < SMALL_SQUARE, _bounded_far, _bounded_near, z, b, eps, rho
+    )
 
 
 def singular_remainder(lib: Library, z: Number, b: Number, eps: Number) -> Number:

@@ -56,8 +56,13 @@ def pressure(
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)), 12)
     1.25
     """
-    x, contact = real("x", x, lib), _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
-    return as_result(pick(lib, abs(x) < contact.b, _pressure_inside, _pressure_not_inside, x, contact))
+    x, contact = (
+        real("x", x, lib),
+        _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib),
+    )
+    return as_result(
+        pick(lib, abs(x) < contact.b, _pressure_inside, _pressure_not_inside, x, contact)
+    )
 
 
 def shear(
@@ -77,7 +82,10 @@ def shear(
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25
     """
-    x, contact = real("x", x, lib), _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
+    x, contact = (
+        real("x", x, lib),
+        _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib),
+    )
     return as_result(pick(lib, abs(x) < contact.b, _shear_inside, _shear_not_inside, x, contact))
 
 
@@ -120,7 +128,16 @@ def potential(
     """
     z, side = point(z, lib), side_of_cut(side)
     contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
-    return as_result(pick(lib, on_cut(lib, z, contact.b), partial(_potential_on_cut, side=side), _potential, z, contact))
+    return as_result(
+        pick(
+            lib,
+            on_cut(lib, z, contact.b),
+            partial(_potential_on_cut, side=side),
+            _potential,
+            z,
+            contact,
+        )
+    )
 
 
 class _Contact(NamedTuple):
@@ -132,13 +149,27 @@ class _Contact(NamedTuple):
     A: Number
 
 
-def _contact_of(half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number, moment: Number, *, lib: Library) -> _Contact:
+def _contact_of(
+    half_width: Number,
+    normal_load: Number,
+    dundurs: Number,
+    shear_load: Number,
+    moment: Number,
+    *,
+    lib: Library,
+) -> _Contact:
     b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
-    Q, M, beta = real("shear_load", shear_load, lib), real("moment", moment, lib), real("dundurs", dundurs, lib)
+    Q, M, beta = (
+        real("shear_load", shear_load, lib),
+        real("moment", moment, lib),
+        real("dundurs", dundurs, lib),
+    )
     possible = abs(beta) <= 0.5
     if not everywhere(possible):
         (bad,) = first_where(~possible if isinstance(possible, np.ndarray) else True, beta)
-        raise ValueError(f"dundurs = {bad} is beyond 1/2, which no pair of bodies reaches; give -1/2 <= beta <= 1/2.")
+        raise ValueError(
+            f"dundurs = {bad} is beyond 1/2, which no pair of bodies reaches; give -1/2 <= beta <= 1/2."
+        )
     eta = lib.atanh(beta) / lib.pi
     A = 2 * (M / b + 2 * eta * Q) / (lib.pi * b * (1 + 4 * eta * eta))
     return _Contact(b, beta, eta, P, Q, A)
@@ -149,7 +180,11 @@ def _normal_and_shear(lib: Library, x: Number, contact: _Contact) -> tuple[Numbe
     b, eta = contact.b, contact.eta
     cosh = 1 / (lib.sqrt(1 - contact.beta) * lib.sqrt(1 + contact.beta))
     envelope = cosh / (lib.sqrt(b - x) * lib.sqrt(b + x))
-    return envelope, contact.P / lib.pi + contact.A * x, contact.Q / lib.pi - 2 * eta * b * contact.A
+    return (
+        envelope,
+        contact.P / lib.pi + contact.A * x,
+        contact.Q / lib.pi - 2 * eta * b * contact.A,
+    )
 
 
 def _phase(lib: Library, x: Number, contact: _Contact) -> Number:
@@ -203,7 +238,9 @@ def _exponent(lib: Library, contact: _Contact) -> Number:
 
 def _potential(lib: Library, z: Number, contact: _Contact) -> Number:
     eps, resultant = _exponent(lib, contact), cartesian(contact.P, contact.Q, lib) / lib.pi
-    return resultant * singular(lib, z, contact.b, eps) + contact.A * singular_remainder(lib, z, contact.b, eps)
+    return resultant * singular(lib, z, contact.b, eps) + contact.A * singular_remainder(
+        lib, z, contact.b, eps
+    )
 
 
 def _potential_on_cut(lib: Library, z: Number, contact: _Contact, *, side: int) -> Number:

@@ -34,25 +34,56 @@ from analytic._lib import (
 from analytic._partial_slip import Traction, traction, turned, turned_twice
 
 
-def stick_half_width(*, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number, lib: Library = np) -> Number:
+def stick_half_width(
+    *,
+    half_width: Number,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
+) -> Number:
     """The half-width c = b sqrt(1 - Q/(fP)) of the stick zone; 0 at Q = fP.
 
     >>> float(stick_half_width(half_width=1.0, normal_load=4.0, friction=0.5, tangential_load=1.5))
     0.5
     """
-    return as_result(positive("half_width", half_width, lib) * lib.sqrt(traction(lib, friction, normal_load, tangential_load).left))
+    return as_result(
+        positive("half_width", half_width, lib)
+        * lib.sqrt(traction(lib, friction, normal_load, tangential_load).left)
+    )
 
 
-def slip_width(*, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number, lib: Library = np) -> Number:
+def slip_width(
+    *,
+    half_width: Number,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
+) -> Number:
     """The length b - c of each slip zone, to full relative accuracy.
 
     >>> float(slip_width(half_width=1.0, normal_load=4.0, friction=0.5, tangential_load=1.5))
     0.5
     """
-    return as_result(_slip_width(lib, positive("half_width", half_width, lib), traction(lib, friction, normal_load, tangential_load)))
+    return as_result(
+        _slip_width(
+            lib,
+            positive("half_width", half_width, lib),
+            traction(lib, friction, normal_load, tangential_load),
+        )
+    )
 
 
-def shear(x: Number, *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number, lib: Library = np) -> Number:
+def shear(
+    x: Number,
+    *,
+    half_width: Number,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
+) -> Number:
     """The shear q(x) while Q rises from 0: f p in the slip zones, f (p_b - p_c) in the stick zone.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning and for Q > f P.
@@ -61,7 +92,9 @@ def shear(x: Number, *, half_width: Number, normal_load: Number, friction: Numbe
     0.5
     """
     x, b, scale = _traction_of_hertz(x, half_width, normal_load, friction, lib)
-    return as_result(scale * _ellipses(lib, x, b, traction(lib, friction, normal_load, tangential_load)))
+    return as_result(
+        scale * _ellipses(lib, x, b, traction(lib, friction, normal_load, tangential_load))
+    )
 
 
 def unloading_shear(
@@ -107,8 +140,17 @@ def reloading_shear(
     0.5
     """
     x, b, scale = _traction_of_hertz(x, half_width, normal_load, friction, lib)
-    top, down, up = turned_twice(lib, friction, normal_load, (largest_load, least_load, tangential_load))
-    return as_result(scale * (_ellipses(lib, x, b, top) - 2 * _ellipses(lib, x, b, down) + 2 * _ellipses(lib, x, b, up)))
+    top, down, up = turned_twice(
+        lib, friction, normal_load, (largest_load, least_load, tangential_load)
+    )
+    return as_result(
+        scale
+        * (
+            _ellipses(lib, x, b, top)
+            - 2 * _ellipses(lib, x, b, down)
+            + 2 * _ellipses(lib, x, b, up)
+        )
+    )
 
 
 def slip(
@@ -132,11 +174,20 @@ def slip(
     x, b, scale = _traction_of_hertz(x, half_width, normal_load, friction, lib)
     used = traction(lib, friction, normal_load, tangential_load)
     beyond = _slip_width(lib, b, used) - (b - abs(x))
-    value = pick(lib, (beyond > 0) & (abs(x) <= b), _slip, _nothing, abs(x), beyond, b * lib.sqrt(used.left))
+    value = pick(
+        lib, (beyond > 0) & (abs(x) <= b), _slip, _nothing, abs(x), beyond, b * lib.sqrt(used.left)
+    )
     return as_result(scale / positive("modulus", modulus, lib) * value)
 
 
-def excess_shift(*, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number, lib: Library = np) -> Number:
+def excess_shift(
+    *,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """How much farther than without slip the bodies shift: (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
 
     The shift itself depends on the bodies' depth, as the approach does: only this part is the contact's own. It is
@@ -146,12 +197,23 @@ def excess_shift(*, normal_load: Number, friction: Number, tangential_load: Numb
     0.5
     """
     used, left = traction(lib, friction, normal_load, tangential_load)
-    P, f, E = positive("normal_load", normal_load, lib), positive("friction", friction, lib), positive("modulus", modulus, lib)
+    P, f, E = (
+        positive("normal_load", normal_load, lib),
+        positive("friction", friction, lib),
+        positive("modulus", modulus, lib),
+    )
     y = used / (1 + left)
     return as_result(f * (P / E) / lib.pi * used * (1 + left) / 2 * (y + _B(lib, used, left)))
 
 
-def dissipation(*, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number, lib: Library = np) -> Number:
+def dissipation(
+    *,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The energy (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP), lost in each cycle between Q and -Q per unit length.
 
     ValueError for input that has no meaning and for Q > f P.
@@ -160,7 +222,11 @@ def dissipation(*, normal_load: Number, friction: Number, tangential_load: Numbe
     1.0
     """
     used, left = traction(lib, friction, normal_load, tangential_load)
-    P, f, E = positive("normal_load", normal_load, lib), positive("friction", friction, lib), positive("modulus", modulus, lib)
+    P, f, E = (
+        positive("normal_load", normal_load, lib),
+        positive("friction", friction, lib),
+        positive("modulus", modulus, lib),
+    )
     return as_result(2 * f * P * (f * P / E) / lib.pi * used * (1 + left) * _B(lib, used, left))
 
 
@@ -211,7 +277,9 @@ def bulk_shear(
     return as_result(scale * _shifted_ellipses(lib, turned_to, b, used, abs(e)))
 
 
-def _traction_of_hertz(x: Number, half_width: Number, normal_load: Number, friction: Number, lib: Library) -> tuple[Number, ...]:
+def _traction_of_hertz(
+    x: Number, half_width: Number, normal_load: Number, friction: Number, lib: Library
+) -> tuple[Number, ...]:
     """x, b, and 2fP/(pi b²), what f p is times sqrt(b² - x²)."""
     x, b = real("x", x, lib), positive("half_width", half_width, lib)
     P, f = positive("normal_load", normal_load, lib), positive("friction", friction, lib)
@@ -219,10 +287,19 @@ def _traction_of_hertz(x: Number, half_width: Number, normal_load: Number, frict
 
 
 def _moved(
-    half_width: Number, normal_load: Number, friction: Number, tangential_load: Number, bulk_stress: Number, *, lib: Library
+    half_width: Number,
+    normal_load: Number,
+    friction: Number,
+    tangential_load: Number,
+    bulk_stress: Number,
+    *,
+    lib: Library,
 ) -> tuple[Number, Traction, Number]:
     """b, the traction, and e."""
-    b, used = positive("half_width", half_width, lib), traction(lib, friction, normal_load, tangential_load)
+    b, used = (
+        positive("half_width", half_width, lib),
+        traction(lib, friction, normal_load, tangential_load),
+    )
     P, f = positive("normal_load", normal_load, lib), positive("friction", friction, lib)
     e = lib.pi / 8 * (real("bulk_stress", bulk_stress, lib) * b / P) * (b / f)
     room = _slip_width(lib, b, used)

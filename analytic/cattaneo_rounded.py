@@ -19,15 +19,34 @@ integrated. Loads, not widths, are what is given, since Q and f P must be known 
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, first_where, not_negative, pick, positive, real
+from analytic._lib import (
+    Library,
+    Number,
+    as_result,
+    first_where,
+    not_negative,
+    pick,
+    positive,
+    real,
+)
 from analytic._partial_slip import Traction, integral, traction, turned, turned_twice
-from analytic._rounded_slip import Contact, contact_of, load_between, lost, nothing, slip_at, zones_of
+from analytic._rounded_slip import (
+    Contact,
+    contact_of,
+    load_between,
+    lost,
+    nothing,
+    slip_at,
+    zones_of,
+)
 
 # A first loading counts once, every turn of the load twice: there and back.
 TURNS = (1, -2, 2)
 
 
-def loading_ratio(*, half_flat: Number, half_width: Number, stick_half_width: Number, lib: Library = np) -> Number:
+def loading_ratio(
+    *, half_flat: Number, half_width: Number, stick_half_width: Number, lib: Library = np
+) -> Number:
     """The part Q/(fP) of the friction at which the stick zone has the half-width c (Ciavarella, Hills & Monno 1998, eq. 20).
 
     ValueError for input that has no meaning and unless a <= c <= b.
@@ -40,13 +59,22 @@ def loading_ratio(*, half_flat: Number, half_width: Number, stick_half_width: Nu
     outside = (c < a) | (b < c) | (b <= a)
     if np.any(outside):
         flat, stick, width = first_where(outside, a, c, b)
-        raise ValueError(f"stick_half_width = {stick} is not between half_flat = {flat} and half_width = {width}; give a <= c <= b, a < b.")
+        raise ValueError(
+            f"stick_half_width = {stick} is not between half_flat = {flat} and half_width = {width}; give a <= c <= b, a < b."
+        )
     whole = load_between(lib, a, 0 * a, b - a)
     return as_result(load_between(lib, a, c - a, b - c) / whole)
 
 
 def stick_rim(
-    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number, tangential_load: Number, lib: Library = np
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
 ) -> Number:
     """The length c - a on which each rounding sticks, to full relative accuracy; 0 at Q = f P.
 
@@ -57,11 +85,20 @@ def stick_rim(
     1.0
     """
     P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
-    return as_result(zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).stick)
+    return as_result(
+        zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).stick
+    )
 
 
 def slip_width(
-    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number, tangential_load: Number, lib: Library = np
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
 ) -> Number:
     """The length b - c of each slip zone, to full relative accuracy.
 
@@ -70,7 +107,9 @@ def slip_width(
     0.5
     """
     P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
-    return as_result(zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).slip)
+    return as_result(
+        zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)).slip
+    )
 
 
 def shear(
@@ -168,15 +207,34 @@ def slip(
     >>> round(float(slip(1.0, **given, tangential_load=np.pi / 4)), 12)
     0.5
     """
-    x, (P, contact), f = real("x", x, lib), contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
+    x, (P, contact), f = (
+        real("x", x, lib),
+        contact_of(normal_load, half_flat, radius, modulus, lib),
+        positive("friction", friction, lib),
+    )
     zones = zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
     near = (contact.a - abs(x)) + contact.rim
-    value = pick(lib, (near >= 0) & (zones.slip - near > 0), slip_at, nothing, zones.slip - near, zones.stick, contact.a)
+    value = pick(
+        lib,
+        (near >= 0) & (zones.slip - near > 0),
+        slip_at,
+        nothing,
+        zones.slip - near,
+        zones.stick,
+        contact.a,
+    )
     return as_result(2 * f / contact.R / lib.pi * value)
 
 
 def dissipation(
-    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number, tangential_load: Number, lib: Library = np
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    friction: Number,
+    tangential_load: Number,
+    lib: Library = np,
 ) -> Number:
     """The energy W lost in each cycle between Q and -Q, per unit length.
 
@@ -186,8 +244,14 @@ def dissipation(
     >>> round(float(dissipation(**given, tangential_load=np.pi) / np.pi), 12)
     1.0
     """
-    (P, contact), f = contact_of(normal_load, half_flat, radius, modulus, lib), positive("friction", friction, lib)
-    b, zones = contact.a + contact.rim, zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load))
+    (P, contact), f = (
+        contact_of(normal_load, half_flat, radius, modulus, lib),
+        positive("friction", friction, lib),
+    )
+    b, zones = (
+        contact.a + contact.rim,
+        zones_of(lib, P, contact, traction(lib, friction, normal_load, tangential_load)),
+    )
     a, stick, width = contact.a / b, zones.stick / b, zones.slip / b  # lest their powers overflow
 
     def integrand(left: Number, right: Number) -> Number:
@@ -198,7 +262,9 @@ def dissipation(
     return as_result(scale * width * integral(lib, integrand))
 
 
-def _shear(x: Number, contact: Contact, P: Number, f: Number, loads: tuple[Traction, ...], *, lib: Library) -> Number:
+def _shear(
+    x: Number, contact: Contact, P: Number, f: Number, loads: tuple[Traction, ...], *, lib: Library
+) -> Number:
     """The sum of the shears of first loadings, the later ones with the weight of a turn."""
     x = abs(real("x", x, lib))
     total = 0

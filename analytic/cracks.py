@@ -18,7 +18,9 @@ from analytic._agm import ratio_D
 from analytic._lib import Library, Number, as_result, everywhere, first_where, positive, real
 
 
-def pair(*, inner: Number, outer: Number, tension: Number, lib: Library = np) -> tuple[Number, Number]:
+def pair(
+    *, inner: Number, outer: Number, tension: Number, lib: Library = np
+) -> tuple[Number, Number]:
     """The factors (K_I at |x| = a, K_I at |x| = b) of the two collinear cracks a < |x| < b.
 
     ValueError for input that has no meaning.
@@ -26,10 +28,16 @@ def pair(*, inner: Number, outer: Number, tension: Number, lib: Library = np) ->
     >>> tuple(round(float(K), 9) for K in pair(inner=1e9, outer=1e9 + 2.0, tension=1.0) / np.sqrt(np.pi))
     (1.0, 1.0)
     """
-    a, b, sigma = positive("inner", inner, lib), positive("outer", outer, lib), real("tension", tension, lib)
+    a, b, sigma = (
+        positive("inner", inner, lib),
+        positive("outer", outer, lib),
+        real("tension", tension, lib),
+    )
     if not everywhere(a < b):
         near, far = first_where(np.logical_not(a < b) if lib is np else True, a, b)
-        raise ValueError(f"outer = {far} is not more than inner = {near}; give inner < outer, the tips of one crack.")
+        raise ValueError(
+            f"outer = {far} is not more than inner = {near}; give inner < outer, the tips of one crack."
+        )
     k = lib.sqrt((b - a) / b) * lib.sqrt((b + a) / b)
     D_K, scale = ratio_D(lib, k, a / b), sigma * lib.sqrt(lib.pi * b) * k
     return as_result(scale * lib.sqrt(b / a) * (1 - D_K)), as_result(scale * D_K)
@@ -43,10 +51,16 @@ def row(*, half_length: Number, period: Number, tension: Number, lib: Library = 
     >>> round(float(row(half_length=1.0, period=4.0, tension=1.0)), 12)
     2.0
     """
-    a, W, sigma = positive("half_length", half_length, lib), positive("period", period, lib), real("tension", tension, lib)
+    a, W, sigma = (
+        positive("half_length", half_length, lib),
+        positive("period", period, lib),
+        real("tension", tension, lib),
+    )
     if not everywhere(2 * a < W):
         half, whole = first_where(np.logical_not(2 * a < W) if lib is np else True, a, W)
-        raise ValueError(f"half_length = {half} is not less than period/2 = {whole / 2}; give cracks with bridges between them.")
+        raise ValueError(
+            f"half_length = {half} is not less than period/2 = {whole / 2}; give cracks with bridges between them."
+        )
     angle = lib.pi * (a / W)
     return as_result(sigma * lib.sqrt(W) * lib.sqrt(lib.sin(angle) / _cosine(lib, a, W)))
 

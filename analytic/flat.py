@@ -41,7 +41,9 @@ from analytic._lib import (
 ROUNDING = 8 * sys.float_info.epsilon
 
 
-def pressure(x: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, lib: Library = np) -> Number:
+def pressure(
+    x: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, lib: Library = np
+) -> Number:
     """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact, inf at its corners, and 0 outside.
 
     With |M| = P b/2 exactly p is 0, not infinite, at the corner about to lift. `x` and the parameters broadcast.
@@ -54,7 +56,9 @@ def pressure(x: Number, *, half_width: Number, normal_load: Number, moment: Numb
     return as_result(_pressure(lib, x, b, corners) / (lib.pi * b))
 
 
-def tilt(*, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np) -> Number:
+def tilt(
+    *, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The tilt h' = -4M/(pi E* b²) of a complete contact under the moment M.
 
     ValueError for input that has no meaning and for |M| > P b/2; then see `partial_tilt`.
@@ -66,7 +70,9 @@ def tilt(*, half_width: Number, normal_load: Number, moment: Number, modulus: Nu
     return as_result(-4 * (M / b) / b / positive("modulus", modulus, lib) / lib.pi)
 
 
-def moment(*, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np) -> Number:
+def moment(
+    *, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The moment M = -pi E* b² tilt/4 that holds a complete contact at the tilt h' = tilt.
 
     ValueError for input that has no meaning and for |tilt| > 2P/(pi E* b); then see `partial_moment`.
@@ -74,7 +80,11 @@ def moment(*, half_width: Number, normal_load: Number, tilt: Number, modulus: Nu
     >>> round(float(moment(half_width=1.0, normal_load=np.pi, tilt=-1.0, modulus=1.0) / np.pi), 12)
     0.25
     """
-    b, E, angle = positive("half_width", half_width, lib), positive("modulus", modulus, lib), real("tilt", tilt, lib)
+    b, E, angle = (
+        positive("half_width", half_width, lib),
+        positive("modulus", modulus, lib),
+        real("tilt", tilt, lib),
+    )
     M = -lib.pi / 4 * (E * b * angle) * b
     return as_result(_checked(b, normal_load, M, lib)[2])
 
@@ -96,8 +106,14 @@ def potential(
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi)).imag
     -1.25
     """
-    z, side, (b, corners) = point(z, lib), side_of_cut(side), _complete(half_width, normal_load, moment, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b, corners)
+    z, side, (b, corners) = (
+        point(z, lib),
+        side_of_cut(side),
+        _complete(half_width, normal_load, moment, lib),
+    )
+    value = pick(
+        lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b, corners
+    )
     return as_result(scaled(1 / (lib.pi * b), value, lib))
 
 
@@ -118,12 +134,20 @@ def potential_derivative(
     >>> round(complex(potential_derivative(0.6, half_width=1.0, normal_load=np.pi)).imag, 12)
     -1.171875
     """
-    z, side, (b, corners) = point(z, lib), side_of_cut(side), _complete(half_width, normal_load, moment, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b, corners)
+    z, side, (b, corners) = (
+        point(z, lib),
+        side_of_cut(side),
+        _complete(half_width, normal_load, moment, lib),
+    )
+    value = pick(
+        lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b, corners
+    )
     return as_result(scaled(1 / (lib.pi * b) / b, value, lib))
 
 
-def partial_edges(*, half_width: Number, normal_load: Number, moment: Number, lib: Library = np) -> tuple[Number, Number]:
+def partial_edges(
+    *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
+) -> tuple[Number, Number]:
     """The ends (x1, x2) of the contact of a tilted flat that touches with one corner, P b/2 <= |M| < P b.
 
     ValueError for input that has no meaning and for moments outside that range.
@@ -132,10 +156,14 @@ def partial_edges(*, half_width: Number, normal_load: Number, moment: Number, li
     (0.0, 1.0)
     """
     b, _, s, r = _one_corner(half_width, normal_load, moment, lib)
-    return as_result(pick(lib, s > 0, _inner, _corner, b, r)), as_result(-pick(lib, s < 0, _inner, _corner, b, r))
+    return as_result(pick(lib, s > 0, _inner, _corner, b, r)), as_result(
+        -pick(lib, s < 0, _inner, _corner, b, r)
+    )
 
 
-def partial_pressure(x: Number, *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np) -> Number:
+def partial_pressure(
+    x: Number, *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
+) -> Number:
     """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner, where it is inf.
 
     t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside. ValueError for input
@@ -148,11 +176,15 @@ def partial_pressure(x: Number, *, half_width: Number, normal_load: Number, mome
     # Distances from the corner and from the smooth edge, the two roots of the pressure.
     from_corner = b - s * x
     from_edge = 2 * r - from_corner
-    value = pick(lib, (from_corner >= 0) & (from_edge > 0), _one_sided, _nothing, from_corner, from_edge)
+    value = pick(
+        lib, (from_corner >= 0) & (from_edge > 0), _one_sided, _nothing, from_corner, from_edge
+    )
     return as_result(P / lib.pi / r * value)
 
 
-def partial_tilt(*, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np) -> Number:
+def partial_tilt(
+    *, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The tilt h' = -2 s P/(pi E* r) of a flat that touches with one corner, P b/2 <= |M| < P b.
 
     >>> round(float(partial_tilt(half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi, modulus=1.0)), 12)
@@ -162,7 +194,9 @@ def partial_tilt(*, half_width: Number, normal_load: Number, moment: Number, mod
     return as_result(-2 * s * (P / r) / positive("modulus", modulus, lib) / lib.pi)
 
 
-def partial_moment(*, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np) -> Number:
+def partial_moment(
+    *, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The moment M = s P (b - r/2), r = 2P/(pi E* |tilt|), that holds a flat on one corner at the tilt h' = tilt.
 
     ValueError for input that has no meaning and for |tilt| < 2P/(pi E* b), at which both corners touch.
@@ -178,7 +212,15 @@ def partial_moment(*, half_width: Number, normal_load: Number, tilt: Number, mod
     return as_result(-sign(angle) * P * (b - P / E / lib.pi / abs(angle)))
 
 
-def partial_potential(z: Number, *, half_width: Number, normal_load: Number, moment: Number, side: int = +1, lib: Library = np) -> Number:
+def partial_potential(
+    z: Number,
+    *,
+    half_width: Number,
+    normal_load: Number,
+    moment: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The potential Fp of a tilted flat that touches with one corner, complex; ~ P/(pi z) far away.
 
     It is that of a complete contact of half-width r about its own middle, with the moment s P r/2. `side` as in
@@ -188,7 +230,9 @@ def partial_potential(z: Number, *, half_width: Number, normal_load: Number, mom
     -2.0
     """
     z, (b, P, s, r) = point(z, lib), _one_corner(half_width, normal_load, moment, lib)
-    return potential(z - s * (b - r), half_width=r, normal_load=P, moment=s * P * r / 2, side=side, lib=lib)
+    return potential(
+        z - s * (b - r), half_width=r, normal_load=P, moment=s * P * r / 2, side=side, lib=lib
+    )
 
 
 class _Corners(NamedTuple):
@@ -198,7 +242,9 @@ class _Corners(NamedTuple):
     left: Number
 
 
-def _checked(half_width: Number, normal_load: Number, moment: Number, lib: Library) -> tuple[Number, Number, Number]:
+def _checked(
+    half_width: Number, normal_load: Number, moment: Number, lib: Library
+) -> tuple[Number, Number, Number]:
     b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
     M = real("moment", moment, lib)
     lever, half = abs(M) / P, b / 2
@@ -207,13 +253,17 @@ def _checked(half_width: Number, normal_load: Number, moment: Number, lib: Libra
     return b, P, M
 
 
-def _complete(half_width: Number, normal_load: Number, moment: Number, lib: Library) -> tuple[Number, "_Corners"]:
+def _complete(
+    half_width: Number, normal_load: Number, moment: Number, lib: Library
+) -> tuple[Number, "_Corners"]:
     """b and the corners' shares of the load."""
     b, P, M = _checked(half_width, normal_load, moment, lib)
     return b, _Corners(_not_below_zero(P / 2 + M / b), _not_below_zero(P / 2 - M / b))
 
 
-def _one_corner(half_width: Number, normal_load: Number, moment: Number, lib: Library) -> tuple[Number, Number, Number, Number]:
+def _one_corner(
+    half_width: Number, normal_load: Number, moment: Number, lib: Library
+) -> tuple[Number, Number, Number, Number]:
     """b, P, the sign s of the corner that touches, and the contact's half-width r."""
     b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
     M = real("moment", moment, lib)
@@ -279,9 +329,15 @@ def _potential(lib: Library, z: Number, b: Number, corners: _Corners) -> Number:
     return b / (z + root(lib, z, b)) * (corners.right * (1 + v) + corners.left * (1 + 1 / v))
 
 
-def _potential_on_cut(lib: Library, z: Number, b: Number, corners: _Corners, *, side: int) -> Number:
+def _potential_on_cut(
+    lib: Library, z: Number, b: Number, corners: _Corners, *, side: int
+) -> Number:
     x = z.real
-    return cartesian(corners.left - corners.right + 0 * x, -seen_from(z, side) * _pressure(lib, x, b, corners), lib)
+    return cartesian(
+        corners.left - corners.right + 0 * x,
+        -seen_from(z, side) * _pressure(lib, x, b, corners),
+        lib,
+    )
 
 
 def _derivative(lib: Library, z: Number, b: Number, corners: _Corners) -> Number:
@@ -290,7 +346,9 @@ def _derivative(lib: Library, z: Number, b: Number, corners: _Corners) -> Number
     return -s * s * (corners.right * v + corners.left / v)
 
 
-def _derivative_on_cut(lib: Library, z: Number, b: Number, corners: _Corners, *, side: int) -> Number:
+def _derivative_on_cut(
+    lib: Library, z: Number, b: Number, corners: _Corners, *, side: int
+) -> Number:
     x = z.real
     steepness = pick(lib, abs(x) < b, _steepness, _infinite_steepness, x, b, corners)
     return cartesian(0 * x, -seen_from(z, side) * steepness, lib)

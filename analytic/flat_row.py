@@ -31,7 +31,9 @@ from analytic._lib import (
 from analytic._period import cotangent, in_period, one_minus_square, sine
 
 
-def pressure(x: Number, *, half_width: Number, period: Number, mean_pressure: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number, *, half_width: Number, period: Number, mean_pressure: Number, lib: Library = np
+) -> Number:
     """The pressure p(x) under the flats, inf at their corners, and 0 between them.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -43,7 +45,15 @@ def pressure(x: Number, *, half_width: Number, period: Number, mean_pressure: Nu
     return as_result(p * _pressure(lib, abs(in_period(lib, real("x", x, lib), L)), a, L))
 
 
-def potential(z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1, lib: Library = np) -> Number:
+def potential(
+    z: Number,
+    *,
+    half_width: Number,
+    period: Number,
+    mean_pressure: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
 
     Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i p, and -1 its conjugate.
@@ -52,18 +62,26 @@ def potential(z: Number, *, half_width: Number, period: Number, mean_pressure: N
     >>> round(complex(potential(0.0, half_width=1.0, period=4.0, mean_pressure=1.0)).imag, 12)
     -1.414213562373
     """
-    z, side, (a, L, p) = point(z, lib), side_of_cut(side), _contact(half_width, period, mean_pressure, lib)
+    z, side, (a, L, p) = (
+        point(z, lib),
+        side_of_cut(side),
+        _contact(half_width, period, mean_pressure, lib),
+    )
     z = cartesian(in_period(lib, z.real, L), z.imag, lib)
     value = pick(lib, on_cut(lib, z, a), partial(_potential_on_cut, side=side), _potential, z, a, L)
     return as_result(scaled(p, value, lib))
 
 
-def _contact(half_width: Number, period: Number, mean_pressure: Number, lib: Library) -> tuple[Number, Number, Number]:
+def _contact(
+    half_width: Number, period: Number, mean_pressure: Number, lib: Library
+) -> tuple[Number, Number, Number]:
     a, L = positive("half_width", half_width, lib), positive("period", period, lib)
     wide = 2 * a >= L
     if np.any(wide):
         half, whole = first_where(wide, a, L)
-        raise ValueError(f"half_width = {half} is not less than period/2 = {whole / 2}; give flats with gaps between them.")
+        raise ValueError(
+            f"half_width = {half} is not less than period/2 = {whole / 2}; give flats with gaps between them."
+        )
     return a, L, positive("mean_pressure", mean_pressure, lib)
 
 

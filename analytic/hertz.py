@@ -46,7 +46,9 @@ def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:
     return as_result(real("x", x, lib) / positive("radius", radius, lib))
 
 
-def pressure(x: Number, *, half_width: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number, *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The contact pressure p = E*/(2R) sqrt(b² - x²), and 0 outside (Johnson 1985, eq. 4.44).
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -68,7 +70,9 @@ def load(*, half_width: Number, radius: Number, modulus: Number, lib: Library = 
     return as_result(lib.pi / 4 * E * (b / R) * b)
 
 
-def half_width(*, normal_load: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def half_width(
+    *, normal_load: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The half-width b = sqrt(4 P R/(pi E*)): the inverse of `load`.
 
     >>> float(half_width(normal_load=np.pi, radius=1.0, modulus=1.0))
@@ -78,7 +82,9 @@ def half_width(*, normal_load: Number, radius: Number, modulus: Number, lib: Lib
     return as_result(2 * (lib.sqrt(P / E) * lib.sqrt(R)) / lib.sqrt(lib.pi))
 
 
-def peak_pressure(*, half_width: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def peak_pressure(
+    *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The largest pressure, p(0) = E* b/(2R) (Johnson 1985, eq. 4.45).
 
     >>> float(peak_pressure(half_width=1.0, radius=1.0, modulus=2.0))
@@ -88,7 +94,15 @@ def peak_pressure(*, half_width: Number, radius: Number, modulus: Number, lib: L
     return as_result(E * (b / (2 * R)))
 
 
-def potential(z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1, lib: Library = np) -> Number:
+def potential(
+    z: Number,
+    *,
+    half_width: Number,
+    radius: Number,
+    modulus: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The potential Fp = E* b/(2R) rho, rho = b/(z + sqrt(z² - b²)), complex; ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
@@ -97,12 +111,24 @@ def potential(z: Number, *, half_width: Number, radius: Number, modulus: Number,
     >>> complex(potential(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     (0.6-0.8j)
     """
-    z, side, (b, R, E) = point(z, lib), side_of_cut(side), _contact(half_width, radius, modulus, lib)
+    z, side, (b, R, E) = (
+        point(z, lib),
+        side_of_cut(side),
+        _contact(half_width, radius, modulus, lib),
+    )
     value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
-def potential_derivative(z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1, lib: Library = np) -> Number:
+def potential_derivative(
+    z: Number,
+    *,
+    half_width: Number,
+    radius: Number,
+    modulus: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side +1.
 
     At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning.
@@ -110,12 +136,18 @@ def potential_derivative(z: Number, *, half_width: Number, radius: Number, modul
     >>> complex(potential_derivative(0.8, half_width=1.0, radius=1.0, modulus=1.5).round(12))
     (0.75+1j)
     """
-    z, side, (b, R, E) = point(z, lib), side_of_cut(side), _contact(half_width, radius, modulus, lib)
+    z, side, (b, R, E) = (
+        point(z, lib),
+        side_of_cut(side),
+        _contact(half_width, radius, modulus, lib),
+    )
     value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
-def _contact(half_width: Number, radius: Number, modulus: Number, lib: Library) -> tuple[Number, Number, Number]:
+def _contact(
+    half_width: Number, radius: Number, modulus: Number, lib: Library
+) -> tuple[Number, Number, Number]:
     return positive("half_width", half_width, lib), *_stiffness(radius, modulus, lib)
 
 

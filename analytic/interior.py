@@ -18,7 +18,18 @@ import numpy as np
 
 from analytic import hertz as _hertz
 from analytic import rounded_flat as _rounded_flat
-from analytic._lib import Library, Number, as_result, cartesian, everywhere, first_where, not_negative, positive, real, root
+from analytic._lib import (
+    Library,
+    Number,
+    as_result,
+    cartesian,
+    everywhere,
+    first_where,
+    not_negative,
+    positive,
+    real,
+    root,
+)
 
 
 class Stresses(NamedTuple):
@@ -30,7 +41,14 @@ class Stresses(NamedTuple):
 
 
 def hertz(
-    x: Number, y: Number, *, half_width: Number, radius: Number, modulus: Number, friction: Number = 0, lib: Library = np
+    x: Number,
+    y: Number,
+    *,
+    half_width: Number,
+    radius: Number,
+    modulus: Number,
+    friction: Number = 0,
+    lib: Library = np,
 ) -> Stresses:
     """The stresses under a parabola, normal (friction = 0) or sliding, q = f p (Hills, Nowell & Sackfield 1993, § 3.4).
 
@@ -60,11 +78,20 @@ def rounded_flat(
     >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)]
     [-0.339463081416, -0.139463081416, -0.069731540708]
     """
-    parameters = {"half_flat": half_flat, "radius": radius, "modulus": modulus, "half_width": half_width, "rim": rim, "lib": lib}
+    parameters = {
+        "half_flat": half_flat,
+        "radius": radius,
+        "modulus": modulus,
+        "half_width": half_width,
+        "rim": rim,
+        "lib": lib,
+    }
     return _stresses(_rounded_flat, parameters, x, y, friction)
 
 
-def mcewen(x: Number, y: Number, *, half_width: Number, peak_pressure: Number, lib: Library = np) -> Stresses:
+def mcewen(
+    x: Number, y: Number, *, half_width: Number, peak_pressure: Number, lib: Library = np
+) -> Stresses:
     """The stresses under the frictionless line contact, as McEwen wrote them (1949; Johnson 1985, eq. 4.49):
 
         s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ],   s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²)),   s_xy = -(p0/b) n (m²-y²)/(m²+n²)
@@ -81,10 +108,22 @@ def mcewen(x: Number, y: Number, *, half_width: Number, peak_pressure: Number, l
     share = (y * y + n * n) / (m * m + n * n)
     scale = p0 / b
     xy = -scale * n * (m * m - y * y) / (m * m + n * n)
-    return Stresses(as_result(-scale * (m * (1 + share) - 2 * y)), as_result(-scale * m * (1 - share)), as_result(xy))
+    return Stresses(
+        as_result(-scale * (m * (1 + share) - 2 * y)),
+        as_result(-scale * m * (1 - share)),
+        as_result(xy),
+    )
 
 
-def chebyshev(x: Number, y: Number, *, coefficients: Number, half_width: Number, friction: Number = 0, lib: Library = np) -> Stresses:
+def chebyshev(
+    x: Number,
+    y: Number,
+    *,
+    coefficients: Number,
+    half_width: Number,
+    friction: Number = 0,
+    lib: Library = np,
+) -> Stresses:
     """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs 22 and 23), y > 0:
 
         F = sum_n b_n rho^(2n+1),      F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²),      rho = b/(z + sqrt(z² - b²))
@@ -129,14 +168,21 @@ def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = 
     return as_result(lib.pi / 2 / lib.sqrt(f * f + (1 - 2 * nu) ** 2 * (1 + f * f) / 3))
 
 
-def _stresses(indenter: Any, parameters: dict[str, Number], x: Number, y: Number, f: Number) -> Stresses:
+def _stresses(
+    indenter: Any, parameters: dict[str, Number], x: Number, y: Number, f: Number
+) -> Stresses:
     """From the potentials of a module of this package; on the surface without F', which is infinite at the edges."""
     lib = parameters["lib"]
     x, y, f = real("x", x, lib), _depth(y, lib), real("friction", f, lib)
 
     def below(x: Number, y: Number) -> Stresses:
         z = cartesian(x, y, lib)
-        return _combined(indenter.potential(z, **parameters), indenter.potential_derivative(z, **parameters), y, f)
+        return _combined(
+            indenter.potential(z, **parameters),
+            indenter.potential_derivative(z, **parameters),
+            y,
+            f,
+        )
 
     def surface(x: Number, y: Number) -> Stresses:
         F = indenter.potential(cartesian(x, y, lib), **parameters)
@@ -154,11 +200,17 @@ def _stresses(indenter: Any, parameters: dict[str, Number], x: Number, y: Number
 
 def _combined(F: Number, dF: Number, y: Number, f: Number) -> Stresses:
     normal_xx, normal_yy, normal_xy = F.imag + y * dF.real, F.imag - y * dF.real, -y * dF.imag
-    return Stresses(normal_xx + f * (y * dF.imag - 2 * F.real), normal_yy + f * normal_xy, normal_xy + f * normal_xx)
+    return Stresses(
+        normal_xx + f * (y * dF.imag - 2 * F.real),
+        normal_yy + f * normal_xy,
+        normal_xy + f * normal_xx,
+    )
 
 
 def _depth(y: Number, lib: Library) -> Number:
     number = real("y", y, lib)
     if everywhere(number >= 0):
         return number
-    raise ValueError(f"y = {first_where(number < 0, number)[0]} is above the surface; give depths y >= 0.")
+    raise ValueError(
+        f"y = {first_where(number < 0, number)[0]} is above the surface; give depths y >= 0."
+    )

@@ -46,7 +46,15 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
     return as_result(sign(x) * m * C * abs(x) ** (m - 1))
 
 
-def pressure(x: Number, *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number,
+    *,
+    half_width: Number,
+    exponent: Number,
+    coefficient: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x = 0.
 
     `x` and the parameters broadcast, but the exponent is one number. ValueError for input that has no meaning.
@@ -54,13 +62,19 @@ def pressure(x: Number, *, half_width: Number, exponent: Number, coefficient: Nu
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8
     """
-    x, b, E = abs(real("x", x, lib)), positive("half_width", half_width, lib), positive("modulus", modulus, lib)
+    x, b, E = (
+        abs(real("x", x, lib)),
+        positive("half_width", half_width, lib),
+        positive("modulus", modulus, lib),
+    )
     m, C = _shape(exponent, coefficient, lib)
     scale = E * m * m * (C * b ** (m - 1)) * _wallis(lib, m) / lib.pi
     return as_result(scale * pick(lib, x < b, partial(_superposed, m), _nothing, x, b))
 
 
-def load(*, half_width: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np) -> Number:
+def load(
+    *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The normal load P = E* C m b^m (sqrt(pi)/2) Gamma((m+1)/2)/Gamma(m/2+1) per unit length.
 
     >>> round(float(load(half_width=1.0, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)
@@ -71,7 +85,14 @@ def load(*, half_width: Number, exponent: Number, coefficient: Number, modulus: 
     return as_result(E * m * (C * b ** (m - 1)) * b * _wallis(lib, m))
 
 
-def half_width(*, normal_load: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np) -> Number:
+def half_width(
+    *,
+    normal_load: Number,
+    exponent: Number,
+    coefficient: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The half-width b: the inverse of `load`.
 
     >>> round(float(half_width(normal_load=np.pi, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)

@@ -66,7 +66,11 @@ def height(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -
     >>> float(height(3.0, half_flat=1.0, radius=4.0))
     0.5
     """
-    x, a, R = real("x", x, lib), not_negative("half_flat", half_flat, lib), positive("radius", radius, lib)
+    x, a, R = (
+        real("x", x, lib),
+        not_negative("half_flat", half_flat, lib),
+        positive("radius", radius, lib),
+    )
     over = unit.beyond(x, a)
     return as_result(over * (over / (2 * R)))
 
@@ -77,7 +81,11 @@ def slope(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) ->
     >>> float(slope(-3.0, half_flat=1.0, radius=4.0))
     -0.5
     """
-    x, a, R = real("x", x, lib), not_negative("half_flat", half_flat, lib), positive("radius", radius, lib)
+    x, a, R = (
+        real("x", x, lib),
+        not_negative("half_flat", half_flat, lib),
+        positive("radius", radius, lib),
+    )
     return as_result(unit.beyond(x, a) / R * sign(x))
 
 
@@ -100,7 +108,10 @@ def pressure(
     0.123732974194
     """
     x = real("x", x, lib)
-    contact, R, E = unit.contact_of(half_flat, half_width, rim, lib), *_stiffness(radius, modulus, lib)
+    contact, R, E = (
+        unit.contact_of(half_flat, half_width, rim, lib),
+        *_stiffness(radius, modulus, lib),
+    )
     return as_result(E * (contact.b / R) / lib.pi * unit.pressure(lib, abs(x), contact))
 
 
@@ -120,11 +131,16 @@ def load(
     >>> round(float(load(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)), 12)
     0.307092424652
     """
-    contact, R, E = unit.contact_of(half_flat, half_width, rim, lib), *_stiffness(radius, modulus, lib)
+    contact, R, E = (
+        unit.contact_of(half_flat, half_width, rim, lib),
+        *_stiffness(radius, modulus, lib),
+    )
     return as_result(E * (contact.b / R) * contact.b * unit.load_angle(lib, contact))
 
 
-def half_width(*, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def half_width(
+    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The half-width b of the contact under the load P: the inverse of `load`.
 
     b - a has the full accuracy of `rim`, but a sum has only that of its larger term: for thin rims ask for `rim`.
@@ -133,10 +149,14 @@ def half_width(*, normal_load: Number, half_flat: Number, radius: Number, modulu
     1.0
     """
     a = not_negative("half_flat", half_flat, lib)
-    return as_result(a + rim(normal_load=normal_load, half_flat=a, radius=radius, modulus=modulus, lib=lib))
+    return as_result(
+        a + rim(normal_load=normal_load, half_flat=a, radius=radius, modulus=modulus, lib=lib)
+    )
 
 
-def rim(*, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def rim(
+    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The length b - a on which the rounding touches at each end, under the load P, to full relative accuracy.
 
     Newton's method for log P against log(b - a), with dP/db = E* b theta/R. The graph is convex, its slope between 3/2
@@ -152,7 +172,9 @@ def rim(*, normal_load: Number, half_flat: Number, radius: Number, modulus: Numb
     for _ in range(MOST_STEPS):
         step = unit.newton_step(lib, a, d, length)
         d = d * lib.exp(step)
-        if most(step * step, lib) < 2.0 ** -bits(lib):  # the error that is left is of the order of step²
+        if most(step * step, lib) < 2.0 ** -bits(
+            lib
+        ):  # the error that is left is of the order of step²
             break
     return as_result(d)
 
@@ -180,9 +202,14 @@ def potential(
     0.2
     """
     z, side = point(z, lib), side_of_cut(side)
-    contact, R, E = unit.contact_of(half_flat, half_width, rim, lib), *_stiffness(radius, modulus, lib)
+    contact, R, E = (
+        unit.contact_of(half_flat, half_width, rim, lib),
+        *_stiffness(radius, modulus, lib),
+    )
     on_contact = partial(unit.potential_on_cut, side=side)
-    value = pick(lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.potential_off_cut, z, contact)
+    value = pick(
+        lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.potential_off_cut, z, contact
+    )
     return as_result(scaled(E * (contact.b / R) / lib.pi, value, lib))
 
 
@@ -207,9 +234,14 @@ def potential_derivative(
     0.5
     """
     z, side = point(z, lib), side_of_cut(side)
-    contact, R, E = unit.contact_of(half_flat, half_width, rim, lib), *_stiffness(radius, modulus, lib)
+    contact, R, E = (
+        unit.contact_of(half_flat, half_width, rim, lib),
+        *_stiffness(radius, modulus, lib),
+    )
     on_contact = partial(unit.derivative_on_cut, side=side)
-    value = pick(lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.derivative_off_cut, z, contact)
+    value = pick(
+        lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.derivative_off_cut, z, contact
+    )
     return as_result(scaled(E / R / lib.pi, value, lib))
 
 
@@ -238,7 +270,10 @@ def chebyshev_coefficients(
     """
     if count != int(count) or count < 0:
         raise ValueError(f"count = {count} is not a number of coefficients; give an integer >= 0.")
-    contact, R, E = unit.contact_of(half_flat, half_width, rim, lib), *_stiffness(radius, modulus, lib)
+    contact, R, E = (
+        unit.contact_of(half_flat, half_width, rim, lib),
+        *_stiffness(radius, modulus, lib),
+    )
     scale = E * (contact.b / R)
     b_n = [scale * unit.coefficient(lib, n, contact) for n in range(int(count))]
     return np.array(b_n) if lib is np else b_n

@@ -37,7 +37,9 @@ from analytic._slant import cosine, singular, singular_remainder, sliding_expone
 ROUNDING = 8 * sys.float_info.epsilon
 
 
-def upright_moment(*, half_width: Number, normal_load: Number, coupling: Number, lib: Library = np) -> Number:
+def upright_moment(
+    *, half_width: Number, normal_load: Number, coupling: Number, lib: Library = np
+) -> Number:
     """The moment M = 2 eps b P = ∫ p x dx at which the flat does not tilt.
 
     >>> round(float(upright_moment(half_width=1.0, normal_load=2.0, coupling=-1.0)), 12)
@@ -47,7 +49,15 @@ def upright_moment(*, half_width: Number, normal_load: Number, coupling: Number,
     return as_result(2 * sliding_exponent(lib, real("coupling", coupling, lib)) * b * P)
 
 
-def pressure(x: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None, lib: Library = np) -> Number:
+def pressure(
+    x: Number,
+    *,
+    half_width: Number,
+    normal_load: Number,
+    coupling: Number,
+    moment: Number = None,
+    lib: Library = np,
+) -> Number:
     """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f times this.
 
     Without a `moment` the flat is upright. `x` and the parameters broadcast. ValueError for input that has no meaning and
@@ -60,7 +70,15 @@ def pressure(x: Number, *, half_width: Number, normal_load: Number, coupling: Nu
     return as_result(_pressure(lib, x, contact))
 
 
-def tilt(*, half_width: Number, normal_load: Number, coupling: Number, moment: Number, modulus: Number, lib: Library = np) -> Number:
+def tilt(
+    *,
+    half_width: Number,
+    normal_load: Number,
+    coupling: Number,
+    moment: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the moment M.
 
     ValueError for input that has no meaning and for moments that lift a corner off.
@@ -92,7 +110,16 @@ def potential(
     """
     z, side = point(z, lib), side_of_cut(side)
     contact = _contact_of(half_width, normal_load, coupling, moment, lib)
-    return as_result(pick(lib, on_cut(lib, z, contact.b), partial(_potential_on_cut, side=side), _potential, z, contact))
+    return as_result(
+        pick(
+            lib,
+            on_cut(lib, z, contact.b),
+            partial(_potential_on_cut, side=side),
+            _potential,
+            z,
+            contact,
+        )
+    )
 
 
 class _Contact(NamedTuple):
@@ -100,14 +127,26 @@ class _Contact(NamedTuple):
     k: Number  # beta f
     P: Number
     A: Number  # -E* h'/2
-    right: Number  # the shares of the corners: P/pi + A (x - 2 eps b) = right (b+x)/b + left (b-x)/b
+    right: (
+        Number  # the shares of the corners: P/pi + A (x - 2 eps b) = right (b+x)/b + left (b-x)/b
+    )
     left: Number
 
 
-def _contact_of(half_width: Number, normal_load: Number, coupling: Number, moment: Number, lib: Library) -> _Contact:
-    b, P, k = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib), real("coupling", coupling, lib)
+def _contact_of(
+    half_width: Number, normal_load: Number, coupling: Number, moment: Number, lib: Library
+) -> _Contact:
+    b, P, k = (
+        positive("half_width", half_width, lib),
+        positive("normal_load", normal_load, lib),
+        real("coupling", coupling, lib),
+    )
     eps = sliding_exponent(lib, k)
-    tilting = 0 * eps if moment is None else 2 * (real("moment", moment, lib) / b - 2 * eps * P) / (lib.pi * (1 - 4 * eps * eps))
+    tilting = (
+        0 * eps
+        if moment is None
+        else 2 * (real("moment", moment, lib) / b - 2 * eps * P) / (lib.pi * (1 - 4 * eps * eps))
+    )
     right = (P / lib.pi + tilting * (1 - 2 * eps)) / 2
     left = (P / lib.pi - tilting * (1 + 2 * eps)) / 2
     _refuse_lifted(right, left, moment, P / lib.pi)
@@ -118,7 +157,9 @@ def _refuse_lifted(right: Number, left: Number, moment: Number, scale: Number) -
     lifted = (right < -ROUNDING * scale) | (left < -ROUNDING * scale)
     if np.any(lifted):
         (M,) = first_where(lifted, moment)
-        raise ValueError(f"moment = {M} lifts one corner off; give one nearer to upright_moment(...).")
+        raise ValueError(
+            f"moment = {M} lifts one corner off; give one nearer to upright_moment(...)."
+        )
 
 
 def _not_below_zero(number: Number) -> Number:
@@ -150,7 +191,9 @@ def _nothing(lib: Library, x: Number) -> Number:
 
 def _potential(lib: Library, z: Number, contact: _Contact) -> Number:
     b, eps = contact.b, sliding_exponent(lib, contact.k)
-    return contact.P / lib.pi * singular(lib, z, b, eps) + contact.A * singular_remainder(lib, z, b, eps)
+    return contact.P / lib.pi * singular(lib, z, b, eps) + contact.A * singular_remainder(
+        lib, z, b, eps
+    )
 
 
 def _potential_on_cut(lib: Library, z: Number, contact: _Contact, *, side: int) -> Number:

@@ -40,11 +40,22 @@ def edges(*, half_width: Number, coupling: Number, lib: Library = np) -> tuple[N
     >>> tuple(map(float, edges(half_width=1.0, coupling=0.0)))
     (-1.0, 1.0)
     """
-    w, eps = positive("half_width", half_width, lib), sliding_exponent(lib, real("coupling", coupling, lib))
+    w, eps = (
+        positive("half_width", half_width, lib),
+        sliding_exponent(lib, real("coupling", coupling, lib)),
+    )
     return as_result(-w * (1 - 2 * eps)), as_result(w * (1 + 2 * eps))
 
 
-def pressure(x: Number, *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number,
+    *,
+    half_width: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    lib: Library = np,
+) -> Number:
     """The contact pressure p(x), and 0 outside. The shear is f times this.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -52,43 +63,72 @@ def pressure(x: Number, *, half_width: Number, radius: Number, modulus: Number, 
     >>> round(float(pressure(0.6, half_width=1.0, radius=1.0, modulus=2.0, coupling=0.0)), 12)
     0.8
     """
-    x, k, (w, R, E) = real("x", x, lib), real("coupling", coupling, lib), _contact(half_width, radius, modulus, lib)
+    x, k, (w, R, E) = (
+        real("x", x, lib),
+        real("coupling", coupling, lib),
+        _contact(half_width, radius, modulus, lib),
+    )
     return as_result(E / (2 * R) * _pressure(lib, x, w, k))
 
 
-def load(*, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np) -> Number:
+def load(
+    *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+) -> Number:
     """The normal load P = pi E* w² (1/4 - eps²)/R per unit length, less than that of Hertz on the same length.
 
     >>> round(float(load(half_width=1.0, radius=1.0, modulus=1.0, coupling=0.0)), 12)
     0.785398163397
     """
-    (w, R, E), eps = _contact(half_width, radius, modulus, lib), sliding_exponent(lib, real("coupling", coupling, lib))
+    (w, R, E), eps = (
+        _contact(half_width, radius, modulus, lib),
+        sliding_exponent(lib, real("coupling", coupling, lib)),
+    )
     return as_result(lib.pi * E * (w / R) * w * _stiffening(eps))
 
 
-def half_width(*, normal_load: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np) -> Number:
+def half_width(
+    *, normal_load: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+) -> Number:
     """Half the length of the contact, w = sqrt(P R/(pi E* (1/4 - eps²))): the inverse of `load`.
 
     >>> round(float(half_width(normal_load=np.pi, radius=1.0, modulus=1.0, coupling=0.0)), 12)
     2.0
     """
-    P, R, E = (positive(*item, lib) for item in (("normal_load", normal_load), ("radius", radius), ("modulus", modulus)))
+    P, R, E = (
+        positive(*item, lib)
+        for item in (("normal_load", normal_load), ("radius", radius), ("modulus", modulus))
+    )
     eps = sliding_exponent(lib, real("coupling", coupling, lib))
     return as_result(lib.sqrt(P / E) * lib.sqrt(R) / lib.sqrt(lib.pi * _stiffening(eps)))
 
 
-def moment(*, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np) -> Number:
+def moment(
+    *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+) -> Number:
     """The moment M = ∫ p x dx = 8/3 eps w P of the pressure about the apex of the parabola.
 
     >>> float(moment(half_width=1.0, radius=1.0, modulus=1.0, coupling=0.0) + 0)
     0.0
     """
     P = load(half_width=half_width, radius=radius, modulus=modulus, coupling=coupling, lib=lib)
-    return as_result(8 * P * positive("half_width", half_width, lib) * sliding_exponent(lib, real("coupling", coupling, lib)) / 3)
+    return as_result(
+        8
+        * P
+        * positive("half_width", half_width, lib)
+        * sliding_exponent(lib, real("coupling", coupling, lib))
+        / 3
+    )
 
 
 def potential(
-    z: Number, *, half_width: Number, radius: Number, modulus: Number, coupling: Number, side: int = +1, lib: Library = np
+    z: Number,
+    *,
+    half_width: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    side: int = +1,
+    lib: Library = np,
 ) -> Number:
     """The potential Fp = E*/(2R) [z - X(z)], complex; ~ P/(pi z) far away. That of the shear is f times this.
 
@@ -101,12 +141,20 @@ def potential(
     z, side, k = point(z, lib), side_of_cut(side), real("coupling", coupling, lib)
     w, R, E = _contact(half_width, radius, modulus, lib)
     from_middle = z - 2 * sliding_exponent(lib, k) * w
-    value = pick(lib, on_cut(lib, from_middle, w), partial(_potential_on_cut, side=side), _potential, z, w, k)
+    value = pick(
+        lib, on_cut(lib, from_middle, w), partial(_potential_on_cut, side=side), _potential, z, w, k
+    )
     return as_result(scaled(E / (2 * R), value, lib))
 
 
-def _contact(half_width: Number, radius: Number, modulus: Number, lib: Library) -> tuple[Number, Number, Number]:
-    return positive("half_width", half_width, lib), positive("radius", radius, lib), positive("modulus", modulus, lib)
+def _contact(
+    half_width: Number, radius: Number, modulus: Number, lib: Library
+) -> tuple[Number, Number, Number]:
+    return (
+        positive("half_width", half_width, lib),
+        positive("radius", radius, lib),
+        positive("modulus", modulus, lib),
+    )
 
 
 def _stiffening(eps: Number) -> Number:

@@ -26,7 +26,19 @@ import numpy as np
 
 from analytic import rounded_flat
 from analytic._betas import A, B, phi, rim_moment
-from analytic._lib import Library, Number, as_result, bits, first_where, larger, most, not_negative, pick, positive, real
+from analytic._lib import (
+    Library,
+    Number,
+    as_result,
+    bits,
+    first_where,
+    larger,
+    most,
+    not_negative,
+    pick,
+    positive,
+    real,
+)
 from analytic._slant import cosine, sliding_exponent
 
 MOST_STEPS = 60
@@ -35,7 +47,13 @@ MOST_COUPLING = 10
 
 
 def rims(
-    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    lib: Library = np,
 ) -> tuple[Number, Number]:
     """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full relative accuracy.
 
@@ -49,7 +67,13 @@ def rims(
 
 
 def edges(
-    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    lib: Library = np,
 ) -> tuple[Number, Number]:
     """The ends (x1, x2) = (-a - d1, a + d2) of the contact under the load P.
 
@@ -61,7 +85,14 @@ def edges(
 
 
 def pressure(
-    x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
+    x: Number,
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    lib: Library = np,
 ) -> Number:
     """The contact pressure p(x) under the load P, and 0 outside. The shear is f times this.
 
@@ -78,7 +109,15 @@ def pressure(
     return as_result(E / R * value / (2 * lib.pi))
 
 
-def moment(*, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np) -> Number:
+def moment(
+    *,
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    lib: Library = np,
+) -> Number:
     """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays upright.
 
     >>> round(float(moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)), 12) + 0.0
@@ -107,8 +146,20 @@ class _Rim(NamedTuple):
     second_by: tuple[Number, Number]
 
 
-def _contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, *, lib: Library) -> _Contact:
-    P, a, k = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib), real("coupling", coupling, lib)
+def _contact_of(
+    normal_load: Number,
+    half_flat: Number,
+    radius: Number,
+    modulus: Number,
+    coupling: Number,
+    *,
+    lib: Library,
+) -> _Contact:
+    P, a, k = (
+        positive("normal_load", normal_load, lib),
+        not_negative("half_flat", half_flat, lib),
+        real("coupling", coupling, lib),
+    )
     R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
     _refuse_strong(k)
     target = 2 * (P / E) * R / cosine(lib, k)
@@ -117,7 +168,9 @@ def _contact_of(normal_load: Number, half_flat: Number, radius: Number, modulus:
     for _ in range(MOST_STEPS):
         left, right = _newton_step(lib, contact, target)
         contact = _Contact(a, contact.left * lib.exp(left), contact.right * lib.exp(right), k)
-        if most(larger(left * left, right * right, lib), lib) < 2.0 ** -bits(lib):  # what is left is of the order of step²
+        if most(larger(left * left, right * right, lib), lib) < 2.0 ** -bits(
+            lib
+        ):  # what is left is of the order of step²
             break
     return contact
 
@@ -126,7 +179,9 @@ def _refuse_strong(k: Number) -> None:
     strong = abs(k) > MOST_COUPLING
     if np.any(strong):
         (bad,) = first_where(strong, k)
-        raise ValueError(f"coupling = {bad} is beyond ±{MOST_COUPLING}, where the series end too late; give a smaller |beta f|.")
+        raise ValueError(
+            f"coupling = {bad} is beyond ±{MOST_COUPLING}, where the series end too late; give a smaller |beta f|."
+        )
 
 
 def _newton_step(lib: Library, contact: _Contact, target: Number) -> tuple[Number, Number]:
@@ -139,8 +194,12 @@ def _newton_step(lib: Library, contact: _Contact, target: Number) -> tuple[Numbe
     uneven_by_right = left.first_by[1] / left.first - right.first_by[0] / right.first
     load = a * (left.first + right.first) + left.second + right.second
     short = lib.log(load / target)
-    short_by_left = (a * (left.first_by[0] + right.first_by[1]) + left.second_by[0] + right.second_by[1]) / load
-    short_by_right = (a * (left.first_by[1] + right.first_by[0]) + left.second_by[1] + right.second_by[0]) / load
+    short_by_left = (
+        a * (left.first_by[0] + right.first_by[1]) + left.second_by[0] + right.second_by[1]
+    ) / load
+    short_by_right = (
+        a * (left.first_by[1] + right.first_by[0]) + left.second_by[1] + right.second_by[0]
+    ) / load
     determinant = uneven_by_left * short_by_right - uneven_by_right * short_by_left
     by_left = (uneven * short_by_right - uneven_by_right * short) / determinant
     by_right = (uneven_by_left * short - uneven * short_by_left) / determinant
@@ -154,7 +213,9 @@ def _rim(lib: Library, alpha: Number, own: Number, other: Number, a: Number) -> 
         value, curving = rim_moment(lib, n, alpha, own, length)
         values.append(value)
         with_length = -(alpha + curving) / length
-        changes.append((value * (n + alpha + curving + with_length * own), value * with_length * other))
+        changes.append(
+            (value * (n + alpha + curving + with_length * own), value * with_length * other)
+        )
     return _Rim(values[0], values[1], changes[0], changes[1])
 
 
@@ -168,14 +229,18 @@ def _moment(lib: Library, contact: _Contact) -> Number:
     )
     middle = (right - left) / 2 - eps * length
     load = a * (on_left[0] + on_right[0]) + on_left[1] + on_right[1]
-    return cosine(lib, k) * (2 * a * (on_right[1] - on_left[1]) + (on_right[2] - on_left[2]) - middle * load)
+    return cosine(lib, k) * (
+        2 * a * (on_right[1] - on_left[1]) + (on_right[2] - on_left[2]) - middle * load
+    )
 
 
 def _nothing(lib: Library, x: Number, *_: Number) -> Number:
     return 0 * x
 
 
-def _pressure_inside(lib: Library, x: Number, near: Number, far: Number, contact: _Contact) -> Number:
+def _pressure_inside(
+    lib: Library, x: Number, near: Number, far: Number, contact: _Contact
+) -> Number:
     """2 pi R/E* p."""
     eps, c = sliding_exponent(lib, contact.k), cosine(lib, contact.k)
     a, left, right, _ = contact
@@ -212,13 +277,20 @@ def _from_rim(lib: Library, alpha: Number, view: _View) -> Number:
 
 def _of_flat(lib: Library, alpha: Number, view: _View) -> Number:
     """w V2^alpha/(alpha (1+V2))."""
-    return view.near * ((view.far / view.near) * (view.rim / view.rest)) ** alpha / alpha * (view.rest / view.length)
+    return (
+        view.near
+        * ((view.far / view.near) * (view.rim / view.rest)) ** alpha
+        / alpha
+        * (view.rest / view.length)
+    )
 
 
 def _under_flat(lib: Library, alpha: Number, view: _View) -> Number:
     y = (view.rim / view.near) * (view.far / view.rest)
     c = (view.inside / view.near) * (view.length / view.rest)
-    return _of_flat(lib, alpha, view) * (A(lib, alpha, view.rim / view.length) + B(lib, alpha, y, c))
+    return _of_flat(lib, alpha, view) * (
+        A(lib, alpha, view.rim / view.length) + B(lib, alpha, y, c)
+    )
 
 
 def _on_rim(lib: Library, alpha: Number, view: _View) -> Number:

@@ -40,7 +40,15 @@ from analytic._lib import (
 ROUNDING = 8 * sys.float_info.epsilon
 
 
-def pressure(x: Number, *, inner: Number, outer: Number, normal_load: Number, moment: Number = 0, lib: Library = np) -> Number:
+def pressure(
+    x: Number,
+    *,
+    inner: Number,
+    outer: Number,
+    normal_load: Number,
+    moment: Number = 0,
+    lib: Library = np,
+) -> Number:
     """The pressure p(x) under both flats, inf at their corners, and 0 elsewhere.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning and for moments that lift a corner off.
@@ -52,7 +60,9 @@ def pressure(x: Number, *, inner: Number, outer: Number, normal_load: Number, mo
     return as_result(_pressure(lib, x, contact))
 
 
-def largest_moment(*, inner: Number, outer: Number, normal_load: Number, lib: Library = np) -> Number:
+def largest_moment(
+    *, inner: Number, outer: Number, normal_load: Number, lib: Library = np
+) -> Number:
     """The moment P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K) at which an outer corner is about to lift off.
 
     >>> round(float(largest_moment(inner=1e-9, outer=2.0, normal_load=1.0)), 12)
@@ -62,7 +72,15 @@ def largest_moment(*, inner: Number, outer: Number, normal_load: Number, lib: Li
     return as_result(positive("normal_load", normal_load, lib) * _lever(*_shape(lib, a, b)) * b)
 
 
-def tilt(*, inner: Number, outer: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np) -> Number:
+def tilt(
+    *,
+    inner: Number,
+    outer: Number,
+    normal_load: Number,
+    moment: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The rotation h' = -2 A/E* under the moment M. ValueError for moments that lift a corner off.
 
     >>> round(float(tilt(inner=1e-9, outer=1.0, normal_load=np.pi, moment=np.pi / 4, modulus=1.0)), 12)
@@ -73,7 +91,14 @@ def tilt(*, inner: Number, outer: Number, normal_load: Number, moment: Number, m
 
 
 def potential(
-    z: Number, *, inner: Number, outer: Number, normal_load: Number, moment: Number = 0, side: int = +1, lib: Library = np
+    z: Number,
+    *,
+    inner: Number,
+    outer: Number,
+    normal_load: Number,
+    moment: Number = 0,
+    side: int = +1,
+    lib: Library = np,
 ) -> Number:
     """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away.
 
@@ -83,9 +108,15 @@ def potential(
     >>> round(complex(potential(1.5, inner=1.0, outer=2.0, normal_load=np.pi)).imag, 12)
     -1.014185105674
     """
-    z, side, contact = point(z, lib), side_of_cut(side), _contact_of(inner, outer, normal_load, moment, lib)
+    z, side, contact = (
+        point(z, lib),
+        side_of_cut(side),
+        _contact_of(inner, outer, normal_load, moment, lib),
+    )
     pressed = on_cut(lib, z, contact.b) & (abs(z.real) >= contact.a)
-    return as_result(pick(lib, pressed, partial(_potential_on_cut, side=side), _potential, z, contact))
+    return as_result(
+        pick(lib, pressed, partial(_potential_on_cut, side=side), _potential, z, contact)
+    )
 
 
 class _Contact(NamedTuple):
@@ -100,7 +131,9 @@ def _ends(inner: Number, outer: Number, lib: Library) -> tuple[Number, Number]:
     a, b = positive("inner", inner, lib), positive("outer", outer, lib)
     if not everywhere(a < b):
         near, far = first_where(np.logical_not(a < b) if lib is np else True, a, b)
-        raise ValueError(f"outer = {far} is not more than inner = {near}; give inner < outer, the ends of one patch.")
+        raise ValueError(
+            f"outer = {far} is not more than inner = {near}; give inner < outer, the ends of one patch."
+        )
     return a, b
 
 
@@ -115,20 +148,36 @@ def _lever(k2: Number, D_K: Number) -> Number:
     return ((1 + k2) / 2 - k2 * D_K) / (1 - k2 * D_K)
 
 
-def _contact_of(inner: Number, outer: Number, normal_load: Number, moment: Number, lib: Library) -> _Contact:
-    (a, b), P, M = _ends(inner, outer, lib), positive("normal_load", normal_load, lib), real("moment", moment, lib)
+def _contact_of(
+    inner: Number, outer: Number, normal_load: Number, moment: Number, lib: Library
+) -> _Contact:
+    (a, b), P, M = (
+        _ends(inner, outer, lib),
+        positive("normal_load", normal_load, lib),
+        real("moment", moment, lib),
+    )
     k2, D_K = _shape(lib, a, b)
     lever, most = abs(M) / P / b, _lever(k2, D_K)
     lifted = lever > most * (1 + ROUNDING)
     if np.any(lifted):
         bad, limit = first_where(lifted, abs(M) + 0 * lever, most * P * b)
-        raise ValueError(f"|moment| = {bad} exceeds largest_moment = {limit}: a corner lifts off; give a smaller one.")
+        raise ValueError(
+            f"|moment| = {bad} exceeds largest_moment = {limit}: a corner lifts off; give a smaller one."
+        )
     return _Contact(a, b, P / lib.pi, M / b / b / ((1 + k2) / 2 - k2 * D_K) / lib.pi, a * a * D_K)
 
 
 def _pressure(lib: Library, x: Number, contact: _Contact) -> Number:
     r = abs(x)
-    return pick(lib, (r > contact.a) & (r < contact.b), _pressure_inside, _pressure_not_inside, r, sign(x), contact)
+    return pick(
+        lib,
+        (r > contact.a) & (r < contact.b),
+        _pressure_inside,
+        _pressure_not_inside,
+        r,
+        sign(x),
+        contact,
+    )
 
 
 def _pressure_inside(lib: Library, r: Number, s: Number, contact: _Contact) -> Number:
@@ -140,7 +189,9 @@ def _pressure_inside(lib: Library, r: Number, s: Number, contact: _Contact) -> N
 
 def _pressure_not_inside(lib: Library, r: Number, s: Number, contact: _Contact) -> Number:
     # at lift-off the outer corner of one side carries nothing
-    carried = contact.slant * r + s * contact.A * (r * r - contact.level) > ROUNDING * contact.slant * r
+    carried = (
+        contact.slant * r + s * contact.A * (r * r - contact.level) > ROUNDING * contact.slant * r
+    )
     return pick(lib, ((r == contact.a) | (r == contact.b)) & carried, _infinite, _nothing, r)
 
 
@@ -170,4 +221,6 @@ def _potential_far(lib: Library, z: Number, contact: _Contact) -> Number:
 
 
 def _potential_on_cut(lib: Library, z: Number, contact: _Contact, *, side: int) -> Number:
-    return cartesian(-contact.A + 0 * z.real, -seen_from(z, side) * _pressure(lib, z.real, contact), lib)
+    return cartesian(
+        -contact.A + 0 * z.real, -seen_from(z, side) * _pressure(lib, z.real, contact), lib
+    )

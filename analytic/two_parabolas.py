@@ -51,7 +51,9 @@ def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> 
     -0.5
     """
     x = real("x", x, lib)
-    return as_result(sign(x) * (abs(x) - positive("distance", distance, lib)) / positive("radius", radius, lib))
+    return as_result(
+        sign(x) * (abs(x) - positive("distance", distance, lib)) / positive("radius", radius, lib)
+    )
 
 
 def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
@@ -64,7 +66,9 @@ def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
     return as_result(agm(lib, c2, c1))
 
 
-def load(*, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def load(
+    *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without any cancellation.
 
     >>> round(float(load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0) / np.pi), 12)
@@ -76,7 +80,9 @@ def load(*, inner: Number, outer: Number, radius: Number, modulus: Number, lib: 
     return as_result(lib.pi / 2 * E * (half / R) * half * _gain(lib, half / c2, c1 / c2))
 
 
-def edges(*, normal_load: Number, distance: Number, radius: Number, modulus: Number, lib: Library = np) -> tuple[Number, Number]:
+def edges(
+    *, normal_load: Number, distance: Number, radius: Number, modulus: Number, lib: Library = np
+) -> tuple[Number, Number]:
     """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and `load`.
 
     Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1 - D/K), k² = 1 - (c1/c2)².
@@ -88,7 +94,9 @@ def edges(*, normal_load: Number, distance: Number, radius: Number, modulus: Num
     """
     P, d = positive("normal_load", normal_load, lib), positive("distance", distance, lib)
     R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(R)  # the half-width of each without its neighbour
+    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(
+        R
+    )  # the half-width of each without its neighbour
     t = 2 * length / d
     for _ in range(MOST_STEPS):
         _refuse_far(t, length / d)
@@ -100,7 +108,9 @@ def edges(*, normal_load: Number, distance: Number, radius: Number, modulus: Num
     return as_result(c2 * lib.exp(-t)), as_result(c2)
 
 
-def pressure(x: Number, *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number, *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The pressure p(x) on both patches c1 < |x| < c2, and 0 elsewhere.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -110,14 +120,18 @@ def pressure(x: Number, *, inner: Number, outer: Number, radius: Number, modulus
     """
     r, (c1, c2) = abs(real("x", x, lib)), _ends(inner, outer, lib)
     R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    return as_result(E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, _nothing, r, c1, c2))
+    return as_result(
+        E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, _nothing, r, c1, c2)
+    )
 
 
 def _ends(inner: Number, outer: Number, lib: Library) -> tuple[Number, Number]:
     c1, c2 = positive("inner", inner, lib), positive("outer", outer, lib)
     if not everywhere(c1 < c2):
         near, far = first_where(np.logical_not(c1 < c2) if lib is np else True, c1, c2)
-        raise ValueError(f"outer = {far} is not more than inner = {near}; give inner < outer, the edges of one patch.")
+        raise ValueError(
+            f"outer = {far} is not more than inner = {near}; give inner < outer, the edges of one patch."
+        )
     return c1, c2
 
 
@@ -145,7 +159,9 @@ def _refuse_far(t: Number, length: Number) -> None:
     if not everywhere(t < FARTHEST):
         far = ~(t < FARTHEST) if isinstance(t, np.ndarray) else True
         (ratio,) = first_where(far, length * length * np.pi / 2)
-        raise ValueError(f"normal_load = {ratio} E* d²/R leaves c1/c2 < exp(-{FARTHEST}); give a smaller load.")
+        raise ValueError(
+            f"normal_load = {ratio} E* d²/R leaves c1/c2 < exp(-{FARTHEST}); give a smaller load."
+        )
 
 
 def _nothing(lib: Library, r: Number, *_: Number) -> Number:
@@ -154,5 +170,10 @@ def _nothing(lib: Library, r: Number, *_: Number) -> Number:
 
 def _pressure_inside(lib: Library, r: Number, c1: Number, c2: Number) -> Number:
     """pi R/E* p, with R_J(0, c1², c2², x²) = 3 cel(c1/c2, x²/c2², 0, 1)/c2³."""
-    roots = lib.sqrt((r - c1) / c2) * lib.sqrt((c2 - r) / c2) * lib.sqrt((r + c1) / c2) * lib.sqrt((c2 + r) / c2)
+    roots = (
+        lib.sqrt((r - c1) / c2)
+        * lib.sqrt((c2 - r) / c2)
+        * lib.sqrt((r + c1) / c2)
+        * lib.sqrt((c2 + r) / c2)
+    )
     return agm(lib, c2, c1) * (r / c2) * roots * third_kind(lib, c1 / c2, (r / c2) * (r / c2))

@@ -55,7 +55,15 @@ def slope(x: Number, *, wavelength: Number, amplitude: Number, lib: Library = np
     return as_result(4 * lib.pi * (D / L) * sine(lib, x, L) * sine(lib, L / 2 - abs(x), L))
 
 
-def pressure(x: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number,
+    *,
+    half_width: Number,
+    wavelength: Number,
+    amplitude: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The pressure p(x) on contacts of half-width a <= lambda/2, and 0 between them.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -67,7 +75,9 @@ def pressure(x: Number, *, half_width: Number, wavelength: Number, amplitude: Nu
     return as_result(2 * p1 * _pressure(lib, in_period(lib, real("x", x, lib), L), a, L))
 
 
-def mean_pressure(*, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np) -> Number:
+def mean_pressure(
+    *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The mean pressure (pi E* D/lambda) sin²(pi a/lambda) at which the contacts have the half-width a.
 
     >>> round(float(mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)), 12)
@@ -78,7 +88,14 @@ def mean_pressure(*, half_width: Number, wavelength: Number, amplitude: Number, 
     return as_result(p1 * S * S)
 
 
-def half_width(*, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np) -> Number:
+def half_width(
+    *,
+    mean_pressure: Number,
+    wavelength: Number,
+    amplitude: Number,
+    modulus: Number,
+    lib: Library = np,
+) -> Number:
     """The half-width a of each contact under a mean pressure up to pi E* D/lambda: the inverse of `mean_pressure`.
 
     a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError for input that has no
@@ -89,11 +106,18 @@ def half_width(*, mean_pressure: Number, wavelength: Number, amplitude: Number, 
     """
     L, p = positive("wavelength", wavelength, lib), positive("mean_pressure", mean_pressure, lib)
     whole = closing_pressure(wavelength=L, amplitude=amplitude, modulus=modulus, lib=lib)
-    _refuse(p > whole, "mean_pressure = {} exceeds closing_pressure = {}: the surfaces touch everywhere; use complete_pressure.", p, whole)
+    _refuse(
+        p > whole,
+        "mean_pressure = {} exceeds closing_pressure = {}: the surfaces touch everywhere; use complete_pressure.",
+        p,
+        whole,
+    )
     return as_result(L / lib.pi * _arcsine(lib, lib.sqrt(p / whole), lib.sqrt((whole - p) / whole)))
 
 
-def closing_pressure(*, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np) -> Number:
+def closing_pressure(
+    *, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The least mean pressure pi E* D/lambda at which the surfaces touch everywhere.
 
     >>> round(float(closing_pressure(wavelength=1.0, amplitude=1 / np.pi, modulus=3.0)), 12)
@@ -103,7 +127,13 @@ def closing_pressure(*, wavelength: Number, amplitude: Number, modulus: Number, 
 
 
 def complete_pressure(
-    x: Number, *, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
+    x: Number,
+    *,
+    mean_pressure: Number,
+    wavelength: Number,
+    amplitude: Number,
+    modulus: Number,
+    lib: Library = np,
 ) -> Number:
     """The pressure of surfaces that touch everywhere, mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
 
@@ -114,14 +144,26 @@ def complete_pressure(
     """
     L, p = positive("wavelength", wavelength, lib), positive("mean_pressure", mean_pressure, lib)
     whole = closing_pressure(wavelength=L, amplitude=amplitude, modulus=modulus, lib=lib)
-    _refuse(p < whole, "mean_pressure = {} is less than closing_pressure = {}: the troughs are open; use pressure.", p, whole)
+    _refuse(
+        p < whole,
+        "mean_pressure = {} is less than closing_pressure = {}: the troughs are open; use pressure.",
+        p,
+        whole,
+    )
     x = in_period(lib, real("x", x, lib), L)
     c = sine(lib, L / 2 - abs(x), L)  # cos(pi x/lambda)
     return as_result((p - whole) + 2 * whole * c * c)
 
 
 def potential(
-    z: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, side: int = +1, lib: Library = np
+    z: Number,
+    *,
+    half_width: Number,
+    wavelength: Number,
+    amplitude: Number,
+    modulus: Number,
+    side: int = +1,
+    lib: Library = np,
 ) -> Number:
     """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
 
@@ -139,13 +181,24 @@ def potential(
 
 
 def _contact(
-    half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, *, lib: Library, bounded: bool = True
+    half_width: Number,
+    wavelength: Number,
+    amplitude: Number,
+    modulus: Number,
+    *,
+    lib: Library,
+    bounded: bool = True,
 ) -> tuple[Number, Number, Number]:
     """a, lambda and pi E* D/lambda."""
     a, L = positive("half_width", half_width, lib), positive("wavelength", wavelength, lib)
     D, E = positive("amplitude", amplitude, lib), positive("modulus", modulus, lib)
     if bounded:
-        _refuse(2 * a > L, "half_width = {} exceeds wavelength/2 = {}; give the half-width of one contact.", a, L / 2)
+        _refuse(
+            2 * a > L,
+            "half_width = {} exceeds wavelength/2 = {}; give the half-width of one contact.",
+            a,
+            L / 2,
+        )
     return a, L, lib.pi * E * (D / L)
 
 
@@ -165,7 +218,10 @@ def _pressure(lib: Library, x: Number, a: Number, L: Number) -> Number:
 
 
 def _pressure_inside(lib: Library, r: Number, a: Number, L: Number) -> Number:
-    cosine, sum_of_both = sine(lib, L / 2 - r, L), pick(lib, a + r > L / 2, _sine_of_rest, _sine_of_sum, r, a, L)
+    cosine, sum_of_both = (
+        sine(lib, L / 2 - r, L),
+        pick(lib, a + r > L / 2, _sine_of_rest, _sine_of_sum, r, a, L),
+    )
     return cosine * lib.sqrt(sine(lib, a - r, L)) * lib.sqrt(sum_of_both)
 
 

@@ -38,7 +38,9 @@ def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
     return as_result(positive("slope", slope, lib) * abs(real("x", x, lib)))
 
 
-def pressure(x: Number, *, half_width: Number, slope: Number, modulus: Number, lib: Library = np) -> Number:
+def pressure(
+    x: Number, *, half_width: Number, slope: Number, modulus: Number, lib: Library = np
+) -> Number:
     """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985, section 5.2).
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -70,7 +72,15 @@ def half_width(*, normal_load: Number, slope: Number, modulus: Number, lib: Libr
     return as_result(P / E / A)
 
 
-def potential(z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1, lib: Library = np) -> Number:
+def potential(
+    z: Number,
+    *,
+    half_width: Number,
+    slope: Number,
+    modulus: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The potential Fp = (E* A/pi) arcsin(b/z), complex; ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
@@ -84,7 +94,15 @@ def potential(z: Number, *, half_width: Number, slope: Number, modulus: Number, 
     return as_result(scaled(E * A / lib.pi, value, lib))
 
 
-def potential_derivative(z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1, lib: Library = np) -> Number:
+def potential_derivative(
+    z: Number,
+    *,
+    half_width: Number,
+    slope: Number,
+    modulus: Number,
+    side: int = +1,
+    lib: Library = np,
+) -> Number:
     """The derivative Fp' = -(E* A/pi) b/(z sqrt(z² - b²)); on the contact - i p' on the side +1.
 
     At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit from x > 0).
@@ -98,7 +116,9 @@ def potential_derivative(z: Number, *, half_width: Number, slope: Number, modulu
     return as_result(scaled(E * (A / b) / lib.pi, value, lib))
 
 
-def _contact(half_width: Number, slope: Number, modulus: Number, lib: Library) -> tuple[Number, Number, Number]:
+def _contact(
+    half_width: Number, slope: Number, modulus: Number, lib: Library
+) -> tuple[Number, Number, Number]:
     return positive("half_width", half_width, lib), *_stiffness(slope, modulus, lib)
 
 

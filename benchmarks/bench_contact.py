@@ -86,13 +86,18 @@ OBLIQUE = {
     "power 2.5": sie.Power(2.5, 0.5),
     "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
     "lopsided": sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
-    "trace of 401 points": sie.Sampled(np.linspace(-1.6, 1.6, 401), np.cosh(np.linspace(-1.6, 1.6, 401))),
+    "trace of 401 points": sie.Sampled(
+        np.linspace(-1.6, 1.6, 401), np.cosh(np.linspace(-1.6, 1.6, 401))
+    ),
 }
 
 
 @pytest.mark.parametrize("name", OBLIQUE)
 def test_energy_of_an_oblique_path_of_four_points(benchmark, name):
-    path, question = sie.Path([(0.1, 0.01), (0.3, 0.1), (0.25, -0.05), (0.4, 0.15)]), scene(OBLIQUE[name], friction=0.5)
+    path, question = (
+        sie.Path([(0.1, 0.01), (0.3, 0.1), (0.25, -0.05), (0.4, 0.15)]),
+        scene(OBLIQUE[name], friction=0.5),
+    )
     benchmark(lambda: sie.follow(question, path)[-1].energy_lost)
 
 

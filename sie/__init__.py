@@ -28,26 +28,35 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
-from . import quiet as quiet
-from .density import ZERO, Density
-from .equation import CauchyEquation
+from . import interrupt as interrupt
+from .cauchy.equation import CauchyEquation
+from .certificate.trace_noise import TraceReport
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
-from .field import Stress
-from .fretting import Cycle
 from .history import History, follow
-from .indenters import Flat, FromFunction, Parabola, Piecewise, Polynomial, Power, RoundedFlat, Wedge
-from .material import RIGID, Elastic
-from .noise import TraceReport
-from .path import Path
 from .plan import Plan, plan
-from .profile import Profile
-from .remedy import least_smoothing
-from .sampled import Sampled
-from .scene import Scene
+from .problem.load_path import Path
+from .problem.material import RIGID, Elastic
+from .problem.scene import Scene
+from .profiles.base import Profile
+from .profiles.sampled import Sampled
+from .profiles.shapes import (
+    Flat,
+    FromFunction,
+    Parabola,
+    Piecewise,
+    Polynomial,
+    Power,
+    RoundedFlat,
+    Wedge,
+)
+from .smoothing_search import least_smoothing
 from .solution import Solution, solve
-from .strength import Peak, YieldPoint
-from .superposition import scaled, superposed
+from .stress.fretting import Cycle
+from .stress.half_plane import Stress
+from .stress.yield_limit import Peak, YieldPoint
 from .sweep import QUANTITIES, Interrupted, sweep
+from .traction.base import ZERO, Density
+from .traction.combination import scaled, superposed
 
 __version__ = "0.1.0"
 

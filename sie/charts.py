@@ -12,31 +12,39 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import checks
-from .density import Density
-from .field import Stress, Tractions
-from .indenters import Parabola, RoundedFlat
-from .scene import Scene
+from . import arguments
+from .problem.scene import Scene
+from .profiles.shapes import Parabola, RoundedFlat
 from .solution import Solution, solve
-from .strength import YieldPoint, peak_tension
-from .superposition import superposed
+from .stress.half_plane import Stress, Tractions
+from .stress.yield_limit import YieldPoint, peak_tension
+from .traction.base import Density
+from .traction.combination import superposed
 
 Array = NDArray[np.float64]
 
 POISSON = 0.3
 RATIOS = tuple(round(0.05 * k, 2) for k in range(19))  # a/b of Figs 5 to 7
-FRICTIONS = tuple(0.0125 * k for k in range(41))  # "each little cross corresponds to an increment of f = 0.0125" (Fig. 7)
+FRICTIONS = tuple(
+    0.0125 * k for k in range(41)
+)  # "each little cross corresponds to an increment of f = 0.0125" (Fig. 7)
 
 
 def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solution:
     """The punch of a/b = ratio in full sliding, b = E* = R = 1 (a parabola for ratio 0). ValueError unless 0 <= ratio < 1."""
-    if not 0.0 <= checks.finite("ratio", ratio) < 1.0:
-        raise ValueError(f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged flat")
+    if not 0.0 <= arguments.finite("ratio", ratio) < 1.0:
+        raise ValueError(
+            f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged flat"
+        )
     profile = RoundedFlat(ratio, 1.0) if ratio else Parabola(1.0)
-    return _sliding(solve(Scene(profile=profile, modulus=1.0, half_width=1.0, poisson=poisson)), friction)
+    return _sliding(
+        solve(Scene(profile=profile, modulus=1.0, half_width=1.0, poisson=poisson)), friction
+    )
 
 
-def yield_parameter(ratio: float, friction: float, x: ArrayLike, y: ArrayLike, poisson: float = POISSON) -> Array:
+def yield_parameter(
+    ratio: float, friction: float, x: ArrayLike, y: ArrayLike, poisson: float = POISSON
+) -> Array:
     """b √J2 / P at (x, y), in units of b: what Fig. 4 draws as contours."""
     solution = punch(ratio, friction, poisson)
     stress: Stress = solution.stress(x, y)
@@ -54,7 +62,11 @@ class ElasticLimits:
     y: Array
 
 
-def elastic_limits(ratios: Sequence[float] = RATIOS, frictions: Sequence[float] = FRICTIONS, poisson: float = POISSON) -> ElasticLimits:
+def elastic_limits(
+    ratios: Sequence[float] = RATIOS,
+    frictions: Sequence[float] = FRICTIONS,
+    poisson: float = POISSON,
+) -> ElasticLimits:
     """The chart of Fig. 6; one normal problem for each ratio."""
     found: list[list[YieldPoint]] = []
     for ratio in ratios:
@@ -75,8 +87,15 @@ def surface_tension(ratio: float, stick: ArrayLike) -> Array:
     scale = whole.normal_load / np.pi
     values = np.asarray(stick, dtype=float)
     if ((values < 0.0) | (values > 1.0)).any():
-        raise ValueError("stick holds values outside [0, 1]: give c/b, 0 in full sliding and 1 in full stick")
-    out = np.array([peak_tension(Tractions(whole.pressure, _slipping(whole, ratio, c))).value for c in values.ravel().tolist()])
+        raise ValueError(
+            "stick holds values outside [0, 1]: give c/b, 0 in full sliding and 1 in full stick"
+        )
+    out = np.array(
+        [
+            peak_tension(Tractions(whole.pressure, _slipping(whole, ratio, c))).value
+            for c in values.ravel().tolist()
+        ]
+    )
     return (out / scale).reshape(values.shape)
 
 

@@ -26,24 +26,26 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .density import ZERO, Density
+from .contact.normal import ECONOMY, Normal
 from .errors import ContactError, LoadError
-from .growth import Growth
-from .interval import EPS, Interval
-from .ladder import Overwritten
-from .normal import ECONOMY, Normal
-from .path import Path, direction, states
-from .scene import Scene
-from .slip import slip
-from .slope_density import SlopeDensity
+from .friction.dissipation import Growth
+from .friction.memory import Overwritten
+from .friction.partial_slip import slip
+from .friction.states import OneWay, Slip, Step
+from .numerics.interval import EPS, Interval
+from .problem.load_path import Path, direction, states
+from .problem.scene import Scene
 from .solution import Solution, solve
-from .states import OneWay, Slip, Step
-from .superposition import superposed
+from .traction.base import ZERO, Density
+from .traction.combination import superposed
+from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
 
-def follow(scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> History:
+def follow(
+    scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY
+) -> History:
     """The solutions at the turning points of a path, as a lazy sequence: nothing is solved yet.
 
     The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises ContactError where a step is not
@@ -58,7 +60,9 @@ def follow(scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
-        raise ValueError("a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene")
+        raise ValueError(
+            "a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene"
+        )
     return History(scene, path, tol, economy)
 
 
@@ -71,7 +75,14 @@ class History(Sequence[Solution]):
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
         first = next(P for P, _, _ in path.points if P > 0.0)
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
-        self.scene = replace(scene, normal_load=first, half_width=None, tangential_load=0.0, sliding=0, bulk_stress=0.0)
+        self.scene = replace(
+            scene,
+            normal_load=first,
+            half_width=None,
+            tangential_load=0.0,
+            sliding=0,
+            bulk_stress=0.0,
+        )
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.unit = direction(path)
         self.states = states(scene, path)
@@ -117,7 +128,16 @@ class History(Sequence[Solution]):
             if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
                 Q = math.copysign(f * P, Q)
             near = self._seen.setdefault(P, Seen())
-            step = Step(plain.scene, plain.normal, plain.slope_density, Q, sigma * self._tau, self.tol, self.economy, near.contact(depth))
+            step = Step(
+                plain.scene,
+                plain.normal,
+                plain.slope_density,
+                Q,
+                sigma * self._tau,
+                self.tol,
+                self.economy,
+                near.contact(depth),
+            )
             found = slip(step)
             if isinstance(found, OneWay):
                 near.add(depth, found.found.edges.contact)
@@ -146,7 +166,10 @@ class History(Sequence[Solution]):
     def _heat(self, loads: Sequence[float], layers: Sequence[Overwritten]) -> Iterable[float]:
         """What each layer that was overwritten turned into heat, per jump."""
         if self.unit[1]:
-            return [self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper) for P, o in zip(loads, layers, strict=True)]
+            return [
+                self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
+                for P, o in zip(loads, layers, strict=True)
+            ]
         return self.growth.heat(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
@@ -155,7 +178,12 @@ class History(Sequence[Solution]):
     @cached_property
     def growth(self) -> Growth:
         """The contacts under all loads of the path."""
-        return Growth(self.scene, self.plain(max(P for P, _, _ in self.path.points)).normal, self.tol, self.economy)
+        return Growth(
+            self.scene,
+            self.plain(max(P for P, _, _ in self.path.points)).normal,
+            self.tol,
+            self.economy,
+        )
 
 
 class Seen:
@@ -177,7 +205,10 @@ class Seen:
         at, zones = self._depths[first : first + 4], self._contacts[first : first + 4]
         base = zones[0]
         # Neville's scheme for how far both edges are from those of the first
-        moves = [(c.x1 - base.x1 + (c.tail1 - base.tail1), c.x2 - base.x2 + (c.tail2 - base.tail2)) for c in zones]
+        moves = [
+            (c.x1 - base.x1 + (c.tail1 - base.tail1), c.x2 - base.x2 + (c.tail2 - base.tail2))
+            for c in zones
+        ]
         for order in range(1, len(at)):
             for k in range(len(at) - order):
                 t = (depth - at[k]) / (at[k + order] - at[k])
@@ -228,7 +259,9 @@ class Followed(Solution):
         return self.history.energy(self.index) if self.sheared else 0.0
 
     def with_(self, **changes: Any) -> Solution:
-        raise ValueError("this solution is a point of a path: change the scene or the path, and follow it again")
+        raise ValueError(
+            "this solution is a point of a path: change the scene or the path, and follow it again"
+        )
 
     def __repr__(self) -> str:
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
@@ -271,12 +304,20 @@ class Track(Slip):
 
     @property
     def _terms(self) -> list[tuple[float, Slip]]:
-        return [(weight, self.history.virgin(self.P, depth)) for depth, weight in self.state.ladder.corners if depth]
+        return [
+            (weight, self.history.virgin(self.P, depth))
+            for depth, weight in self.state.ladder.corners
+            if depth
+        ]
 
     @property
     def _now(self) -> Slip | None:
         """The virgin state as deep as the last step slipped."""
-        return self.history.virgin(self.P, self.state.ladder.top.thickness) if self.state.last and self.state.ladder.top else None
+        return (
+            self.history.virgin(self.P, self.state.ladder.top.thickness)
+            if self.state.last and self.state.ladder.top
+            else None
+        )
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
@@ -286,7 +327,11 @@ class Track(Slip):
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
         now, last = self._now, self.state.last
-        zones = () if now is None or last is None else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
+        zones = (
+            ()
+            if now is None or last is None
+            else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
+        )
         return *self._slipped_and_gone, *zones
 
     @property
@@ -295,7 +340,10 @@ class Track(Slip):
         zones: list[tuple[float, float, float]] = []
         for gone in self.state.slips:
             if gone is not self.state.last:
-                start, end = (self.P - depth / self.friction for depth in (gone.layers[0].surface[0], gone.layers[-1].lower))
+                start, end = (
+                    self.P - depth / self.friction
+                    for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
+                )
                 outer, inner = (self.history.growth.contact(load).interval for load in (start, end))
                 zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
         return tuple(zones)
@@ -325,7 +373,9 @@ class Track(Slip):
         full = 0.0
         rest: list[tuple[float, Density]] = []
         for weight, virgin in terms:
-            if isinstance(virgin, OneWay) and virgin.thin is None:  # the pressure that all differences begin with is taken once
+            if (
+                isinstance(virgin, OneWay) and virgin.thin is None
+            ):  # the pressure that all differences begin with is taken once
                 scale = weight * virgin.sign * virgin.friction
                 full += scale
                 rest.append((-scale, virgin.corrective))
@@ -336,7 +386,9 @@ class Track(Slip):
     def slip(self, x: Array) -> Array:
         """Since x came into contact."""
         if all(state.loads[0] == self.P for state in self.history.states[: self.index + 1]):
-            return sum((weight * virgin.slip(x) for weight, virgin in self._terms), np.zeros(x.shape))
+            return sum(
+                (weight * virgin.slip(x) for weight, virgin in self._terms), np.zeros(x.shape)
+            )
         total, P0 = np.zeros(x.shape), 0.0
         for index, state in enumerate(self.history.states[: self.index + 1]):
             P = state.loads[0]
@@ -344,7 +396,9 @@ class Track(Slip):
                 continue
             if index and P > P0 and state.slips:
                 self._refuse_new(x, index, P0, P)
-            total = np.where(self._touches(x, min(P0, P) if index else P), total, 0.0) + _step_slip(self.history, index, x)
+            total = np.where(self._touches(x, min(P0, P) if index else P), total, 0.0) + _step_slip(
+                self.history, index, x
+            )
             P0 = P
         return total
 
@@ -374,9 +428,15 @@ class Track(Slip):
     @cached_property
     def shift(self) -> float:
         past = self.history.states[: self.index + 1]
-        loads = [(state.loads[0], before.loads[0]) for before, state in pairwise((past[0], *past)) if state.ladder.top]
+        loads = [
+            (state.loads[0], before.loads[0])
+            for before, state in pairwise((past[0], *past))
+            if state.ladder.top
+        ]
         if any(P != self.P for pair in loads for P in pair):
-            raise ContactError("the rigid-body shift is counted against a contact of constant width: P changed while it was sheared")
+            raise ContactError(
+                "the rigid-body shift is counted against a contact of constant width: P changed while it was sheared"
+            )
         return sum(weight * virgin.shift for weight, virgin in self._terms)
 
 

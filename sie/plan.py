@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from .normal import ECONOMY, upright_law
-from .scene import Scene
-from .slip import sheared
+from .contact.normal import ECONOMY, upright_law
+from .friction.partial_slip import sheared
+from .problem.scene import Scene
 
 # What can be asked for, and the stages of `Solution` that answer it.
 WANTS: dict[str, tuple[str, ...]] = {
@@ -33,7 +33,12 @@ BONDED: dict[str, tuple[str, ...]] = {
     "tension": ("normal", "pressure", "tractions"),
 }
 # What a solution is asked for by other names.
-ALSO = {"half_width": "edges", "centre": "edges", "elastic_limit": "yield", "peak_tension": "tension"}
+ALSO = {
+    "half_width": "edges",
+    "centre": "edges",
+    "elastic_limit": "yield",
+    "peak_tension": "tension",
+}
 ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
 # What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
@@ -60,10 +65,14 @@ class Plan:
 
     def __str__(self) -> str:
         width = max(len(s.name) for s in self.steps)
-        return "\n".join(f"{'run ' if s.run else 'skip'}  {s.name:<{width}}  {s.reason}" for s in self.steps)
+        return "\n".join(
+            f"{'run ' if s.run else 'skip'}  {s.name:<{width}}  {s.reason}" for s in self.steps
+        )
 
 
-def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY) -> Plan:
+def plan(
+    scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY
+) -> Plan:
     """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ..., or the solution's own, "stick", "slip" ...).
 
     A printable Plan. Computes nothing.
@@ -90,23 +99,49 @@ def plan(scene: Scene, want: str | Iterable[str] = "pressure", economy: Collecti
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
     if convex:
-        steps.append(Step("inequalities", False, "the profile is convex: p > 0 and gap > 0 follow", "inequalities"))
+        steps.append(
+            Step(
+                "inequalities",
+                False,
+                "the profile is convex: p > 0 and gap > 0 follow",
+                "inequalities",
+            )
+        )
     else:
-        why = "the profile is not known to be convex" if not profile.convex else "economy is switched off"
-        steps.append(Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities"))
-    steps += [_coupling(scene), _slip(scene, "tangential" in stages, economy), _corrective(scene, economy)]
+        why = (
+            "the profile is not known to be convex"
+            if not profile.convex
+            else "economy is switched off"
+        )
+        steps.append(
+            Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities")
+        )
+    steps += [
+        _coupling(scene),
+        _slip(scene, "tangential" in stages, economy),
+        _corrective(scene, economy),
+    ]
     steps += [_stress(stages), _maxima(names), _certificate(stages)]
     return Plan(tuple(steps))
 
 
 def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
     stages = {stage for name in names for stage in BONDED[name]}
-    how = "-1/2: β = 0 leaves p and q uncoupled" if scene.beta == 0.0 else f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    how = (
+        "-1/2: β = 0 leaves p and q uncoupled"
+        if scene.beta == 0.0
+        else f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    )
     tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
     asked = "pressure" in stages
     steps = (
         Step("edges", True, "the ends of the punch", "normal"),
-        Step("full stick", True, f"one equation for p + iq, exponents {how}; the tilt is {tilt}", "bonded"),
+        Step(
+            "full stick",
+            True,
+            f"one equation for p + iq, exponents {how}; the tilt is {tilt}",
+            "bonded",
+        ),
         Step("pressure", asked, "its real part" if asked else "not asked for", "pressure"),
         Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
         Step("slip", False, "infinite friction: nothing slips"),
@@ -119,7 +154,12 @@ def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
 
 def _certificate(stages: set[str]) -> Step:
     asked = "certificate" in stages
-    return Step("certificate", asked, "residual, equilibrium and inequalities on other points" if asked else "not asked for", "certificate")
+    return Step(
+        "certificate",
+        asked,
+        "residual, equilibrium and inequalities on other points" if asked else "not asked for",
+        "certificate",
+    )
 
 
 def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
@@ -148,7 +188,11 @@ def _edges(scene: Scene, economy: Collection[str]) -> str:
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"
-    ends = " or sharp at the ends of the indenter" if any(abs(e) != float("inf") for e in scene.profile.domain) else ""
+    ends = (
+        " or sharp at the ends of the indenter"
+        if any(abs(e) != float("inf") for e in scene.profile.domain)
+        else ""
+    )
     return f"{given} given: smooth edges{ends}, by bracketed Newton with exact derivatives"
 
 
@@ -163,22 +207,36 @@ def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
         why = next((reason for holds, reason in reasons if holds), "the profile has no axis")
         return Step("symmetry", False, f"{why}: both edges are unknown")
     extra = " while the tilt is zero" if scene.moment is not None else ""
-    return Step("symmetry", True, f"about x = {scene.profile.axis:g}{extra}: half the unknowns, half the pieces")
+    return Step(
+        "symmetry",
+        True,
+        f"about x = {scene.profile.axis:g}{extra}: half the unknowns, half the pieces",
+    )
 
 
 def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
     flat = int(scene.profile.pieces.is_zero.sum())
     if flat and scene.tilt == 0.0 and "zero panels" not in economy:
-        return Step("flat pieces", True, f"{flat} integrated although zero: economy is switched off")
+        return Step(
+            "flat pieces", True, f"{flat} integrated although zero: economy is switched off"
+        )
     if flat and scene.tilt == 0.0:
-        return Step("flat pieces", False, f"{flat} of {len(scene.profile.pieces.origins)} cost nothing: h' = 0 there")
+        return Step(
+            "flat pieces",
+            False,
+            f"{flat} of {len(scene.profile.pieces.origins)} cost nothing: h' = 0 there",
+        )
     return Step("flat pieces", False, "there are none")
 
 
 def _tilt(scene: Scene) -> Step:
     if scene.moment is None:
         return Step("tilt", False, f"given: {scene.tilt:g}")
-    return Step("tilt", True, "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form")
+    return Step(
+        "tilt",
+        True,
+        "the moment is given: the tilt is found by Newton, dM/d(tilt) known in closed form",
+    )
 
 
 def _pressure(scene: Scene, economy: Collection[str]) -> str:
@@ -199,21 +257,40 @@ def _coupling(scene: Scene) -> Step:
     if scene.slides:
         why = f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
         return Step("coupling", True, f"{why}, panels with Lerch's function for the logarithm")
-    return Step("coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure")
+    return Step(
+        "coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure"
+    )
 
 
 def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     if scene.friction == 0.0:
         return Step("slip", False, "f = 0: there is no shear traction", "tangential")
     if scene.epsilon:
-        return Step("slip", False, "full sliding: the shear traction is f times the pressure, nothing to solve", "tangential")
+        return Step(
+            "slip",
+            False,
+            "full sliding: the shear traction is f times the pressure, nothing to solve",
+            "tangential",
+        )
     if not sheared(scene, economy):
-        return Step("slip", False, "Q = 0 and no bulk stress: there is no shear traction", "tangential")
+        return Step(
+            "slip", False, "Q = 0 and no bulk stress: there is no shear traction", "tangential"
+        )
     if not asked:
         return Step("slip", False, "not asked for", "tangential")
     if scene.tau == 0.0:
-        return Step("slip", True, "zones of stick and slip for Q at constant P, slip in one direction", "tangential")
-    return Step("slip", True, "zones of stick and slip for Q and σ in proportion: one direction or two, by the inequalities", "tangential")
+        return Step(
+            "slip",
+            True,
+            "zones of stick and slip for Q at constant P, slip in one direction",
+            "tangential",
+        )
+    return Step(
+        "slip",
+        True,
+        "zones of stick and slip for Q and σ in proportion: one direction or two, by the inequalities",
+        "tangential",
+    )
 
 
 def _corrective(scene: Scene, economy: Collection[str]) -> Step:
@@ -222,18 +299,38 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     if not sheared(scene, economy):
         return Step(name, False, "there is no shear traction")
     if scene.slides and "sliding" in economy:
-        return Step(name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve")
+        return Step(
+            name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve"
+        )
     zero = scene.profile.pieces.has_zero and scene.tau == 0.0
     never = "; never inside the flat base, which nothing corrects" if zero else ""
-    return Step(name, True, f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways")
+    return Step(
+        name,
+        True,
+        f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways",
+    )
 
 
 def _stress(stages: set[str]) -> Step:
     asked = "tractions" in stages
-    why = "from the potentials of the tractions, each once; no complex arithmetic on the surface" if asked else "not asked for"
+    why = (
+        "from the potentials of the tractions, each once; no complex arithmetic on the surface"
+        if asked
+        else "not asked for"
+    )
     return Step("stress", asked, why, "tractions")
 
 
 def _maxima(names: tuple[str, ...]) -> Step:
-    found = [what for name, what in (("yield", "J2 in the body"), ("tension", "σ_xx on the surface")) if name in names]
-    return Step("maxima", bool(found), f"{' and '.join(found)}: scanned, then polished with exact gradients" if found else "not asked for")
+    found = [
+        what
+        for name, what in (("yield", "J2 in the body"), ("tension", "σ_xx on the surface"))
+        if name in names
+    ]
+    return Step(
+        "maxima",
+        bool(found),
+        f"{' and '.join(found)}: scanned, then polished with exact gradients"
+        if found
+        else "not asked for",
+    )

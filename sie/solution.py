@@ -11,36 +11,61 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import checks
-from .bonded import Component, bonded_certificate, bonded_contact
-from .check import RETREAT, Certificate, certificate, slope_rises, verify_inequalities
-from .density import ZERO, Density, on_line, zero_or_nan
-from .edges import Edges
+from . import arguments
+from .cauchy.density import JacobiDensity
+from .certificate.pressure_check import (
+    RETREAT,
+    Certificate,
+    certificate,
+    slope_rises,
+    verify_inequalities,
+)
+from .certificate.shear_check import shear_certificate
+from .certificate.trace_noise import TraceReport, trace_reports
+from .contact.edges import Edges
+from .contact.gap import gap
+from .contact.normal import ECONOMY, Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
-from .field import Stress, Tractions
-from .gap import gap
-from .jacobi_density import JacobiDensity
-from .material import Elastic
-from .noise import TraceReport, trace_reports
-from .normal import ECONOMY, Normal, normal_contact, pressure
-from .sampled import explained, traces_in
-from .scene import Scene
-from .slip import refuse_sliding, sheared, slip
-from .slipcheck import shear_certificate
-from .slope import Slope
-from .slope_density import SlopeDensity
-from .states import Slip, Step
-from .strength import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
-from .superposition import scaled
+from .friction.full_stick import Component, bonded_certificate, bonded_contact
+from .friction.partial_slip import refuse_sliding, sheared, slip
+from .friction.states import Slip, Step
+from .problem.material import Elastic
+from .problem.scene import Scene
+from .profiles.sampled import explained, traces_in
+from .profiles.slope import Slope
+from .stress.half_plane import Stress, Tractions
+from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
+from .traction.base import ZERO, Density, on_line, zero_or_nan
+from .traction.combination import scaled
+from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
 
 _SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
 # What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
-_NORMAL_FIELDS = frozenset({"profile", "body", "indenter", "modulus", "normal_load", "half_width", "tilt", "moment", "epsilon", "bonded"})
+_NORMAL_FIELDS = frozenset(
+    {
+        "profile",
+        "body",
+        "indenter",
+        "modulus",
+        "normal_load",
+        "half_width",
+        "tilt",
+        "moment",
+        "epsilon",
+        "bonded",
+    }
+)
 # Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
 LIGHTER = (0.1, 1e-3)
-_SHEAR_FIELDS = _NORMAL_FIELDS | {"friction", "tangential_load", "sliding", "bulk_stress", "dundurs"}
+_SHEAR_FIELDS = _NORMAL_FIELDS | {
+    "friction",
+    "tangential_load",
+    "sliding",
+    "bulk_stress",
+    "dundurs",
+}
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
 NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
 _STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
@@ -65,7 +90,9 @@ class Solution:
     Asking raises ContactError where the scene has no answer that the package covers.
     """
 
-    def __init__(self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> None:
+    def __init__(
+        self, scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY
+    ) -> None:
         self.scene = scene
         self.tol = tol
         self.economy = frozenset(economy)
@@ -121,7 +148,11 @@ class Solution:
 
         Of a trace the reason is known, and a rough one is expensive to search.
         """
-        if not self._may_not_be_convex or self.scene.normal_load is None or any(traces_in(self.scene.profile)):
+        if (
+            not self._may_not_be_convex
+            or self.scene.normal_load is None
+            or any(traces_in(self.scene.profile))
+        ):
             return
         for fraction in LIGHTER:
             scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
@@ -154,16 +185,25 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
-        return slip(Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy))
+        return slip(
+            Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy)
+        )
 
     @cached_property
     def certificate(self) -> Certificate:
         if self.scene.bonded:
-            return bonded_certificate(self.normal.edges, self.normal_and_shear, self.scene, self.tol)
+            return bonded_certificate(
+                self.normal.edges, self.normal_and_shear, self.scene, self.tol
+            )
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
-        return replace(found, shear=shear_certificate(self.tangential, self.slope_density, self._loads, self._slope, self.tol))
+        return replace(
+            found,
+            shear=shear_certificate(
+                self.tangential, self.slope_density, self._loads, self._slope, self.tol
+            ),
+        )
 
     @property
     def slope_density(self) -> SlopeDensity:
@@ -232,7 +272,11 @@ class Solution:
     def tangential_load(self) -> float:
         """Q, force per length."""
         slides = self.scene.slides
-        return slides * self.scene.friction * self.normal_load if slides else self.scene.tangential_load
+        return (
+            slides * self.scene.friction * self.normal_load
+            if slides
+            else self.scene.tangential_load
+        )
 
     def slip(self, x: ArrayLike) -> Array:
         """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
@@ -273,10 +317,14 @@ class Solution:
         """What acts on the body (y > 0), and what it is made of: all that a stress depends on."""
         scene, body = self.scene, self.scene.body
         if body is not None and not isinstance(body, Elastic):
-            raise ContactError("the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter")
+            raise ContactError(
+                "the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter"
+            )
         if body is None:
             return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
-        return Tractions(self.pressure, self.shear, scene.bulk_stress, body.poisson, body.plane, body)
+        return Tractions(
+            self.pressure, self.shear, scene.bulk_stress, body.poisson, body.plane, body
+        )
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
         """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are arrays of the broadcast shape."""
@@ -296,7 +344,7 @@ class Solution:
 
     def gap(self, x: ArrayLike) -> Array:
         """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
-        x = checks.reals("x", x)
+        x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
@@ -336,13 +384,17 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        return () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
+        return (
+            () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
+        )
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
         for name in changes:
             if name not in _SCENE_FIELDS:
-                raise ValueError(f"{name} is not a field of a scene: change {', '.join(sorted(_SCENE_FIELDS))}")
+                raise ValueError(
+                    f"{name} is not a field of a scene: change {', '.join(sorted(_SCENE_FIELDS))}"
+                )
         for one, other in (("normal_load", "half_width"), ("tilt", "moment")):
             for given, replaced in ((one, other), (other, one)):
                 if changes.get(given) is not None and replaced not in changes:
@@ -351,10 +403,18 @@ class Solution:
             changes = {"body": None, "indenter": None, "dundurs": None} | changes
         new = Solution(replace(self.scene, **changes), self.tol, self.economy)
         _refuse_uncovered(new.scene)
-        changed = {name for name in (*changes, "epsilon", "bonded") if getattr(new.scene, name) != getattr(self.scene, name)}
+        changed = {
+            name
+            for name in (*changes, "epsilon", "bonded")
+            if getattr(new.scene, name) != getattr(self.scene, name)
+        }
         if self.scene.bonded and changed & _SHEAR_FIELDS:
             changed.add("bonded")
-        kept = [stage for stage, needs in _STAGES.items() if stage in self.__dict__ and not changed & needs]
+        kept = [
+            stage
+            for stage, needs in _STAGES.items()
+            if stage in self.__dict__ and not changed & needs
+        ]
         new.__dict__.update({stage: self.__dict__[stage] for stage in kept})
         return new
 
@@ -375,7 +435,7 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     """
     if not isinstance(scene, Scene):
         raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
-    tol = checks.tolerance(tol)
+    tol = arguments.tolerance(tol)
     unknown = set(economy) - ECONOMY
     if unknown:
         raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from .errors import ContactError
-from .scene import Scene
+from .problem.scene import Scene
 from .solution import Solution, solve
 from .workers import outcomes
 
@@ -42,7 +42,12 @@ REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in
 
 def _elastic_limit(solution: Solution) -> dict[str, float]:
     found = solution.elastic_limit()
-    return {"elastic_limit": found.ratio, "elastic_limit_load": found.load, "elastic_limit_x": found.x, "elastic_limit_y": found.y}
+    return {
+        "elastic_limit": found.ratio,
+        "elastic_limit_load": found.load,
+        "elastic_limit_x": found.x,
+        "elastic_limit_y": found.y,
+    }
 
 
 def _peak_tension(solution: Solution) -> dict[str, float]:
@@ -127,7 +132,9 @@ def sweep(
 # -- the grid ----------------------------------------------------------------------------------------------------------
 
 
-def _axes(scene: Scene | Callable[..., Scene], over: Mapping[str, Sequence[Any]]) -> dict[str, list[Any]]:
+def _axes(
+    scene: Scene | Callable[..., Scene], over: Mapping[str, Sequence[Any]]
+) -> dict[str, list[Any]]:
     if not over:
         raise ValueError('nothing to sweep over: give over = {"normal_load": [...], ...}')
     for name, values in over.items():
@@ -136,7 +143,10 @@ def _axes(scene: Scene | Callable[..., Scene], over: Mapping[str, Sequence[Any]]
             raise ValueError(f"over {name} = {values!r} holds no values: give a sequence of them")
         if isinstance(scene, Scene):
             _check_name(scene, name)
-    return {name: [v.item() if isinstance(v, np.generic) else v for v in values] for name, values in over.items()}
+    return {
+        name: [v.item() if isinstance(v, np.generic) else v for v in values]
+        for name, values in over.items()
+    }
 
 
 def _check_name(scene: Scene, name: str) -> None:
@@ -149,7 +159,11 @@ def _check_name(scene: Scene, name: str) -> None:
         else set()
     )
     if parameter not in known:
-        here = ", ".join(sorted(known)) if known else 'a field of a scene, or "profile." and a parameter of its profile'
+        here = (
+            ", ".join(sorted(known))
+            if known
+            else 'a field of a scene, or "profile." and a parameter of its profile'
+        )
         raise ValueError(f'over "{name}" is not known: choose {here}')
 
 
@@ -161,7 +175,9 @@ def _points(axes: dict[str, list[Any]]) -> Iterator[Point]:
 def _chunk_size(chunk: int | None, points: int, executor: Executor | None) -> int:
     if chunk is not None:
         if int(chunk) != chunk or chunk < 1:
-            raise ValueError(f"chunk = {chunk!r} is not a number of points: give a whole number > 0")
+            raise ValueError(
+                f"chunk = {chunk!r} is not a number of points: give a whole number > 0"
+            )
         return int(chunk)
     return 1 if executor is None else min(max(math.ceil(points / CHUNKS), 1), LONGEST_CHUNK)
 
@@ -175,7 +191,9 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
                 f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution'
             )
         if name == "reason":
-            raise ValueError('want "reason" is what a sweep calls why a point has no answer: give the quantity another name')
+            raise ValueError(
+                'want "reason" is what a sweep calls why a point has no answer: give the quantity another name'
+            )
     return wanted
 
 
@@ -244,7 +262,9 @@ def answers_of(work: Work, chunk: list[Point]) -> list[Answer]:
     return answers
 
 
-def _answer_into(answers: list[Answer], work: Work, chunk: list[Point], last: Solution | None) -> Solution | None:
+def _answer_into(
+    answers: list[Answer], work: Work, chunk: list[Point], last: Solution | None
+) -> Solution | None:
     """Appends the answer of each point; returns the last solution."""
     for point in chunk:
         try:
@@ -262,7 +282,11 @@ def _reason(problem: Exception) -> str:
             "the process that computed this chunk died: its memory was exhausted, or a function that is "
             "wanted crashed; ask for these points alone, or with a smaller chunk"
         )
-    return str(problem) if isinstance(problem, (ContactError, ValueError)) else f"{type(problem).__name__}: {problem}"
+    return (
+        str(problem)
+        if isinstance(problem, (ContactError, ValueError))
+        else f"{type(problem).__name__}: {problem}"
+    )
 
 
 def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> Solution:
@@ -270,7 +294,9 @@ def _solution(scene: Any, point: Point, tol: float, last: Solution | None) -> So
     if not isinstance(scene, Scene):
         return solve(scene(**point), tol=tol)
     changes = {name: value for name, value in point.items() if "." not in name}
-    of_profile = {name.removeprefix("profile."): value for name, value in point.items() if "." in name}
+    of_profile = {
+        name.removeprefix("profile."): value for name, value in point.items() if "." in name
+    }
     if of_profile:
         changes["profile"] = replace(changes.get("profile", scene.profile), **of_profile)
     base = last if last is not None else solve(replace(scene), tol=tol)
@@ -306,9 +332,17 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[
     shapes: dict[str, tuple[int, ...]] = {}
     for values, _ in answers:
         for name, value in values.items():
-            shapes[name] = tuple(map(max, zip(shapes[name], value.shape, strict=True))) if name in shapes else value.shape
+            shapes[name] = (
+                tuple(map(max, zip(shapes[name], value.shape, strict=True)))
+                if name in shapes
+                else value.shape
+            )
     if not shapes:
-        shapes = {part: () for name, of in wanted.items() for part in (PARTS.get(name, (name,)) if of == name else (name,))}
+        shapes = {
+            part: ()
+            for name, of in wanted.items()
+            for part in (PARTS.get(name, (name,)) if of == name else (name,))
+        }
     data: dict[str, Any] = {}
     for name, inner in shapes.items():
         if name in axes:
@@ -326,7 +360,10 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[
     except ImportError:
         return {**coordinates, **data, "reason": reasons}
     dims = tuple(axes)
-    variables = {name: ((*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))), a) for name, a in data.items()}
+    variables = {
+        name: ((*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))), a)
+        for name, a in data.items()
+    }
     return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=coordinates)
 
 
@@ -345,8 +382,15 @@ def _of_one_rank(answers: list[Answer]) -> list[Answer]:
 
 def _without_odd(answer: Answer, usual: dict[str, int]) -> Answer:
     values, reason = answer
-    odd = {name: values[name].ndim for name in usual if name in values and values[name].ndim != usual[name]}
-    told = "; ".join(f"{name} has {rank} dimensions here and {usual[name]} at most other points" for name, rank in odd.items())
+    odd = {
+        name: values[name].ndim
+        for name in usual
+        if name in values and values[name].ndim != usual[name]
+    }
+    told = "; ".join(
+        f"{name} has {rank} dimensions here and {usual[name]} at most other points"
+        for name, rank in odd.items()
+    )
     return {name: value for name, value in values.items() if name not in odd}, told or reason
 
 

@@ -50,10 +50,14 @@ def _together(task: Task, of: Tasks, executor: Executor, left: dict[int, Future[
         for future in as_completed(list(pending)):
             yield pending.pop(future), future
     finally:
-        left |= {k: future for future, k in pending.items() if not future.cancel() and future.done()}
+        left |= {
+            k: future for future, k in pending.items() if not future.cancel() and future.done()
+        }
 
 
-def _alone(task: Task, of: Tasks, broken: ProcessPoolExecutor, left: dict[int, Future[Any]]) -> Outcomes:
+def _alone(
+    task: Task, of: Tasks, broken: ProcessPoolExecutor, left: dict[int, Future[Any]]
+) -> Outcomes:
     """The same with as many processes as the broken pool had, each the only one of its pool."""
     waiting = deque(of.items())
     running: dict[Future[Any], tuple[int, ProcessPoolExecutor]] = {}

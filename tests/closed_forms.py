@@ -21,21 +21,45 @@ long.dps = 40
 
 Call = tuple[Callable[..., Any], dict[str, Any]]
 
-STRESS = {"pressure", "shear", "potential", "mean_pressure", "closing_pressure", "complete_pressure"}
+STRESS = {
+    "pressure",
+    "shear",
+    "potential",
+    "mean_pressure",
+    "closing_pressure",
+    "complete_pressure",
+}
 STRESS |= {"unloading_shear", "reloading_shear", "bulk_shear"}
 NUMBERS = {"tilt", "slope", "loading_ratio"}
 MOMENTS = {"moment", "upright_moment", "largest_moment", "dissipation"}
 UNITS = dict.fromkeys(
-    ("half_length", "x", "z", "half_flat", "half_width", "radius", "inner", "outer", "distance", "wavelength", "amplitude"), (1, 0)
+    (
+        "half_length",
+        "x",
+        "z",
+        "half_flat",
+        "half_width",
+        "radius",
+        "inner",
+        "outer",
+        "distance",
+        "wavelength",
+        "amplitude",
+    ),
+    (1, 0),
 )
 UNITS |= dict.fromkeys(("period", "stick_half_width"), (1, 0)) | dict.fromkeys(
     ("modulus", "mean_pressure", "bulk_stress", "tension"), (0, 1)
 )
-UNITS |= dict.fromkeys(("normal_load", "shear_load", "tangential_load", "largest_load", "least_load"), (1, 1)) | {"moment": (2, 1)}
+UNITS |= dict.fromkeys(
+    ("normal_load", "shear_load", "tangential_load", "largest_load", "least_load"), (1, 1)
+) | {"moment": (2, 1)}
 
 
 def every_call(calls: Sequence[Call]) -> Any:
-    return pytest.mark.parametrize(("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls])
+    return pytest.mark.parametrize(
+        ("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls]
+    )
 
 
 def call(function: Callable[..., Any], given: dict[str, Any], **options: Any) -> Any:
@@ -48,35 +72,65 @@ def several(value: Any) -> list[Any]:
     return list(value) if isinstance(value, tuple) else [value]
 
 
-def numpy_agrees_with_mpmath(function: Callable[..., Any], given: dict[str, Any], bound: float = 1e-13) -> None:
-    for value, exact in zip(several(call(function, given)), several(call(function, given, lib=short)), strict=True):
+def numpy_agrees_with_mpmath(
+    function: Callable[..., Any], given: dict[str, Any], bound: float = 1e-13
+) -> None:
+    for value, exact in zip(
+        several(call(function, given)), several(call(function, given, lib=short)), strict=True
+    ):
         assert abs(complex(value) - complex(exact)) <= bound * abs(complex(exact))
 
 
 def context_gives_its_digits(function: Callable[..., Any], given: dict[str, Any]) -> None:
     before = mpmath.mp.dps
-    for value, exact in zip(several(call(function, given, lib=short)), several(call(function, given, lib=long)), strict=True):
+    for value, exact in zip(
+        several(call(function, given, lib=short)),
+        several(call(function, given, lib=long)),
+        strict=True,
+    ):
         assert abs(long.convert(value) - exact) <= long.mpf("1e-22") * abs(exact)
     assert mpmath.mp.dps == before
 
 
 def arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -> None:
-    grown = {name: np.full((3, 1) if i % 2 else 4, value) for i, (name, value) in enumerate(given.items())}
+    grown = {
+        name: np.full((3, 1) if i % 2 else 4, value)
+        for i, (name, value) in enumerate(given.items())
+    }
     expected = np.shape(np.broadcast_arrays(*grown.values())[0])
-    for grid, one in zip(several(call(function, grown)), several(call(function, given)), strict=True):
+    for grid, one in zip(
+        several(call(function, grown)), several(call(function, given)), strict=True
+    ):
         assert grid.shape == expected
         np.testing.assert_allclose(grid, one, rtol=64 * EPS, atol=0)
         assert np.ndim(one) == 0
 
 
-def scales(function: Callable[..., Any], given: dict[str, Any], length: float, stress: float) -> None:
+def scales(
+    function: Callable[..., Any], given: dict[str, Any], length: float, stress: float
+) -> None:
     """Length and stress are powers of 2, or positions next to an end would be rounded."""
-    scaled = {name: value * length ** UNITS.get(name, (0, 0))[0] * stress ** UNITS.get(name, (0, 0))[1] for name, value in given.items()}
+    scaled = {
+        name: value * length ** UNITS.get(name, (0, 0))[0] * stress ** UNITS.get(name, (0, 0))[1]
+        for name, value in given.items()
+    }
     kind = function.__name__
-    by = {**dict.fromkeys(STRESS, stress), **dict.fromkeys(NUMBERS, 1.0), **dict.fromkeys(MOMENTS, stress * length * length)}
-    by |= {"load": stress * length, "pair": stress * math.sqrt(length), "row": stress * math.sqrt(length)}
-    for value, one in zip(several(call(function, scaled)), several(call(function, given)), strict=True):
-        assert abs(value - one * by.get(kind, length)) <= 1000 * EPS * abs(one * by.get(kind, length))
+    by = {
+        **dict.fromkeys(STRESS, stress),
+        **dict.fromkeys(NUMBERS, 1.0),
+        **dict.fromkeys(MOMENTS, stress * length * length),
+    }
+    by |= {
+        "load": stress * length,
+        "pair": stress * math.sqrt(length),
+        "row": stress * math.sqrt(length),
+    }
+    for value, one in zip(
+        several(call(function, scaled)), several(call(function, given)), strict=True
+    ):
+        assert abs(value - one * by.get(kind, length)) <= 1000 * EPS * abs(
+            one * by.get(kind, length)
+        )
 
 
 def bad_numbers_are_refused(function: Callable[..., Any], given: dict[str, Any]) -> None:
@@ -105,8 +159,12 @@ def of_every_call(calls: Sequence[Call]) -> type:
             arrays_broadcast(function, given)
 
         @each_call
-        @pytest.mark.parametrize(("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)])
-        def test_results_scale_with_lengths_and_moduli(self, function, given, length: float, stress: float) -> None:
+        @pytest.mark.parametrize(
+            ("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)]
+        )
+        def test_results_scale_with_lengths_and_moduli(
+            self, function, given, length: float, stress: float
+        ) -> None:
             scales(function, given, length, stress)
 
         @each_call
@@ -131,7 +189,9 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
         cosine, sine = mp.cos_sin(mp.convert(angle))
         t = m + r * cosine
         value = density(t)
-        if t == pole or mp.isinf(value):  # closer to the pole or to a corner than 30 digits can tell
+        if t == pole or mp.isinf(
+            value
+        ):  # closer to the pole or to a corner than 30 digits can tell
             return coarse.zero
         return coarse.convert((value * r * sine - known) / (pole - t))
 
@@ -140,7 +200,9 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
     return coarse.quad(integrand, angles) / coarse.pi, pole
 
 
-def resultant(density: Callable[[Any], Any], breaks: Sequence[Any], weight: Callable[[Any], Any] = lambda t: 1) -> Any:
+def resultant(
+    density: Callable[[Any], Any], breaks: Sequence[Any], weight: Callable[[Any], Any] = lambda t: 1
+) -> Any:
     """∫ density(t) weight(t) dt from the first to the last of `breaks`, 30 digits, by the same angle."""
     lo, hi = mp.convert(breaks[0]), mp.convert(breaks[-1])
     m, r = (lo + hi) / 2, (hi - lo) / 2

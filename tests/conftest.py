@@ -10,7 +10,12 @@ import os
 
 from hypothesis import HealthCheck, Phase, settings
 
-COMMON = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow], "derandomize": False, "print_blob": True}
+COMMON = {
+    "deadline": None,
+    "suppress_health_check": [HealthCheck.too_slow],
+    "derandomize": False,
+    "print_blob": True,
+}
 
 # Shrinking a contact can take minutes; the example found is small enough to read
 QUICK = (Phase.explicit, Phase.reuse, Phase.generate)

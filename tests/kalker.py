@@ -19,13 +19,19 @@ class Mesh:
     def __init__(self, interval, n, modulus):
         edges = np.linspace(*interval, n + 1)
         self.x, self.h, self.modulus = 0.5 * (edges[:-1] + edges[1:]), edges[1] - edges[0], modulus
-        size = interval[1] - interval[0]  # the unit of length in the logarithm: its choice moves δ only
+        size = (
+            interval[1] - interval[0]
+        )  # the unit of length in the logarithm: its choice moves δ only
 
         def primitive(s):  # ∫ ln|s| ds
             return s * np.log(np.abs(s) / (4.0 * size)) - s
 
         far = np.arange(n) * self.h
-        row = -2.0 / (np.pi * modulus) * (primitive(far + 0.5 * self.h) - primitive(far - 0.5 * self.h))
+        row = (
+            -2.0
+            / (np.pi * modulus)
+            * (primitive(far + 0.5 * self.h) - primitive(far - 0.5 * self.h))
+        )
         self.A = row[np.abs(np.subtract.outer(np.arange(n), np.arange(n)))]
 
     def step(self, q, bound, Q, strain):

@@ -22,12 +22,18 @@ def rule(interval, breaks=(), extra=()):
         steps = (hi - lo) * 0.5 * 0.25 ** np.arange(0, 40)
         steps = steps[steps > GRADED_TO]
         # towards an edge nothing is graded: in ψ even a sharp one is smooth, and x next to it has no digits
-        cuts += [lo + (hi - lo) * np.linspace(0, 1, 25), lo + steps * (lo > 0.0), hi - steps * (hi < np.pi)]
+        cuts += [
+            lo + (hi - lo) * np.linspace(0, 1, 25),
+            lo + steps * (lo > 0.0),
+            hi - steps * (hi < np.pi),
+        ]
     ends = np.unique(np.concatenate(cuts))
     ends = ends[(ends >= 0.0) & (ends <= np.pi)]
     half = 0.5 * np.diff(ends)
     psi = (0.5 * (ends[:-1] + ends[1:])[:, None] + half[:, None] * NODES).ravel()
-    x = np.where(psi < 0.5 * np.pi, x1 + 2 * r * np.sin(0.5 * psi) ** 2, x2 - 2 * r * np.cos(0.5 * psi) ** 2)
+    x = np.where(
+        psi < 0.5 * np.pi, x1 + 2 * r * np.sin(0.5 * psi) ** 2, x2 - 2 * r * np.cos(0.5 * psi) ** 2
+    )
     weight = (half[:, None] * WEIGHTS).ravel() * r * np.sin(psi)
     keep = (x > x1) & (x < x2) & ~np.isin(x, breaks)
     return x[keep], weight[keep]
@@ -46,18 +52,31 @@ def principal_value(pressure, interval, x, breaks=()):
     t, weight = rule(interval, breaks, extra=(x,))
     here = float(pressure(np.array([x]))[0])
     t, weight = t[t != x], weight[t != x]
-    return float((weight * (pressure(t) - here) / (x - t)).sum() + here * np.log((x - x1) / (x2 - x))) / np.pi
+    return (
+        float((weight * (pressure(t) - here) / (x - t)).sum() + here * np.log((x - x1) / (x2 - x)))
+        / np.pi
+    )
 
 
 def rounding_of_x(pressure, interval, breaks=()):
     """∫|p(x + 1 ulp) - p(x)| dx: what no pressure of a double x can avoid."""
     x, weight = rule(interval, breaks)
-    return float((weight * np.abs(pressure(np.nextafter(x, 0.5 * (interval[0] + interval[1]))) - pressure(x))).sum())
+    return float(
+        (
+            weight
+            * np.abs(pressure(np.nextafter(x, 0.5 * (interval[0] + interval[1]))) - pressure(x))
+        ).sum()
+    )
 
 
 def peak(pressure, interval, breaks=()):
     """The largest pressure between 1e-3 r of the edges and 1e-6 r of the breaks, where it may be infinite."""
     x1, x2 = interval
     r = 0.5 * (x2 - x1)
-    x = np.concatenate((np.linspace(x1 + 1e-3 * r, x2 - 1e-3 * r, 201), *[[b - 1e-6 * r, b + 1e-6 * r] for b in breaks]))
+    x = np.concatenate(
+        (
+            np.linspace(x1 + 1e-3 * r, x2 - 1e-3 * r, 201),
+            *[[b - 1e-6 * r, b + 1e-6 * r] for b in breaks],
+        )
+    )
     return float(pressure(x[(x > x1) & (x < x2) & ~np.isin(x, breaks)]).max())

@@ -24,7 +24,11 @@ def exponent(a, b, bounded):
     """Of the distance from the right end, in [0, 1) if bounded and in (-1, 0) if not:  a sin πα + b cos πα = 0."""
     a, b = mp.mpmathify(a), mp.mpmathify(b)
     real = mp.im(a) == mp.im(b) == 0
-    theta = -mp.atan2(mp.re(b), mp.re(a)) / mp.pi if real else mp.log((a - 1j * b) / (a + 1j * b)) / (2j * mp.pi)
+    theta = (
+        -mp.atan2(mp.re(b), mp.re(a)) / mp.pi
+        if real
+        else mp.log((a - 1j * b) / (a + 1j * b)) / (2j * mp.pi)
+    )
     up = theta - mp.floor(mp.re(theta))
     return up if bounded else up - 1
 
@@ -69,12 +73,24 @@ class Manufactured:
         """Coefficients of W f, from z^(degree - κ) downwards to z^-2."""
         degree = len(self.polynomial) - 1
         size = max(degree - self.kappa, -1) + 3
-        binomial = [[mp.binomial(e, k) * sign**k for k in range(size + 3)] for e, sign in ((self.alpha, -1), (self.beta, 1))]
-        w = [sum(binomial[0][j] * binomial[1][k - j] for j in range(k + 1)) for k in range(size + 3)]
+        binomial = [
+            [mp.binomial(e, k) * sign**k for k in range(size + 3)]
+            for e, sign in ((self.alpha, -1), (self.beta, 1))
+        ]
+        w = [
+            sum(binomial[0][j] * binomial[1][k - j] for j in range(k + 1)) for k in range(size + 3)
+        ]
         f = [mp.mpmathify(c) for c in reversed(self.polynomial)]
-        f += [sum(mp.mpmathify(r) * mp.mpmathify(p) ** k for p, r in self.poles) for k in range(size + 3)]
+        f += [
+            sum(mp.mpmathify(r) * mp.mpmathify(p) ** k for p, r in self.poles)
+            for k in range(size + 3)
+        ]
         top = degree - self.kappa
-        return {top - k: sum(w[j] * f[k - j] for j in range(k + 1)) for k in range(top + 3)} if top >= -2 else {}
+        return (
+            {top - k: sum(w[j] * f[k - j] for j in range(k + 1)) for k in range(top + 3)}
+            if top >= -2
+            else {}
+        )
 
     @cached_property
     def at_poles(self):
@@ -93,7 +109,11 @@ class Manufactured:
     def value_at(self, to_right, to_left):
         """At these distances from the ends."""
         right, left = mp.mpf(to_right) / self.r, mp.mpf(to_left) / self.r
-        return mp.power(right, self.alpha) * mp.power(left, self.beta) * self.f(left - 1 if left < right else 1 - right)
+        return (
+            mp.power(right, self.alpha)
+            * mp.power(left, self.beta)
+            * self.f(left - 1 if left < right else 1 - right)
+        )
 
     def cauchy(self, z):
         """1/π ∫ φ/(z - t) dt; on the interval its principal value."""
@@ -110,7 +130,9 @@ class Manufactured:
     @property
     def moment(self):
         residues = sum(residue * p for p, residue in self.at_poles)
-        about_m = self.r**2 * mp.pi / mp.sinpi(self.alpha) * (residues - self.at_infinity.get(-2, 0))
+        about_m = (
+            self.r**2 * mp.pi / mp.sinpi(self.alpha) * (residues - self.at_infinity.get(-2, 0))
+        )
         return about_m + self.m * self.total
 
     @property
@@ -135,12 +157,18 @@ def right_hand_side(densities, a, b, kernels=()):
             s = (x - d.m) / d.r
             own = abs(s) <= 1
             total -= b * (d.subtracted(s) / mp.sinpi(d.alpha) if own else d.cauchy(x))
-            total -= sum(mp.mpmathify(c) * mp.pi * d.cauchy(x + mp.mpmathify(shift)) for c, shift in kernels)
+            total -= sum(
+                mp.mpmathify(c) * mp.pi * d.cauchy(x + mp.mpmathify(shift)) for c, shift in kernels
+            )
         return complex(total)
 
     def g(x):
         values = np.array([at(v) for v in np.ravel(x)], dtype=complex).reshape(np.shape(x))
-        return values if np.abs(values.imag).max(initial=0.0) > 1e-25 * np.abs(values).max(initial=1e-300) else values.real
+        return (
+            values
+            if np.abs(values.imag).max(initial=0.0) > 1e-25 * np.abs(values).max(initial=1e-300)
+            else values.real
+        )
 
     return g
 
@@ -151,7 +179,9 @@ def needed(densities, tol, g=None):
     theta = np.pi * (np.arange(n) + 0.5) / n
     for d in densities:
         s = np.cos(theta)
-        values = exact(lambda v, d=d: d.f(mp.mpf(v)), s) if g is None else g(float(d.m) + float(d.r) * s)
+        values = (
+            exact(lambda v, d=d: d.f(mp.mpf(v)), s) if g is None else g(float(d.m) + float(d.r) * s)
+        )
         c = np.abs(np.cos(np.outer(np.arange(n), theta)) @ values)
         sizes.append(int(np.flatnonzero(c > tol * c.max())[-1]) + 1 if c.any() else 1)
     return tuple(sizes)

@@ -30,9 +30,14 @@ def chains(draw, jumps=True):
     """Convex, piecewise linear slope on 2 to 8 pieces, from below -1/2 to above 1/2: unequal corners, flats, two radii, wedges."""
     n = draw(st.integers(2, 8))
     gaps = draw(st.lists(dyadic(1 / 256, 1), min_size=n - 2, max_size=n - 2))
-    inner = draw(st.lists(st.one_of(st.just(0.0), dyadic(1 / 16, 8)), min_size=n - 2, max_size=n - 2))
+    inner = draw(
+        st.lists(st.one_of(st.just(0.0), dyadic(1 / 16, 8)), min_size=n - 2, max_size=n - 2)
+    )
     curvatures = [Fraction(c) for c in (draw(dyadic(1 / 8, 4)), *inner, draw(dyadic(1 / 8, 4)))]
-    rises = [Fraction(draw(dyadic(0, 1))) if jumps and draw(st.integers(0, 4)) == 0 else Fraction(0) for _ in range(n - 1)]
+    rises = [
+        Fraction(draw(dyadic(0, 1))) if jumps and draw(st.integers(0, 4)) == 0 else Fraction(0)
+        for _ in range(n - 1)
+    ]
     breaks = [Fraction(draw(dyadic(-1, 1)))]
     for gap in gaps:
         breaks.append(breaks[-1] + Fraction(gap))
@@ -59,7 +64,9 @@ def _runge(x):
 
 
 parabolas = st.builds(sie.Parabola, radius=log_between(0.1, 10))
-rounded_flats = st.builds(sie.RoundedFlat, half_flat=log_between(0.01, 2), radius=log_between(0.1, 10))
+rounded_flats = st.builds(
+    sie.RoundedFlat, half_flat=log_between(0.01, 2), radius=log_between(0.1, 10)
+)
 wedges = st.builds(sie.Wedge, slope=log_between(0.1, 2))
 exponents = st.one_of(between(1.5, 6.0), st.sampled_from([1, 1.5, 2, 2.5, 3, 4, 8]))
 powers = st.builds(sie.Power, exponent=exponents, coefficient=log_between(0.1, 10))
@@ -72,9 +79,14 @@ functions = st.builds(
     st.sampled_from([_sinh, _wavy, _runge]), between(20.0, 40.0), between(20.0, 40.0),
 )  # fmt: skip
 texts = st.sampled_from(
-    [sie.FromFunction("sinh(x)", domain=(-30.0, 30.0), parity="even"), sie.FromFunction("x*abs(x) + x/8", breaks=(0.0,))]
+    [
+        sie.FromFunction("sinh(x)", domain=(-30.0, 30.0), parity="even"),
+        sie.FromFunction("x*abs(x) + x/8", breaks=(0.0,)),
+    ]
 )
-round_profiles = st.one_of(parabolas, rounded_flats, wedges, powers, polynomials, chains(), functions, texts)
+round_profiles = st.one_of(
+    parabolas, rounded_flats, wedges, powers, polynomials, chains(), functions, texts
+)
 
 
 @st.composite
@@ -84,7 +96,10 @@ def sharp_profiles(draw):
     if kind == "flat":
         return sie.Flat(draw(log_between(0.1, 3)))
     if kind == "function":
-        return sie.FromFunction(draw(st.sampled_from([_sinh, _wavy])), domain=(-draw(log_between(0.05, 3)), draw(log_between(0.05, 3))))
+        return sie.FromFunction(
+            draw(st.sampled_from([_sinh, _wavy])),
+            domain=(-draw(log_between(0.05, 3)), draw(log_between(0.05, 3))),
+        )
     lo, hi = draw(dyadic(-2, -1 / 16)), draw(dyadic(1 / 16, 2))
     c, d = draw(dyadic(0, 4)), draw(dyadic(0, 4))
     return sie.Piecewise((lo, 0.0, hi), ((0.0, c), (0.0, d)))
@@ -112,4 +127,6 @@ def scenes(draw, profile=None, sharp=True):
     profile = profile or draw(profiles())
     tilt = draw(st.one_of(st.just(0.0), dyadic(-1 / 16, 1 / 16)))
     E = draw(log_between(0.1, 10))
-    return sie.Scene(profile=profile, modulus=E, normal_load=E * draw(log_between(1e-3, 3)), tilt=tilt)
+    return sie.Scene(
+        profile=profile, modulus=E, normal_load=E * draw(log_between(1e-3, 3)), tilt=tilt
+    )

@@ -10,7 +10,12 @@ from validation.principal import principal_value
 
 
 @settings(max_examples=4)
-@given(ratio=between(0.02, 0.98), place=between(-0.97, 0.97), b=between(1.2, 3.0), radius=log_between(0.1, 10))
+@given(
+    ratio=between(0.02, 0.98),
+    place=between(-0.97, 0.97),
+    b=between(1.2, 3.0),
+    radius=log_between(0.1, 10),
+)
 @pytest.mark.parametrize("equation", EQUATIONS, ids=lambda e: e.name)
 def test_an_equation_of_the_appendix_holds_on_random_punches(equation, ratio, place, b, radius):
     a, x = ratio * b, place * b
@@ -38,8 +43,13 @@ def test_a_right_hand_side_that_is_off_is_seen(equation):
 
 def test_the_principal_value_of_one_over_x_is_a_logarithm():
     for pole in (0.3, -0.9, 1.7, -1.001):
-        found = principal_value(mp, lambda t, pole=pole: 1 / (t - mp.mpf(pole)), mp.mpf(pole), -mp.one, mp.one)
-        assert abs(found - mp.log(abs((1 - mp.mpf(pole)) / (1 + mp.mpf(pole))))) < mp.mpf(10) ** -DIGITS
+        found = principal_value(
+            mp, lambda t, pole=pole: 1 / (t - mp.mpf(pole)), mp.mpf(pole), -mp.one, mp.one
+        )
+        assert (
+            abs(found - mp.log(abs((1 - mp.mpf(pole)) / (1 + mp.mpf(pole)))))
+            < mp.mpf(10) ** -DIGITS
+        )
 
 
 def test_the_global_precision_stays():

@@ -60,18 +60,32 @@ def inside(d):
 def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
     mp = mpmath.mp.clone()
     mp.dps = 30
-    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25), ((1.5, 0.3), (-0.2 + 1j, 0.1j)))
+    d = Manufactured(
+        -1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25), ((1.5, 0.3), (-0.2 + 1j, 0.1j))
+    )
     z = mp.mpc(0.3, 0.9)
-    for kernel, closed in ((lambda x: 1 / (mp.pi * (z - x)), d.cauchy(z)), (lambda x: 1, d.total), (lambda x: x, d.moment)):
-        integral = mp.quad(lambda s, kernel=kernel: d.value(d.m + d.r * s) * kernel(d.m + d.r * s) * d.r, [-1, 0, 1])
-        assert abs(integral - closed) < mp.mpf(10) ** -14  # of tanh-sinh towards an end with an exponent of -0.6
+    for kernel, closed in (
+        (lambda x: 1 / (mp.pi * (z - x)), d.cauchy(z)),
+        (lambda x: 1, d.total),
+        (lambda x: x, d.moment),
+    ):
+        integral = mp.quad(
+            lambda s, kernel=kernel: d.value(d.m + d.r * s) * kernel(d.m + d.r * s) * d.r,
+            [-1, 0, 1],
+        )
+        assert (
+            abs(integral - closed) < mp.mpf(10) ** -14
+        )  # of tanh-sinh towards an end with an exponent of -0.6
 
 
 # -- manufactured solutions -------------------------------------------------------------------------------------------
 
 reals = st.tuples(between(-3.0, 3.0), st.sampled_from([1.0, -1.0, 0.3]))
 nearly_real = st.builds(complex, between(0.8, 1.2), between(-0.1, 0.1))
-complexes = st.tuples(st.builds(complex, between(-0.8, 0.8), between(0.05, 0.6)), st.sampled_from([1.0, -1.0]) | nearly_real)
+complexes = st.tuples(
+    st.builds(complex, between(-0.8, 0.8), between(0.05, 0.6)),
+    st.sampled_from([1.0, -1.0]) | nearly_real,
+)
 constants = reals | complexes
 
 
@@ -81,7 +95,10 @@ def densities(draw, a, b, ends, interval):
     polynomial = (*draw(st.lists(between(-1.0, 1.0), max_size=5)), 1.0)
     poles = ()
     if draw(st.booleans()):
-        p, r = complex(draw(between(-1.2, 1.2)), draw(between(0.5, 2.0))), complex(draw(between(0.1, 1.0)), draw(between(-1.0, 1.0)))
+        p, r = (
+            complex(draw(between(-1.2, 1.2)), draw(between(0.5, 2.0))),
+            complex(draw(between(0.1, 1.0)), draw(between(-1.0, 1.0))),
+        )
         poles = ((p, r), (p.conjugate(), r.conjugate()))
     return Manufactured(*interval, *exponents(a, b, ends), polynomial, poles)
 
@@ -98,8 +115,15 @@ def problems(draw, intervals=1):
         start = end + draw(between(0.05, 2.0))
     kernels, height = (), 2.0 * max(float(d.r) for d in out)
     if draw(st.booleans()):
-        c, shift = draw(between(-0.15, 0.15)), complex(draw(between(-1.0, 1.0)), height * draw(between(1.0, 2.0)))
-        kernels = ((c, shift),) if isinstance(a, complex) or isinstance(b, complex) else ((c, shift), (c, shift.conjugate()))
+        c, shift = (
+            draw(between(-0.15, 0.15)),
+            complex(draw(between(-1.0, 1.0)), height * draw(between(1.0, 2.0))),
+        )
+        kernels = (
+            ((c, shift),)
+            if isinstance(a, complex) or isinstance(b, complex)
+            else ((c, shift), (c, shift.conjugate()))
+        )
     return out, a, b, ends, kernels
 
 
@@ -114,10 +138,19 @@ def test_a_manufactured_density_is_found_with_at_most_twice_the_nodes_it_needs(p
     density = equation_of(manufactured, a, b, ends, kernels).solve()
     x = inside(d)
     agrees(density(x), exact(d.value, x), PROMISE, "value")
-    agrees(density.parts[0].resultant, complex(d.total), PROMISE * max(1.0, abs(peak_of(d) / complex(d.total))), "total")
+    agrees(
+        density.parts[0].resultant,
+        complex(d.total),
+        PROMISE * max(1.0, abs(peak_of(d) / complex(d.total))),
+        "total",
+    )
     size = np.abs(exact(d.value, x)).max()
     assert np.abs(density.cauchy(x, side=0) - exact(d.cauchy, x)).max() <= 4 * PROMISE * size
-    assert density.n[0] <= 2 * max(needed([d], PROMISE)[0], needed([d], PROMISE, right_hand_side(manufactured, a, b, kernels))[0], 4)
+    assert density.n[0] <= 2 * max(
+        needed([d], PROMISE)[0],
+        needed([d], PROMISE, right_hand_side(manufactured, a, b, kernels))[0],
+        4,
+    )
     assert density.error <= PROMISE
 
 
@@ -136,26 +169,46 @@ def test_manufactured_densities_on_two_intervals_are_found(problem):
     size = max(np.abs(exact(d.value, inside(d))).max() for d in manufactured)
     for d in manufactured:
         assert np.abs(density(inside(d)) - exact(d.value, inside(d))).max() <= 10 * PROMISE * size
-    z = np.array([d.x2 + 0.01j for d in manufactured] + [manufactured[0].x1 - 1e-6, manufactured[-1].x2 + 3.0 + 4.0j])
+    z = np.array(
+        [d.x2 + 0.01j for d in manufactured]
+        + [manufactured[0].x1 - 1e-6, manufactured[-1].x2 + 3.0 + 4.0j]
+    )
     expected = np.array([complex(sum(d.cauchy(complex(v)) for d in manufactured)) for v in z])
-    assert np.abs(density.cauchy(z) - expected).max() <= 10 * PROMISE * max(size, np.abs(expected).max())
+    assert np.abs(density.cauchy(z) - expected).max() <= 10 * PROMISE * max(
+        size, np.abs(expected).max()
+    )
 
 
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize(
-    ("a", "ends"), [(0.0, KINDS[0]), (0.3, KINDS[0]), (0.2j, KINDS[0]), (0.3, KINDS[1]), (0.2, KINDS[3]), (0.0, KINDS[3]), (0.3, KINDS[2])]
+    ("a", "ends"),
+    [
+        (0.0, KINDS[0]),
+        (0.3, KINDS[0]),
+        (0.2j, KINDS[0]),
+        (0.3, KINDS[1]),
+        (0.2, KINDS[3]),
+        (0.0, KINDS[3]),
+        (0.3, KINDS[2]),
+    ],
 )
 def test_a_narrow_gap_between_intervals_keeps_10_digits(gap, a, ends):
     """Bounded ends at the gap, too, where the density is far below its peak: its coefficient there as well."""
     intervals, both = ((-1.0, 0.0), (gap, 1.5)), (ends, ends[::-1])
     manufactured = [
-        Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
+        Manufactured(*i, *exponents(a, 1.0, e), p)
+        for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
     ]
     density = equation_of(manufactured, a, 1.0, both).solve()
     for d, part in zip(manufactured, density.parts, strict=True):
         x = np.concatenate((inside(d), d.x1 + (d.x2 - d.x1) * np.array([1e-6, 0.999])))
         agrees(density(x), exact(d.value, x), 1e-10, "value")
-        agrees(np.divide(part.intensities, np.array(d.intensities, dtype=complex)), np.ones(2), 1e-10, "intensities")
+        agrees(
+            np.divide(part.intensities, np.array(d.intensities, dtype=complex)),
+            np.ones(2),
+            1e-10,
+            "intensities",
+        )
     assert max(density.n) <= 128  # ln(1/gap) only
 
 
@@ -173,26 +226,44 @@ class Joint(NamedTuple):
 
     def at_infinity(self, power):
         """The coefficient of z^power."""
-        top, series = int(sum(self.halves)) + len(self.P) - 1, [mp.mpf(p) for p in reversed(self.P)] + [mp.mpf(0)] * 6
+        top, series = (
+            int(sum(self.halves)) + len(self.P) - 1,
+            [mp.mpf(p) for p in reversed(self.P)] + [mp.mpf(0)] * 6,
+        )
         for e, half in zip(self.ends, self.halves, strict=True):
             factor = [mp.binomial(half, k) * (-mp.mpf(e)) ** k for k in range(len(series))]
-            series = [sum(series[j] * factor[k - j] for j in range(k + 1)) for k in range(len(series))]
+            series = [
+                sum(series[j] * factor[k - j] for j in range(k + 1)) for k in range(len(series))
+            ]
         return series[top - power] if power <= top else mp.mpf(0)
 
     def intensity(self, i):
         sign = self.bounded[i // 2 * 2 + 1] * 2 - 1
         if i < 2 and self.bounded[2] == self.bounded[3]:
             sign = -sign
-        others = [abs(mp.mpf(self.ends[i]) - e) ** half for j, (e, half) in enumerate(zip(self.ends, self.halves, strict=True)) if j != i]
-        return sign * mp.fprod(others) * sum(p * mp.mpf(self.ends[i]) ** k for k, p in enumerate(self.P))
+        others = [
+            abs(mp.mpf(self.ends[i]) - e) ** half
+            for j, (e, half) in enumerate(zip(self.ends, self.halves, strict=True))
+            if j != i
+        ]
+        return (
+            sign
+            * mp.fprod(others)
+            * sum(p * mp.mpf(self.ends[i]) ** k for k, p in enumerate(self.P))
+        )
 
     def solve(self):
         g = [float(-self.at_infinity(power)) for power in range(6)]
         pairs = [words(self.bounded[:2]), words(self.bounded[2:])]
-        given = {name: float(-mp.pi * self.at_infinity(-1 - k)) for k, name in enumerate(("total", "moment"))}
+        given = {
+            name: float(-mp.pi * self.at_infinity(-1 - k))
+            for k, name in enumerate(("total", "moment"))
+        }
         index = 2 - sum(self.bounded)
         known = {name: value for k, (name, value) in enumerate(given.items()) if k < index}
-        return sie.CauchyEquation((self.ends[:2], self.ends[2:]), np.polynomial.Polynomial(g), ends=pairs, **known).solve()
+        return sie.CauchyEquation(
+            (self.ends[:2], self.ends[2:]), np.polynomial.Polynomial(g), ends=pairs, **known
+        ).solve()
 
 
 FOUR = [
@@ -222,12 +293,18 @@ def test_the_coefficients_at_a_gap_are_as_good_as_rounding_of_g_lets_them_and_sa
 
 @pytest.mark.parametrize("at", [0.0, 0.3])
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
-@pytest.mark.parametrize(("a", "ends"), [(0.0, KINDS[0]), (0.3, KINDS[0]), (0.0, KINDS[3]), (0.3, KINDS[1]), (0.0, KINDS[2])])
-def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_absurd_one(a, ends, gap, at):
+@pytest.mark.parametrize(
+    ("a", "ends"),
+    [(0.0, KINDS[0]), (0.3, KINDS[0]), (0.0, KINDS[3]), (0.3, KINDS[1]), (0.0, KINDS[2])],
+)
+def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_absurd_one(
+    a, ends, gap, at
+):
     """Of φ over its peak, singular ends divided out; where g varies across a gap, doubles x are what limits it."""
     intervals, both = ((at - 1.0, at), (at + gap, at + 1.5)), (ends, ends[::-1])
     manufactured = [
-        Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 0.2)), strict=True)
+        Manufactured(*i, *exponents(a, 1.0, e), p)
+        for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 0.2)), strict=True)
     ]
     density = equation_of(manufactured, a, 1.0, both).solve()
     true = max(weighted_error(d, part) for d, part in zip(manufactured, density.parts, strict=True))
@@ -238,9 +315,15 @@ def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_
 def weighted_error(d, part):
     s = np.cos(np.pi * (np.arange(50) + 0.5) / 50)
     right, left, *_ = part.map.distances(1.0 - s, 1.0 + s)
-    norm = (1.0 - s) ** (0.25 - 0.5 * part.weight.alpha) * (1.0 + s) ** (0.25 - 0.5 * part.weight.beta)
-    expected = np.array([complex(d.value_at(*pair)) for pair in zip(right.tolist(), left.tolist(), strict=True)])
-    return (np.abs(part.value(right, left) - expected) * norm).max() / (np.abs(expected) * norm).max()
+    norm = (1.0 - s) ** (0.25 - 0.5 * part.weight.alpha) * (1.0 + s) ** (
+        0.25 - 0.5 * part.weight.beta
+    )
+    expected = np.array(
+        [complex(d.value_at(*pair)) for pair in zip(right.tolist(), left.tolist(), strict=True)]
+    )
+    return (np.abs(part.value(right, left) - expected) * norm).max() / (
+        np.abs(expected) * norm
+    ).max()
 
 
 @pytest.mark.parametrize("at", [0.3, -7.0])
@@ -249,7 +332,8 @@ def test_a_narrow_gap_far_from_zero_keeps_10_digits(at, a, ends):
     """There neighbouring doubles are 1e-10 gaps apart, and g, that varies across the gap, is no smoother: no reason to give up."""
     intervals, both = ((at - 1.0, at), (at + 1e-6, at + 1.5)), (ends, ends[::-1])
     manufactured = [
-        Manufactured(*i, *exponents(a, 1.0, e), p) for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
+        Manufactured(*i, *exponents(a, 1.0, e), p)
+        for i, e, p in zip(intervals, both, ((1.0, -0.5, 0.25), (1.0, 2.0)), strict=True)
     ]
     density = equation_of(manufactured, a, 1.0, both).solve()
     for d in manufactured:
@@ -276,10 +360,19 @@ PLACES = [complex(s, y) for s in (-1.0, -0.4, 0.9, 1.0) for y in (1e-12, -1e-6, 
 PLACES += [1 + 1e-12, -1 - 1e-9, 1 + 1e-4j, 1.001, -1.3, 2.0, 5j, 40.0 + 1e-9j, 1e5j, -1e5]
 
 
-@pytest.mark.parametrize(("a", "ends"), [(0.0, KINDS[0]), (0.3, KINDS[1]), (-0.7, KINDS[3]), (0.4j, KINDS[0]), (0.2 + 0.3j, KINDS[2])])
+@pytest.mark.parametrize(
+    ("a", "ends"),
+    [(0.0, KINDS[0]), (0.3, KINDS[1]), (-0.7, KINDS[3]), (0.4j, KINDS[0]), (0.2 + 0.3j, KINDS[2])],
+)
 def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
     """Relative to itself, from 1e-12 half-widths off the interval to 1e5 away."""
-    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25, 0.1), ((1.5, 0.3), (-0.2 + 0.8j, 0.1)))
+    d = Manufactured(
+        -1.0,
+        3.0,
+        *exponents(a, 1.0, ends),
+        (1.0, -0.5, 0.25, 0.1),
+        ((1.5, 0.3), (-0.2 + 0.8j, 0.1)),
+    )
     density = equation_of([d], a, 1.0, [ends]).solve()
     z = 1.0 + 2.0 * np.array(PLACES)
     for where, found in zip(z.tolist(), density.cauchy(z), strict=True):
@@ -291,8 +384,18 @@ def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
 @pytest.mark.parametrize("ends", KINDS)
 def test_next_to_a_large_constant_density_and_potential_keep_their_digits(a, ends):
     """|a| >> |b| makes exponents of nearly 0 and ±1, and cosec πα so large that the terms of the potential cancel."""
-    d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, ends), (1.0, -0.5, 0.25, 0.1), ((1.5, 0.3), (-0.2 + 0.8j, 0.1)))
-    density, x, z = equation_of([d], a, 1.0, [ends]).solve(), inside(d), [1.1 + 0.3j, 2.9 - 1e-5j, 0.2 + 1e-9j, 5.0]
+    d = Manufactured(
+        -1.0,
+        3.0,
+        *exponents(a, 1.0, ends),
+        (1.0, -0.5, 0.25, 0.1),
+        ((1.5, 0.3), (-0.2 + 0.8j, 0.1)),
+    )
+    density, x, z = (
+        equation_of([d], a, 1.0, [ends]).solve(),
+        inside(d),
+        [1.1 + 0.3j, 2.9 - 1e-5j, 0.2 + 1e-9j, 5.0],
+    )
     agrees(density(x), exact(d.value, x), PROMISE, "value")
     agrees(density.cauchy(x, side=0), exact(d.cauchy, x), PROMISE, "principal value")
     assert density.cauchy(z) == pytest.approx(exact(d.cauchy, z), rel=PROMISE)
@@ -303,19 +406,43 @@ def test_next_to_an_exponent_of_minus_one_a_density_is_as_good_as_it_says():
     for a in (1e6, 1e9, 1e12):
         d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, (False, True)), (1.0, -0.5, 0.25, 0.1))
         equation, x = equation_of([d], a, 1.0, [KINDS[2]]), inside(d)
-        with pytest.raises(sie.ContactError, match=r"exponent at a singular end is -1 but for .*make that end bounded") as caught:
+        with pytest.raises(
+            sie.ContactError,
+            match=r"exponent at a singular end is -1 but for .*make that end bounded",
+        ) as caught:
             equation.solve(tol=1e-15)
-        agrees(caught.value.reached["density"](x), exact(d.value, x), caught.value.reached["density"].error, "value")
+        agrees(
+            caught.value.reached["density"](x),
+            exact(d.value, x),
+            caught.value.reached["density"].error,
+            "value",
+        )
 
 
 @pytest.mark.parametrize("gap", [0.4, 1e-3, 1e-6])
 def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
     """On graded intervals: in the gap, above it, at its rim, and far away."""
-    manufactured = [Manufactured(-1.0, 0.0, -0.5, -0.5, (1.0, -0.5)), Manufactured(gap, 2.0, -0.5, -0.5, (0.3, 1.0, 0.2))]
+    manufactured = [
+        Manufactured(-1.0, 0.0, -0.5, -0.5, (1.0, -0.5)),
+        Manufactured(gap, 2.0, -0.5, -0.5, (0.3, 1.0, 0.2)),
+    ]
     density = equation_of(manufactured, 0.0, 1.0, [KINDS[0]] * 2).solve()
-    z = [gap * complex(u, v) for u in (-2.0, 0.001, 0.5, 0.99, 1.7) for v in (1e-12, -1e-3, 0.1, 3.0)]
-    z += [0.5 * gap, -1 - 1e-9, -0.5 + 1e-12j, 1.0 - 1e-5j, 2.0 + 1e-10j, 0.3 + 0.2j, 1.0 - 5.0j, 1e4 + 1e4j]
-    size = 10 * PROMISE * max(1.0, 1e-3 / gap)  # the densities themselves are known so well next to the gap
+    z = [
+        gap * complex(u, v) for u in (-2.0, 0.001, 0.5, 0.99, 1.7) for v in (1e-12, -1e-3, 0.1, 3.0)
+    ]
+    z += [
+        0.5 * gap,
+        -1 - 1e-9,
+        -0.5 + 1e-12j,
+        1.0 - 1e-5j,
+        2.0 + 1e-10j,
+        0.3 + 0.2j,
+        1.0 - 5.0j,
+        1e4 + 1e4j,
+    ]
+    size = (
+        10 * PROMISE * max(1.0, 1e-3 / gap)
+    )  # the densities themselves are known so well next to the gap
     for where, found in zip(z, density.cauchy(z), strict=True):
         expected = complex(sum(d.cauchy(where) for d in manufactured))
         assert abs(found - expected) <= size * abs(expected), where
@@ -323,7 +450,13 @@ def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
 
 @pytest.mark.parametrize("gap", [1e-2, 1e-4])
 @pytest.mark.parametrize(
-    "ends", [(KINDS[3],) * 3, (KINDS[2], KINDS[1], KINDS[0]), (KINDS[0], KINDS[2], KINDS[1]), (KINDS[1], KINDS[2], KINDS[3])]
+    "ends",
+    [
+        (KINDS[3],) * 3,
+        (KINDS[2], KINDS[1], KINDS[0]),
+        (KINDS[0], KINDS[2], KINDS[1]),
+        (KINDS[1], KINDS[2], KINDS[3]),
+    ],
 )
 def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap):
     """Gaps between bounded ends, singular ones, one of each; the factor by which φ is multiplied differs on both sides of an interval."""
@@ -333,7 +466,12 @@ def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap
         for i, e, p in zip(intervals, ends, ((1.0, -0.5), (0.3, 1.0, 0.2), (1.0, 0.4)), strict=True)
     ]
     density = equation_of(manufactured, 0.0, 1.0, ends).solve()
-    z = [at + gap * complex(u, v) for at in (0.0, 1.5) for u in (-2.0, 0.5, 1.3) for v in (1e-6, -0.1, 3.0)]
+    z = [
+        at + gap * complex(u, v)
+        for at in (0.0, 1.5)
+        for u in (-2.0, 0.5, 1.3)
+        for v in (1e-6, -0.1, 3.0)
+    ]
     z += [0.7 + 0.2j, 0.3 - 1e-3j, 1e3j]
     for where, found, slope in zip(z, density.cauchy(z), density.cauchy_derivative(z), strict=True):
         parts = [complex(d.cauchy(where)) for d in manufactured]
@@ -374,8 +512,12 @@ def test_the_potential_reaches_its_limit_continuously(gap):
 
 def test_repeated_integrals_may_be_exchanged_by_the_formula_of_poincare_and_bertrand():
     """In Tricomi's form  H(φ Hψ + ψ Hφ) = Hφ Hψ - φ ψ,  the left-hand side by a quadrature of its own."""
-    phi = sie.CauchyEquation((-1.0, 2.0), lambda x: np.exp(0.5 * x), ends="bounded", free=(1.0,)).solve()
-    psi = sie.CauchyEquation((-1.0, 2.0), lambda x: 1.0 / (x - 3.0), ends="bounded", free=(1.0,)).solve()
+    phi = sie.CauchyEquation(
+        (-1.0, 2.0), lambda x: np.exp(0.5 * x), ends="bounded", free=(1.0,)
+    ).solve()
+    psi = sie.CauchyEquation(
+        (-1.0, 2.0), lambda x: 1.0 / (x - 3.0), ends="bounded", free=(1.0,)
+    ).solve()
 
     def product(x):
         return phi(x) * psi.hilbert(x) + psi(x) * phi.hilbert(x)
@@ -395,7 +537,9 @@ def test_the_adjoint_equation_has_the_adjoint_solution(ab, m, r, ends):
     """T φ = g and T' ψ = g', T' with -b, the kernel transposed and the other ends: then ∫ ψ g = ∫ φ g', as sums of total and moment."""
     a, b = ab
     interval = (m - r, m + r)
-    phi = sie.CauchyEquation(interval, lambda x: 1.0 + 2.0 * x, a=a, b=b, k=kernel, ends=words(ends)).solve()
+    phi = sie.CauchyEquation(
+        interval, lambda x: 1.0 + 2.0 * x, a=a, b=b, k=kernel, ends=words(ends)
+    ).solve()
     psi = sie.CauchyEquation(
         interval, lambda x: 3.0 - x, a=a, b=-b, k=lambda x, t: kernel(t, x), ends=words(ends[::-1])
     ).solve()  # fmt: skip
@@ -432,7 +576,9 @@ def test_an_affine_map_of_the_lengths_changes_nothing_else(scale, intervals):
 @pytest.mark.parametrize("shift", [0.5, -3.0])
 def test_moved_along_the_axis_the_density_is_the_same(shift):
     def moved(by):
-        return sie.CauchyEquation((by, 2.0 + by), lambda x: np.exp(x - by), a=-0.4, total=1.0).solve()
+        return sie.CauchyEquation(
+            (by, 2.0 + by), lambda x: np.exp(x - by), a=-0.4, total=1.0
+        ).solve()
 
     x = np.linspace(0.125, 1.875, 9)
     agrees(moved(shift)(x + shift), moved(0.0)(x), PROMISE, "value")
@@ -443,12 +589,18 @@ def test_moved_along_the_axis_the_density_is_the_same(shift):
 def test_the_residual_is_small_at_points_that_were_not_used(k):
     """The whole equation, from the density's own values and potential and a quadrature of the tests for the kernel."""
     a, b = 0.4, -0.8
-    density = sie.CauchyEquation((-1.0, 2.0), np.cos, a=a, b=b, k=k, ends="bounded", free=(1.0,)).solve()
+    density = sie.CauchyEquation(
+        (-1.0, 2.0), np.cos, a=a, b=b, k=k, ends="bounded", free=(1.0,)
+    ).solve()
     x = np.array([-0.93, -0.2, 0.7, 1.9])
     right, left = density.parts[0].weight.alpha, density.parts[0].weight.beta
     s, weight = scipy.special.roots_jacobi(40, right, left)
     t = 0.5 + 1.5 * s
-    smooth = 0.0 if k is None else k(x[:, None], t) @ (1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left))
+    smooth = (
+        0.0
+        if k is None
+        else k(x[:, None], t) @ (1.5 * weight * density(t) / ((1 - s) ** right * (1 + s) ** left))
+    )
     left_over = a * density(x) - b * density.hilbert(x) + smooth - np.cos(x) - density.constants[0]
     assert np.abs(left_over).max() <= PROMISE
 
@@ -461,9 +613,13 @@ def test_the_sliding_parabola_has_the_pressure_of_the_closed_form(strength):
     """β f = strength: 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, both ends bounded (Hills, Nowell & Sackfield 1993); E* = R = w = 1."""
     epsilon = np.arctan(-strength) / np.pi
     c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
-    pressure = sie.CauchyEquation((-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded").solve()
+    pressure = sie.CauchyEquation(
+        (-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded"
+    ).solve()
     x = np.linspace(-c1, c2, 101)[1:-1]
-    closed = 0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
+    closed = (
+        0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
+    )
     assert pressure(x) == pytest.approx(closed, rel=PROMISE)
     assert pressure.resultant == pytest.approx(np.pi * (0.25 - epsilon**2), rel=PROMISE)
 
@@ -473,7 +629,13 @@ def test_the_sliding_flat_punch_has_the_pressure_of_the_closed_form(strength):
     epsilon = np.arctan(-strength) / np.pi
     pressure = sie.CauchyEquation((-2.0, 2.0), 0.0, a=-strength, b=-1.0, total=3.0).solve()
     x = np.linspace(-1.99, 1.99, 41)
-    closed = 3.0 * np.cos(np.pi * epsilon) / np.pi * (2.0 - x) ** (-0.5 - epsilon) * (2.0 + x) ** (-0.5 + epsilon)
+    closed = (
+        3.0
+        * np.cos(np.pi * epsilon)
+        / np.pi
+        * (2.0 - x) ** (-0.5 - epsilon)
+        * (2.0 + x) ** (-0.5 + epsilon)
+    )
     assert pressure(x) == pytest.approx(closed, rel=PROMISE)
 
 
@@ -483,16 +645,26 @@ def test_the_bonded_flat_punch_oscillates_as_in_closed_form(beta):
     load, eta = 2.0 + 0.7j, np.arctanh(beta) / np.pi
     traction = sie.CauchyEquation((-1.5, 1.5), 0.0, a=1j * beta, b=-1.0, total=load).solve()
     x = np.linspace(-1.4999, 1.4999, 51)
-    closed = load / np.pi * np.cosh(np.pi * eta) / np.sqrt((1.5 - x) * (1.5 + x)) * np.exp(1j * eta * np.log((1.5 + x) / (1.5 - x)))
+    closed = (
+        load
+        / np.pi
+        * np.cosh(np.pi * eta)
+        / np.sqrt((1.5 - x) * (1.5 + x))
+        * np.exp(1j * eta * np.log((1.5 + x) / (1.5 - x)))
+    )
     agrees(traction(x) / np.abs(closed), closed / np.abs(closed), PROMISE, "p + iq")
 
 
 @pytest.mark.parametrize(("incidence", "camber"), [(0.1, 0.0), (0.03, 0.2)])
 def test_the_thin_aerofoil_has_the_circulation_of_the_closed_form(incidence, camber):
     """1/2π PV∫ γ/(x - t) dt = U (incidence + camber x), Kutta's condition at the trailing edge x = 1 (Glauert 1926); U = 1."""
-    sheet = sie.CauchyEquation((-1.0, 1.0), lambda x: incidence + camber * x, b=-0.5, ends=("singular", "bounded")).solve()
+    sheet = sie.CauchyEquation(
+        (-1.0, 1.0), lambda x: incidence + camber * x, b=-0.5, ends=("singular", "bounded")
+    ).solve()
     x = np.linspace(-0.99, 0.99, 21)
-    closed = 2.0 * incidence * np.sqrt((1 - x) / (1 + x)) + 2.0 * camber * np.sqrt((1 - x) * (1 + x))
+    closed = 2.0 * incidence * np.sqrt((1 - x) / (1 + x)) + 2.0 * camber * np.sqrt(
+        (1 - x) * (1 + x)
+    )
     assert sheet(x) == pytest.approx(closed, rel=PROMISE)
     assert sheet.resultant == pytest.approx(2.0 * np.pi * (incidence + 0.5 * camber), rel=PROMISE)
 

@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 import sie
-from sie import check, composite, gap, normal, slope_density, unseen
-from sie.check import PROMISE
-from sie.interval import interval_about
+from sie.certificate import pressure_check, quadrature
+from sie.certificate.pressure_check import PROMISE
+from sie.contact import gap, normal
+from sie.numerics.interval import interval_about
+from sie.profiles import unresolved
+from sie.traction import of_slope
 from validation import reference
 from validation.reference import mp
 from validation.wrong import with_pressure
@@ -19,7 +22,9 @@ SLIGHT = 1e-15  # of the peak
 
 
 def pressed(slope, load=0.3, **given):
-    return sie.solve(sie.Scene(profile=sie.FromFunction(slope, **given), modulus=1.0, normal_load=load))
+    return sie.solve(
+        sie.Scene(profile=sie.FromFunction(slope, **given), modulus=1.0, normal_load=load)
+    )
 
 
 def bound(certificate, distance):
@@ -59,14 +64,23 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
         rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load, tilt=tilt))
-    truth = reference.contact(reference.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load)
+    truth = reference.contact(
+        reference.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
+    )
     x1, x2, r = float(truth.x1), float(truth.x2), float(truth.r)
     away = r * np.array([1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.3, 0.9])
     x = np.concatenate((x1 + away, x2 - away))
     x = x[(x > x1) & (x < x2)]
     expected = [truth.pressure(v) for v in x.tolist()]
-    errors = np.array([abs(float(mp.mpf(p) - e)) for p, e in zip(solution.pressure(x).tolist(), expected, strict=True)])
-    distance = np.array([float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r) for v in x.tolist()])
+    errors = np.array(
+        [
+            abs(float(mp.mpf(p) - e))
+            for p, e in zip(solution.pressure(x).tolist(), expected, strict=True)
+        ]
+    )
+    distance = np.array(
+        [float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r) for v in x.tolist()]
+    )
     found = solution.check()
     assert found.ok
     assert (errors <= bound(found, distance) * float(max(expected))).all()
@@ -74,7 +88,9 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
 
 def test_what_the_edges_leave_in_the_pressure_is_neither_nothing_nor_a_scare():
     """An edge is known to an ulp of the load times its condition: p(x) δ/(2 d) is wrong."""
-    found = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.3, 2.0), modulus=1.0, normal_load=0.1)).check()
+    found = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.3, 2.0), modulus=1.0, normal_load=0.1)
+    ).check()
     assert 1e-17 < found.edges < 1e-14
 
 
@@ -89,7 +105,7 @@ def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
 def test_the_same_promise_is_printed_and_documented():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
     assert PROMISE in " ".join(str(found).split())
-    assert PROMISE in " ".join(sie.check.Certificate.__doc__.split())
+    assert PROMISE in " ".join(pressure_check.Certificate.__doc__.split())
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
@@ -105,7 +121,9 @@ def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_i
 
 def test_a_rim_that_no_double_can_tell_is_not_certified():
     """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any defect."""
-    found = sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 1e-150), modulus=1.0, normal_load=1.0)).check()
+    found = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(1.0, 1e-150), modulus=1.0, normal_load=1.0)
+    ).check()
     assert not found.ok
     assert "NOT certified to 1e-13" in str(found)
 
@@ -138,14 +156,19 @@ def test_what_was_not_declared_is_found_and_resolved(name, load):
     assert found.edges == pytest.approx(declared.edges, abs=1e-14 * r)
     x = np.linspace(x1 + 0.01 * r, x2 - 0.01 * r, 2001)
     x = x[np.abs(x[:, None] - np.array(breaks)).min(axis=1) > 1e-5]
-    assert found.pressure(x) == pytest.approx(declared.pressure(x), abs=3e-14 * float(declared.pressure(x).max()))
+    assert found.pressure(x) == pytest.approx(
+        declared.pressure(x), abs=3e-14 * float(declared.pressure(x).max())
+    )
     assert found.check().ok
 
 
 @pytest.mark.parametrize("name", ["jump", "narrow bump"])
 def test_the_stick_zone_of_such_a_function_is_right_too(name):
     slope, breaks = UNDECLARED[name]
-    found, declared = (pressed(slope, 0.5, breaks=b).with_(friction=0.4, tangential_load=0.02) for b in ((), breaks))
+    found, declared = (
+        pressed(slope, 0.5, breaks=b).with_(friction=0.4, tangential_load=0.02)
+        for b in ((), breaks)
+    )
     assert found.stick[0] == pytest.approx(declared.stick[0], abs=1e-13)
 
 
@@ -166,19 +189,27 @@ def test_the_certificate_sees_what_the_solver_did_not(name, monkeypatch):
 
 
 def test_the_certificate_s_points_are_not_those_of_the_solver():
-    contact = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
-    assert not np.isin(unseen.scattered(contact, unseen.SAMPLES), unseen.scattered(contact)).any()
+    contact = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
+    assert not np.isin(
+        unresolved.scattered(contact, unresolved.SAMPLES), unresolved.scattered(contact)
+    ).any()
 
 
 def test_no_gap_between_the_scattered_points_is_wider_than_the_documentation_says():
-    contact = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
-    assert np.diff(unseen.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
+    contact = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
+    assert np.diff(unresolved.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
 
 
 def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
-    one = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).normal.edges.contact
+    one = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
     other = one._replace(x2=math.nextafter(one.x2, 9.0))
-    assert np.abs(unseen.scattered(one)[:9] - unseen.scattered(other)[:9]).max() > 1e-9
+    assert np.abs(unresolved.scattered(one)[:9] - unresolved.scattered(other)[:9]).max() > 1e-9
 
 
 def test_nan_on_a_thousandth_of_the_contact_is_refused_where_it_is():
@@ -217,7 +248,9 @@ def test_what_is_not_a_function_of_an_array_is_refused_when_the_profile_is_built
 
 
 def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_same():
-    assert pressed(lambda x: [*x]).half_width == pytest.approx(pressed(lambda x: x).half_width, rel=1e-15)
+    assert pressed(lambda x: [*x]).half_width == pytest.approx(
+        pressed(lambda x: x).half_width, rel=1e-15
+    )
 
 
 @pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
@@ -233,20 +266,29 @@ def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
 def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=50.0)).check()
     assert found.ok
-    assert "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is outside its range" in found.notes[0]
+    assert (
+        "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is outside its range"
+        in found.notes[0]
+    )
     assert "pressure reaches 25 E*" in found.notes[1]
     assert found.as_dict()["notes"] == list(found.notes)
     assert all(note in str(found) for note in found.notes)
 
 
 def test_small_slopes_and_pressures_carry_no_note():
-    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 100.0), modulus=1.0, half_width=2.0))
+    solution = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(1.0, 100.0), modulus=1.0, half_width=2.0)
+    )
     assert solution.notes == solution.check().notes == ()
 
 
 @pytest.mark.parametrize(("load", "noted"), [(0.01, False), (0.1, True)])
-@pytest.mark.parametrize("given", [{}, {"friction": math.inf, "dundurs": 0.05}], ids=["frictionless", "bonded"])
-def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(load, noted, given):
+@pytest.mark.parametrize(
+    "given", [{}, {"friction": math.inf, "dundurs": 0.05}], ids=["frictionless", "bonded"]
+)
+def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(
+    load, noted, given
+):
     """Where it is infinite some pressure exceeds any bound."""
     solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load, **given))
     assert bool(solution.notes) is noted
@@ -259,10 +301,19 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
     def refuse(*_):
         raise AssertionError("integrated")
 
-    monkeypatch.setattr(check, "gap", refuse)
+    monkeypatch.setattr(pressure_check, "gap", refuse)
     powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
-    for profile in (sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Flat(1.0), *powers):
-        assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap == 0.0
+    for profile in (
+        sie.Parabola(1.0),
+        sie.RoundedFlat(0.5, 1.0),
+        sie.Wedge(0.3),
+        sie.Flat(1.0),
+        *powers,
+    ):
+        assert (
+            sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap
+            == 0.0
+        )
 
 
 @pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
@@ -274,7 +325,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
-    for module in (check, composite, gap, slope_density):
+    for module in (pressure_check, quadrature, gap, of_slope):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 
@@ -298,8 +349,12 @@ def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
 @pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
 def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
     """What a coarse resolution misses everywhere is no feature that it has not seen."""
-    wave = sie.FromFunction(lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even")
-    coarse, fine = (sie.solve(sie.Scene(profile=wave, modulus=1.0, half_width=0.5), tol=t) for t in (tol, 1e-13))
+    wave = sie.FromFunction(
+        lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even"
+    )
+    coarse, fine = (
+        sie.solve(sie.Scene(profile=wave, modulus=1.0, half_width=0.5), tol=t) for t in (tol, 1e-13)
+    )
     x = np.linspace(-0.49, 0.49, 101)
     assert not coarse.normal.seen
     assert np.abs(coarse.pressure(x) - fine.pressure(x)).max() <= tol * fine.pressure(x).max()

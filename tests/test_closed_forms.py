@@ -27,7 +27,9 @@ INDENTERS = (rounded_flat, hertz, wedge, power, flat)
 
 mp = mpmath.MPContext()  # references
 mp.dps = 50
-deep = mpmath.MPContext()  # references from formulas that cancel to the third power of a rim of 1e-12
+deep = (
+    mpmath.MPContext()
+)  # references from formulas that cancel to the third power of a rim of 1e-12
 deep.dps = 120
 coarse = mpmath.MPContext()  # quadrature, where doubles are what is checked
 coarse.dps = 20
@@ -65,7 +67,9 @@ def positions(contact: Rounded, part: float) -> Any:
     """Points where digits could be lost: the middle, the ends of flat and contact, and their neighbourhoods."""
     a, b, d = float(contact.a), float(contact.b), contact.rim
     beside = (np.nextafter(a, 0), np.nextafter(a, 2), np.nextafter(b, 0))
-    return np.array([0.0, a, b, b * part, a - d * part, a + d * part, b - d * part, a * (1 - part), *beside])
+    return np.array(
+        [0.0, a, b, b * part, a - d * part, a + d * part, b - d * part, a * (1 - part), *beside]
+    )
 
 
 def formula_32(x: float, a: Any, b: Any, ctx: Any = deep) -> Any:
@@ -89,7 +93,9 @@ def formula_35(a: Any, b: Any) -> Any:
 
 def relative(value: Any, exact: Any) -> float:
     """The largest relative error, where 0 must be 0."""
-    errors = [abs(v - e) / abs(e) if e else abs(v) for v, e in zip(np.atleast_1d(value).tolist(), exact)]
+    errors = [
+        abs(v - e) / abs(e) if e else abs(v) for v, e in zip(np.atleast_1d(value).tolist(), exact)
+    ]
     return float(max(errors))
 
 
@@ -98,7 +104,9 @@ def relative(value: Any, exact: Any) -> float:
 
 @settings(max_examples=150, deadline=None)
 @given(rounded, tiny_to_one)
-def test_rounded_pressure_is_the_papers_formula_to_the_last_digits(contact: Rounded, part: float) -> None:
+def test_rounded_pressure_is_the_papers_formula_to_the_last_digits(
+    contact: Rounded, part: float
+) -> None:
     x = positions(contact, part)
     exact = [formula_32(v, contact.a, contact.b) for v in x]
     assert relative(rounded_flat.pressure(x, **contact.given, **UNIT), exact) <= 32 * EPS
@@ -125,7 +133,10 @@ def test_rounded_pressure_superposes_rigid_flats(ratio: str, place: str) -> None
 @settings(max_examples=150, deadline=None)
 @given(rounded)
 def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded) -> None:
-    assert relative(rounded_flat.load(**contact.given, **UNIT), [formula_35(contact.a, contact.b)]) <= 6 * EPS
+    assert (
+        relative(rounded_flat.load(**contact.given, **UNIT), [formula_35(contact.a, contact.b)])
+        <= 6 * EPS
+    )
 
 
 @settings(max_examples=60, deadline=None)
@@ -165,7 +176,12 @@ def test_known_values(ratio: float, centre: float, place: float, peak: float, lo
         return float(-rounded_flat.potential_derivative(x, **given).imag)
 
     x_max = brentq(steepness, ratio + 1e-9, 1 - 1e-9, xtol=1e-15) if ratio else 0.0
-    found = [rounded_flat.pressure(0.0, **given) / P, x_max, rounded_flat.pressure(x_max, **given) / P, P]
+    found = [
+        rounded_flat.pressure(0.0, **given) / P,
+        x_max,
+        rounded_flat.pressure(x_max, **given) / P,
+        P,
+    ]
     assert found == pytest.approx([centre, place, peak, load], rel=16 * EPS, abs=0)
 
 
@@ -174,7 +190,9 @@ def test_known_values(ratio: float, centre: float, place: float, peak: float, lo
 def test_load_grows_with_the_half_width_by_the_angle_of_the_rim(contact: Rounded) -> None:
     a, b = (mp.convert(v) for v in (contact.a, contact.b))
     given = {"half_flat": a, "radius": 1, "modulus": 1, "lib": mp}
-    growth = mp.diff(lambda d: rounded_flat.load(rim=d, **given), b - a, h=(b - a) * mp.mpf("1e-17"))
+    growth = mp.diff(
+        lambda d: rounded_flat.load(rim=d, **given), b - a, h=(b - a) * mp.mpf("1e-17")
+    )
     assert abs(growth / (b * mp.acos(a / b)) - 1) < mp.mpf("1e-12")
 
 
@@ -238,9 +256,13 @@ def test_chebyshev_series_sums_to_the_pressure(ratio: float) -> None:
     phi = np.linspace(0.02, 1.5, 7)
     b_n = rounded_flat.chebyshev_coefficients(3000, **given)
     n = np.arange(3000)
-    total = (b_n * (-1.0) ** n * np.cos((2 * n + 1) * phi[:, None])).sum(axis=1)  # sqrt(1-x²) U_2n(x) at x = sin(phi)
+    total = (b_n * (-1.0) ** n * np.cos((2 * n + 1) * phi[:, None])).sum(
+        axis=1
+    )  # sqrt(1-x²) U_2n(x) at x = sin(phi)
     # b_n = O(n^-2) leaves O(N^-2) away from the kink, O(N^-1) next to it
-    np.testing.assert_allclose(total, rounded_flat.pressure(2 * np.sin(phi), **given), atol=2e-6, rtol=0)
+    np.testing.assert_allclose(
+        total, rounded_flat.pressure(2 * np.sin(phi), **given), atol=2e-6, rtol=0
+    )
 
 
 @settings(max_examples=60, deadline=None)
@@ -274,7 +296,9 @@ class Potential(NamedTuple):
 def rounded_case(ratio: float) -> Potential:
     given = {"half_flat": ratio, "half_width": 1.0, "radius": 2.0, "modulus": 3.0}
     slope = lambda x: float(rounded_flat.slope(x, half_flat=ratio, radius=2.0))  # noqa: E731
-    return Potential(f"rounded {ratio}", rounded_flat, given, float(rounded_flat.load(**given)), slope)
+    return Potential(
+        f"rounded {ratio}", rounded_flat, given, float(rounded_flat.load(**given)), slope
+    )
 
 
 def flat_case(P: float, M: float) -> Potential:
@@ -294,7 +318,9 @@ POTENTIALS = [
     *(flat_case(2.0, M) for M in (1.3, -1.8)),
 ]
 every_potential = pytest.mark.parametrize("case", POTENTIALS, ids=lambda case: case.name)
-whole_potential = pytest.mark.parametrize("case", [c for c in POTENTIALS if not c.prefix], ids=lambda case: case.name)
+whole_potential = pytest.mark.parametrize(
+    "case", [c for c in POTENTIALS if not c.prefix], ids=lambda case: case.name
+)
 
 
 def inside(case: Potential) -> Any:
@@ -348,7 +374,9 @@ def test_potential_is_the_cauchy_integral_of_the_pressure(case: Potential, z: co
 
 
 @whole_potential
-@pytest.mark.parametrize("z", [0.3 + 0.4j, -0.9 - 0.2j, 1.2, 1.24j, 1.592, -2.5 + 1j, 0.45 + 1e-6j, 30 - 5j])
+@pytest.mark.parametrize(
+    "z", [0.3 + 0.4j, -0.9 - 0.2j, 1.2, 1.24j, 1.592, -2.5 + 1j, 0.45 + 1e-6j, 30 - 5j]
+)
 def test_potential_derivative_is_the_derivative(case: Potential, z: complex) -> None:
     exact = mp.diff(lambda w: case.potential(w, lib=mp), mp.mpc(z), h=mp.mpf("1e-16"))
     value = case.module.potential_derivative(z, **case.given)
@@ -357,7 +385,9 @@ def test_potential_derivative_is_the_derivative(case: Potential, z: complex) -> 
 
 @whole_potential
 @pytest.mark.parametrize("side", [+1, -1])
-def test_potential_derivative_on_the_contact_is_the_limit_from_its_side(case: Potential, side: int) -> None:
+def test_potential_derivative_on_the_contact_is_the_limit_from_its_side(
+    case: Potential, side: int
+) -> None:
     x, depth = inside(case), 1e-14
     on_contact = case.module.potential_derivative(x, **case.given, side=side)
     beside = case.module.potential_derivative(x + 1j * side * depth, **case.given)
@@ -379,14 +409,27 @@ def plain_potential(z: complex, contact: Rounded) -> tuple[Any, Any]:
     v, tau = deep.sqrt(w + b) / deep.sqrt(w - b), deep.sqrt((b - a) / (b + a))
     right, left, theta = deep.atan(tau * v), deep.atan(tau / v), 2 * deep.atan(tau)
     root = deep.sqrt(w - b) * deep.sqrt(w + b)
-    value, derivative = (w - a) * right + (w + a) * left - theta * root, right + left - theta * w / root
+    value, derivative = (
+        (w - a) * right + (w + a) * left - theta * root,
+        right + left - theta * w / root,
+    )
     return value / deep.pi, derivative / deep.pi
 
 
 @settings(max_examples=150, deadline=None)
-@given(rounded, st.sampled_from([-1, 0, 1]), tiny_to_one, st.floats(0.01, 0.99), st.sampled_from([0.01, 1.0, 300.0]))
-def test_rounded_potential_keeps_its_digits_near_and_far(contact: Rounded, end: int, distance: float, turn: float, scale: float) -> None:
-    z = end * float(contact.a) + scale * distance * complex(math.cos(math.pi * turn), math.sin(math.pi * turn))
+@given(
+    rounded,
+    st.sampled_from([-1, 0, 1]),
+    tiny_to_one,
+    st.floats(0.01, 0.99),
+    st.sampled_from([0.01, 1.0, 300.0]),
+)
+def test_rounded_potential_keeps_its_digits_near_and_far(
+    contact: Rounded, end: int, distance: float, turn: float, scale: float
+) -> None:
+    z = end * float(contact.a) + scale * distance * complex(
+        math.cos(math.pi * turn), math.sin(math.pi * turn)
+    )
     exact, _ = plain_potential(z, contact)
     value = deep.mpc(complex(rounded_flat.potential(z, **contact.given, **UNIT)))
     assert float(abs(value - exact) / abs(exact)) <= 1e-13
@@ -394,7 +437,9 @@ def test_rounded_potential_keeps_its_digits_near_and_far(contact: Rounded, end: 
 
 @settings(max_examples=150, deadline=None)
 @given(rounded, st.sampled_from([-1, 1]), tiny_to_one, st.floats(0.01, 0.99))
-def test_rounded_potential_derivative_keeps_its_digits_near_the_rim(contact: Rounded, end: int, distance: float, turn: float) -> None:
+def test_rounded_potential_derivative_keeps_its_digits_near_the_rim(
+    contact: Rounded, end: int, distance: float, turn: float
+) -> None:
     """Near the rim; at z = 0, where Fp' vanishes, its digits are those of its size around."""
     a, d = float(contact.a), contact.rim
     z = end * a + d * distance * complex(math.cos(math.pi * turn), math.sin(math.pi * turn))
@@ -404,12 +449,21 @@ def test_rounded_potential_derivative_keeps_its_digits_near_the_rim(contact: Rou
     assert float(abs(value - exact) / max(abs(exact), abs(around))) <= 1e-13
 
 
-@given(st.floats(0.001, 0.99), st.sampled_from([-1, 1]), st.sampled_from([5e-324, 1e-300, 1e-200, 1e-100]))
-def test_potentials_next_to_the_surface_are_those_of_their_side(distance: float, half: int, depth: float) -> None:
+@given(
+    st.floats(0.001, 0.99),
+    st.sampled_from([-1, 1]),
+    st.sampled_from([5e-324, 1e-300, 1e-200, 1e-100]),
+)
+def test_potentials_next_to_the_surface_are_those_of_their_side(
+    distance: float, half: int, depth: float
+) -> None:
     x = half * distance
     for case in POTENTIALS:
         for side in (+1, -1):
-            value, limit = case.potential(complex(x, side * depth), side=-side), case.potential(x, side=side)
+            value, limit = (
+                case.potential(complex(x, side * depth), side=-side),
+                case.potential(x, side=side),
+            )
             assert abs(value - limit) <= 16 * EPS * abs(limit)
 
 
@@ -422,7 +476,9 @@ def test_the_sign_of_a_floating_zero_means_nothing(case: Potential) -> None:
 # --- the other indenters --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("m", [1.0, 1.0 + 1e-9, 1.2, 1.7, 2.0, 2.5, 3.0, 3.0 + 1e-10, 4.0, 7.3, 40.0])
+@pytest.mark.parametrize(
+    "m", [1.0, 1.0 + 1e-9, 1.2, 1.7, 2.0, 2.5, 3.0, 3.0 + 1e-10, 4.0, 7.3, 40.0]
+)
 def test_power_pressure_superposes_rigid_flats(m: float) -> None:
     x = np.array([1e-200, 1e-9, 0.3, 0.70710678, 0.7072, 0.99, 1 - 1e-13])
     found = power.pressure(x, half_width=1.0, exponent=m, coefficient=1.0, modulus=1.0)
@@ -432,7 +488,9 @@ def test_power_pressure_superposes_rigid_flats(m: float) -> None:
         # s = xi cosh(t): the integrand is smooth, over hundreds of units of t
         end = coarse.acosh(1 / mp.mpf(xi))
         panels = coarse.linspace(0, end, 2 + int(end / 4))
-        total = coarse.quad(lambda t: (xi * coarse.cosh(t)) ** (m - 1), panels, method="gauss-legendre")
+        total = coarse.quad(
+            lambda t: (xi * coarse.cosh(t)) ** (m - 1), panels, method="gauss-legendre"
+        )
         return m * m * wallis / coarse.pi * total
 
     assert relative(found, [exact(xi) for xi in x.tolist()]) <= 20 * EPS
@@ -441,19 +499,25 @@ def test_power_pressure_superposes_rigid_flats(m: float) -> None:
 @pytest.mark.parametrize("m", [1.5, 2.0, 3.0, 6.0])
 def test_power_pressure_at_the_centre_is_finite_and_known(m: float) -> None:
     given = {"half_width": 2.0, "exponent": m, "coefficient": 0.3, "modulus": 5.0}
-    assert power.pressure(0.0, **given) == pytest.approx(m * power.load(**given) / (math.pi * 2.0 * (m - 1)), rel=8 * EPS)
+    assert power.pressure(0.0, **given) == pytest.approx(
+        m * power.load(**given) / (math.pi * 2.0 * (m - 1)), rel=8 * EPS
+    )
 
 
 def test_power_one_is_the_wedge() -> None:
     x = np.linspace(-1.2, 1.2, 49)
     found = power.pressure(x, half_width=1.0, exponent=1, coefficient=0.2, modulus=3.0)
-    np.testing.assert_allclose(found, wedge.pressure(x, half_width=1.0, slope=0.2, modulus=3.0), rtol=12 * EPS, atol=0)
+    np.testing.assert_allclose(
+        found, wedge.pressure(x, half_width=1.0, slope=0.2, modulus=3.0), rtol=12 * EPS, atol=0
+    )
 
 
 def test_power_two_is_the_parabola() -> None:
     x = np.linspace(-1.2, 1.2, 49)
     found = power.pressure(x, half_width=1.0, exponent=2, coefficient=0.25, modulus=3.0)
-    np.testing.assert_allclose(found, hertz.pressure(x, half_width=1.0, radius=2.0, modulus=3.0), rtol=8 * EPS, atol=0)
+    np.testing.assert_allclose(
+        found, hertz.pressure(x, half_width=1.0, radius=2.0, modulus=3.0), rtol=8 * EPS, atol=0
+    )
 
 
 class Loaded(NamedTuple):
@@ -475,7 +539,10 @@ every_loaded = pytest.mark.parametrize("case", LOADED, ids=lambda case: case.mod
 def test_load_is_the_integral_of_the_pressure(case: Loaded) -> None:
     given = {**case.shape, "modulus": 3.0, "half_width": 1.0, "lib": coarse}
     kink = coarse.asin(case.shape.get("half_flat", 0.0))
-    half = coarse.quad(lambda phi: case.module.pressure(coarse.sin(phi), **given) * coarse.cos(phi), [0, kink, coarse.pi / 2])
+    half = coarse.quad(
+        lambda phi: case.module.pressure(coarse.sin(phi), **given) * coarse.cos(phi),
+        [0, kink, coarse.pi / 2],
+    )
     assert abs(2 * half / case.module.load(**given) - 1) < 1e-15
 
 
@@ -487,7 +554,9 @@ def test_half_width_is_the_inverse_of_load(case: Loaded) -> None:
     np.testing.assert_allclose(found, b, rtol=8 * EPS, atol=0)
 
 
-@pytest.mark.parametrize("case", [c for c in LOADED if c.module is not wedge], ids=lambda case: case.module.__name__)
+@pytest.mark.parametrize(
+    "case", [c for c in LOADED if c.module is not wedge], ids=lambda case: case.module.__name__
+)
 def test_slope_is_the_derivative_of_the_height(case: Loaded) -> None:
     x, shape = mp.mpf("0.7"), {**case.shape, "lib": mp}
     for side in (+1, -1):
@@ -501,7 +570,12 @@ def test_flat_pressure_carries_load_and_moment(part: float, b: float) -> None:
     """∫ p and ∫ p x by Gauss-Chebyshev quadrature, exact for p sqrt(b² - x²) linear."""
     P, M = 3.0, part * 3.0 * b / 2
     x = b * np.array([-math.sqrt(0.5), math.sqrt(0.5)])
-    p = flat.pressure(x, half_width=b, normal_load=P, moment=M) * np.sqrt(b * b - x * x) * math.pi / 2
+    p = (
+        flat.pressure(x, half_width=b, normal_load=P, moment=M)
+        * np.sqrt(b * b - x * x)
+        * math.pi
+        / 2
+    )
     assert p.sum() == pytest.approx(P, rel=8 * EPS)
     assert (p * x).sum() == pytest.approx(M, rel=0, abs=8 * EPS * P * b)
 
@@ -546,8 +620,12 @@ def test_partial_flat_tilt_and_moment_are_inverse(part: float, sign: int) -> Non
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_complete_and_partial_flat_meet_at_lift_off(sign: int) -> None:
     x, given = np.linspace(-1, 1, 9), {"half_width": 1.0, "normal_load": 2.0, "moment": sign * 1.0}
-    np.testing.assert_allclose(flat.partial_pressure(x, **given), flat.pressure(x, **given), rtol=8 * EPS, atol=0)
-    assert flat.partial_tilt(**given, modulus=3.0) == pytest.approx(flat.tilt(**given, modulus=3.0), rel=4 * EPS)
+    np.testing.assert_allclose(
+        flat.partial_pressure(x, **given), flat.pressure(x, **given), rtol=8 * EPS, atol=0
+    )
+    assert flat.partial_tilt(**given, modulus=3.0) == pytest.approx(
+        flat.tilt(**given, modulus=3.0), rel=4 * EPS
+    )
 
 
 # --- what holds for all ---------------------------------------------------------------------------------------------
@@ -577,7 +655,9 @@ def test_at_its_apex_the_potential_of_a_wedge_has_no_slope_and_infinite_pressure
 
 @pytest.mark.parametrize("side", [+1, -1])
 @pytest.mark.parametrize(("x", "beside"), [(0.0, 1e-200), (1.0, 1.0 - EPS), (-1.0, EPS - 1.0)])
-def test_where_the_pressure_of_a_wedge_is_infinitely_steep_its_sign_is_that_next_to_it(x: float, beside: float, side: int) -> None:
+def test_where_the_pressure_of_a_wedge_is_infinitely_steep_its_sign_is_that_next_to_it(
+    x: float, beside: float, side: int
+) -> None:
     steep = wedge.potential_derivative(x, **WEDGE, side=side).imag
     assert steep == np.inf * np.sign(wedge.potential_derivative(beside, **WEDGE, side=side).imag)
 
@@ -599,7 +679,10 @@ CALLS: list[tuple[Callable[..., Any], dict[str, Any]]] = [
             (rounded_flat.potential_derivative, {"z": 0.2}),
         )
     ),
-    (rounded_flat.half_width, {"normal_load": 0.7, "half_flat": 0.3, "radius": 2.0, "modulus": 3.0}),
+    (
+        rounded_flat.half_width,
+        {"normal_load": 0.7, "half_flat": 0.3, "radius": 2.0, "modulus": 3.0},
+    ),
     (rounded_flat.rim, {"normal_load": 1e-15, "half_flat": 0.3, "radius": 2.0, "modulus": 3.0}),
     (hertz.height, {"x": 0.7, "radius": 2.0}),
     (hertz.slope, {"x": 0.7, "radius": 2.0}),
@@ -622,7 +705,11 @@ CALLS: list[tuple[Callable[..., Any], dict[str, Any]]] = [
     *(
         (function, {**place, "half_width": 1.1, "exponent": m, "coefficient": 0.2, "modulus": 3.0})
         for m in (1.5, 3.0, 6.2)
-        for function, place in ((power.pressure, {"x": 0.2}), (power.pressure, {"x": 0.9}), (power.load, {}))
+        for function, place in (
+            (power.pressure, {"x": 0.2}),
+            (power.pressure, {"x": 0.9}),
+            (power.load, {}),
+        )
     ),
     (power.half_width, {"normal_load": 0.7, "exponent": 2.5, "coefficient": 0.2, "modulus": 3.0}),
     (power.height, {"x": -0.7, "exponent": 2.5, "coefficient": 0.2}),
@@ -652,7 +739,9 @@ CALLS: list[tuple[Callable[..., Any], dict[str, Any]]] = [
 
 
 def over_calls(calls: list[tuple[Callable[..., Any], dict[str, Any]]]) -> Any:
-    return pytest.mark.parametrize(("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls])
+    return pytest.mark.parametrize(
+        ("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls]
+    )
 
 
 every_call = over_calls(CALLS)
@@ -673,7 +762,9 @@ def test_numpy_and_mpmath_agree(function: Callable[..., Any], given: dict[str, A
 
 
 @every_call
-def test_a_context_gives_all_its_digits_and_leaves_the_global_one_alone(function: Callable[..., Any], given: dict[str, Any]) -> None:
+def test_a_context_gives_all_its_digits_and_leaves_the_global_one_alone(
+    function: Callable[..., Any], given: dict[str, Any]
+) -> None:
     before = mpmath.mp.dps
     value, exact = positional(function, given, lib=mp), positional(function, given, lib=deep)
     assert mpmath.mp.dps == before
@@ -683,7 +774,10 @@ def test_a_context_gives_all_its_digits_and_leaves_the_global_one_alone(function
 @every_call
 def test_arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -> None:
     scalars = {name: value for name, value in given.items() if name != "exponent"}
-    grown = {name: np.full((3, 1) if i % 2 else 4, value) for i, (name, value) in enumerate(scalars.items())}
+    grown = {
+        name: np.full((3, 1) if i % 2 else 4, value)
+        for i, (name, value) in enumerate(scalars.items())
+    }
     grid = positional(function, {**given, **grown})
     expected = np.shape(np.broadcast_arrays(*grown.values())[0])
     assert np.shape(grid) == expected
@@ -693,14 +787,25 @@ def test_arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -
 
 @pytest.mark.parametrize("length", [1e-100, 1e100])
 @pytest.mark.parametrize("stress", [1e-100, 1e100])
-@over_calls([call for call in CALLS if call[1].get("exponent", 1) <= 3])  # beyond, C itself is out of a double's range
-def test_results_scale_with_lengths_and_moduli(function: Callable[..., Any], given: dict[str, Any], length: float, stress: float) -> None:
+@over_calls(
+    [call for call in CALLS if call[1].get("exponent", 1) <= 3]
+)  # beyond, C itself is out of a double's range
+def test_results_scale_with_lengths_and_moduli(
+    function: Callable[..., Any], given: dict[str, Any], length: float, stress: float
+) -> None:
     m = given.get("exponent", 1.0)
     unit = dict.fromkeys(LENGTHS, length) | {"modulus": stress, "normal_load": stress * length}
     unit |= {"moment": stress * length * length, "coefficient": length ** (1 - m)}
-    value = positional(function, {name: number * unit.get(name, 1.0) for name, number in given.items()})
+    value = positional(
+        function, {name: number * unit.get(name, 1.0) for name, number in given.items()}
+    )
     kind = function.__name__.removeprefix("partial_")
-    by = {"pressure": stress, "peak_pressure": stress, "potential": stress, "potential_derivative": stress / length}
+    by = {
+        "pressure": stress,
+        "peak_pressure": stress,
+        "potential": stress,
+        "potential_derivative": stress / length,
+    }
     by |= {"load": stress * length, "moment": stress * length * length, "slope": 1.0, "tilt": 1.0}
     expected = positional(function, given) * by.get(kind, length)
     assert abs(value - expected) <= 200 * EPS * abs(expected) + sensitivity(given, expected)
@@ -708,7 +813,11 @@ def test_results_scale_with_lengths_and_moduli(function: Callable[..., Any], giv
 
 def sensitivity(given: dict[str, Any], expected: Any) -> float:
     """What the rounding of scaled positions costs next to a thin rim, where x - a and b - x are known to eps a only."""
-    return float(20 * EPS * given["half_flat"] / given["rim"] * abs(expected)) if "rim" in given else 0.0
+    return (
+        float(20 * EPS * given["half_flat"] / given["rim"] * abs(expected))
+        if "rim" in given
+        else 0.0
+    )
 
 
 BAD_VALUES = [math.nan, math.inf, -math.inf, 0.0, -1.0, "one", None, 1j]
@@ -716,7 +825,9 @@ BAD_VALUES = [math.nan, math.inf, -math.inf, 0.0, -1.0, "one", None, 1j]
 
 @every_call
 @pytest.mark.parametrize("lib", [np, mp], ids=["numpy", "mpmath"])
-def test_bad_numbers_are_refused_by_name_and_with_a_remedy(function: Callable[..., Any], given: dict[str, Any], lib: Any) -> None:
+def test_bad_numbers_are_refused_by_name_and_with_a_remedy(
+    function: Callable[..., Any], given: dict[str, Any], lib: Any
+) -> None:
     for name in given:
         for bad in BAD_VALUES:
             if not is_good(name, bad):

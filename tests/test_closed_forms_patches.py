@@ -28,7 +28,9 @@ def test_two_flats_solve_their_equation(x: float, moment: float) -> None:
     assert abs(own + other - mp.mpf(3) / 2 * tilt) < 1e-22
 
 
-@pytest.mark.parametrize(("inner", "outer", "part"), [(1.0, 2.0, 0.2), (0.01, 2.0, 0.7), (1.0, 1.001, 0.7)])
+@pytest.mark.parametrize(
+    ("inner", "outer", "part"), [(1.0, 2.0, 0.2), (0.01, 2.0, 0.7), (1.0, 1.001, 0.7)]
+)
 def test_two_parabolas_solve_their_equation(inner: float, outer: float, part: float) -> None:
     ends = {"inner": inner, "outer": outer}
 
@@ -37,7 +39,9 @@ def test_two_parabolas_solve_their_equation(inner: float, outer: float, part: fl
 
     own, at = principal_value(p, inner + part * (outer - inner), (inner, outer))
     other = resultant(p, (inner, outer), lambda t: 1 / (at + t)) / mp.pi
-    slope = two_parabolas.slope(at, distance=two_parabolas.distance(**ends, lib=mp), radius=2, lib=mp)
+    slope = two_parabolas.slope(
+        at, distance=two_parabolas.distance(**ends, lib=mp), radius=2, lib=mp
+    )
     assert abs(own + other - mp.mpf(3) / 2 * slope) < 1e-25
 
 
@@ -45,11 +49,17 @@ def test_two_parabolas_solve_their_equation(inner: float, outer: float, part: fl
 def test_wave_and_row_of_flats_solve_their_equations(x: float) -> None:
     """1/(x-t) and the smooth rest of (pi/L) cot(pi (x-t)/L)."""
     for p, slope in (
-        (lambda t: wavy.pressure(t, **WAVE, lib=mp), lambda t: mp.mpf(5) / 2 * wavy.slope(t, wavelength=2, amplitude=0.3, lib=mp)),
+        (
+            lambda t: wavy.pressure(t, **WAVE, lib=mp),
+            lambda t: mp.mpf(5) / 2 * wavy.slope(t, wavelength=2, amplitude=0.3, lib=mp),
+        ),
         (lambda t: flat_row.pressure(t, **ROW, lib=mp), lambda t: 0),
     ):
         own, at = principal_value(p, x, (-mp.mpf(0.6), mp.mpf(0.6)))
-        kernel = lambda t: mp.pi / 2 * mp.cot(mp.pi * (at - t) / 2) - 1 / (at - t) if t != at else mp.zero  # noqa: B023, E731
+
+        def kernel(t, at=at):
+            return mp.pi / 2 * mp.cot(mp.pi * (at - t) / 2) - 1 / (at - t) if t != at else mp.zero
+
         others = resultant(p, (-mp.mpf(0.6), at, mp.mpf(0.6)), kernel) / mp.pi
         assert abs(own + others - slope(at)) < 1e-22
 
@@ -95,8 +105,13 @@ def test_two_parabolas_carry_their_load(inner: float, outer: float) -> None:
 
 @pytest.mark.parametrize("load", [1e-20, 1e-3, 1.0, 30.0, 1e4])
 def test_edges_of_two_parabolas_invert_load_and_distance(load: float) -> None:
-    c1, c2 = two_parabolas.edges(normal_load=load, distance=1.0, radius=2.0, modulus=3.0, lib=coarse)
-    assert abs(two_parabolas.load(inner=c1, outer=c2, radius=2, modulus=3, lib=coarse) / load - 1) < 1e-18
+    c1, c2 = two_parabolas.edges(
+        normal_load=load, distance=1.0, radius=2.0, modulus=3.0, lib=coarse
+    )
+    assert (
+        abs(two_parabolas.load(inner=c1, outer=c2, radius=2, modulus=3, lib=coarse) / load - 1)
+        < 1e-18
+    )
     assert abs(two_parabolas.distance(inner=c1, outer=c2, lib=coarse) - 1) < 1e-28
     near, far = two_parabolas.edges(normal_load=load, distance=1.0, radius=2.0, modulus=3.0)
     conditioning = 4 * math.log(c2 / c1) + 4  # how ln c1 answers to ln P
@@ -105,14 +120,24 @@ def test_edges_of_two_parabolas_invert_load_and_distance(load: float) -> None:
 
 def test_wave_and_row_of_flats_carry_their_mean_pressure() -> None:
     ends = (-mp.mpf(0.6), mp.mpf(0.6))
-    assert abs(resultant(lambda t: wavy.pressure(t, **WAVE, lib=mp), ends) / 2 / wavy.mean_pressure(**WAVE, lib=mp) - 1) < 1e-25
+    assert (
+        abs(
+            resultant(lambda t: wavy.pressure(t, **WAVE, lib=mp), ends)
+            / 2
+            / wavy.mean_pressure(**WAVE, lib=mp)
+            - 1
+        )
+        < 1e-25
+    )
     assert abs(resultant(lambda t: flat_row.pressure(t, **ROW, lib=mp), ends) / 2 - 5) < 1e-22
 
 
 @pytest.mark.parametrize("a", [1e-9, 0.3, 0.999999, 1.0])
 def test_half_width_of_the_wave_inverts_the_mean_pressure(a: float) -> None:
     shape = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
-    assert wavy.half_width(mean_pressure=wavy.mean_pressure(half_width=a, **shape), **shape) == pytest.approx(a, rel=1e-9)
+    assert wavy.half_width(
+        mean_pressure=wavy.mean_pressure(half_width=a, **shape), **shape
+    ) == pytest.approx(a, rel=1e-9)
     exact = wavy.mean_pressure(half_width=mp.mpf(a), **shape, lib=mp)
     assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
 
@@ -147,7 +172,13 @@ def test_potentials_tend_to_their_side_of_the_contact_and_have_the_slope_there(s
         (wavy.potential, WAVE, 6.2),
         (flat_row.potential, ROW, -4.3),
     ):
-        assert abs(function(x, **given, side=side, lib=mp) - function(mp.mpf(x) + step, **given, lib=mp)) < 1e-35
+        assert (
+            abs(
+                function(x, **given, side=side, lib=mp)
+                - function(mp.mpf(x) + step, **given, lib=mp)
+            )
+            < 1e-35
+        )
     slope = wavy.slope(6.2, wavelength=2.0, amplitude=0.3)
     assert wavy.potential(6.2, **WAVE, side=side).real == pytest.approx(2.5 * slope, rel=1e-13)
 
@@ -155,8 +186,12 @@ def test_potentials_tend_to_their_side_of_the_contact_and_have_the_slope_there(s
 @pytest.mark.parametrize("height", [3.0, 90.0, 1e9])
 def test_far_from_the_surface_the_potential_of_a_row_is_its_mean_pressure(height: float) -> None:
     mean = wavy.mean_pressure(**WAVE)
-    assert wavy.potential(0.3 + 1j * height, **WAVE) == pytest.approx(-1j * mean, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS)
-    assert flat_row.potential(0.3 - 1j * height, **ROW) == pytest.approx(5j, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS)
+    assert wavy.potential(0.3 + 1j * height, **WAVE) == pytest.approx(
+        -1j * mean, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS
+    )
+    assert flat_row.potential(0.3 - 1j * height, **ROW) == pytest.approx(
+        5j, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS
+    )
 
 
 # --- limits ---------------------------------------------------------------------------------------------------------
@@ -181,14 +216,18 @@ def test_a_lightly_loaded_parabola_does_not_feel_its_neighbour() -> None:
     b = hertz.half_width(normal_load=1e-8, radius=1.0, modulus=1.0)
     assert (c2 - c1) / 2 == pytest.approx(b, rel=1e-7)
     peak = two_parabolas.pressure((c1 + c2) / 2, inner=c1, outer=c2, radius=1.0, modulus=1.0)
-    assert peak == pytest.approx(hertz.peak_pressure(half_width=b, radius=1.0, modulus=1.0), rel=1e-7)
+    assert peak == pytest.approx(
+        hertz.peak_pressure(half_width=b, radius=1.0, modulus=1.0), rel=1e-7
+    )
 
 
 def test_a_long_wave_is_a_parabola_and_a_sparse_row_one_flat() -> None:
     x, L = np.linspace(-0.9, 0.9, 7), 1e5
     radius = 1.0 / (4 * math.pi**2 * 0.3 / L**2)
     wave = wavy.pressure(x, half_width=1.0, wavelength=L, amplitude=0.3, modulus=5.0)
-    np.testing.assert_allclose(wave, hertz.pressure(x, half_width=1.0, radius=radius, modulus=5.0), rtol=1e-8)
+    np.testing.assert_allclose(
+        wave, hertz.pressure(x, half_width=1.0, radius=radius, modulus=5.0), rtol=1e-8
+    )
     row = flat_row.pressure(x, half_width=1.0, period=L, mean_pressure=2.0 / L)
     np.testing.assert_allclose(row, flat.pressure(x, half_width=1.0, normal_load=2.0), rtol=1e-8)
 
@@ -196,21 +235,29 @@ def test_a_long_wave_is_a_parabola_and_a_sparse_row_one_flat() -> None:
 def test_partial_and_complete_contact_of_the_wave_meet() -> None:
     x, shape = np.linspace(-3, 3, 31), {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
     whole = wavy.complete_pressure(x, mean_pressure=wavy.closing_pressure(**shape), **shape)
-    np.testing.assert_allclose(wavy.pressure(x, half_width=1.0, **shape), whole, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(
+        wavy.pressure(x, half_width=1.0, **shape), whole, rtol=1e-13, atol=1e-13
+    )
 
 
 def test_cracks_far_from_others_and_with_thin_bridges() -> None:
-    assert cracks.pair(inner=1e9, outer=1e9 + 2, tension=3.0) == pytest.approx((3 * math.sqrt(math.pi),) * 2, rel=1e-8)
+    assert cracks.pair(inner=1e9, outer=1e9 + 2, tension=3.0) == pytest.approx(
+        (3 * math.sqrt(math.pi),) * 2, rel=1e-8
+    )
     merged = cracks.pair(inner=1e-300, outer=1.0, tension=3.0)[1]  # D/K -> 1 - 1/ln(4b/a)
     assert merged == pytest.approx(3 * math.sqrt(math.pi) * (1 - 1 / math.log(4e300)), rel=8 * EPS)
-    assert cracks.row(half_length=1e-9, period=1.0, tension=3.0) == pytest.approx(3 * math.sqrt(math.pi * 1e-9), rel=8 * EPS)
+    assert cracks.row(half_length=1e-9, period=1.0, tension=3.0) == pytest.approx(
+        3 * math.sqrt(math.pi * 1e-9), rel=8 * EPS
+    )
 
 
 def test_a_row_of_cracks_is_a_row_of_flats_with_the_sign_changed() -> None:
     """The bridges W - 2a carry what flats of their width would: K_I = lim sqrt(2 pi r) p at their corners."""
     r, W, a = 1e-12, 2.0, 0.7
     p = flat_row.pressure((W / 2 - a) - r, half_width=W / 2 - a, period=W, mean_pressure=3.0)
-    assert math.sqrt(2 * math.pi * r) * p == pytest.approx(cracks.row(half_length=a, period=W, tension=3.0), rel=1e-3)
+    assert math.sqrt(2 * math.pi * r) * p == pytest.approx(
+        cracks.row(half_length=a, period=W, tension=3.0), rel=1e-3
+    )
 
 
 # --- what holds for all ---------------------------------------------------------------------------------------------
@@ -220,12 +267,18 @@ CALLS: list[Call] = [
     *((two_flats.pressure, {"x": x, **FLATS, "moment": -2.0}) for x in (1.0001, -1.5, 1.999)),
     (two_flats.largest_moment, FLATS),
     (two_flats.tilt, {**FLATS, "moment": -2.0, "modulus": 3.0}),
-    *((two_flats.potential, {"z": z, **FLATS, "moment": -2.0}) for z in (0.3, 1.2, 0.3 + 0.1j, -1.4 - 2j, 3e5 + 5j)),
+    *(
+        (two_flats.potential, {"z": z, **FLATS, "moment": -2.0})
+        for z in (0.3, 1.2, 0.3 + 0.1j, -1.4 - 2j, 3e5 + 5j)
+    ),
     (two_parabolas.height, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
     (two_parabolas.slope, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
     (two_parabolas.distance, {"inner": 0.1, "outer": 2.0}),
     (two_parabolas.load, PARABOLAS),
-    *((two_parabolas.edges, {"normal_load": P, "distance": 1.5, "radius": 2.0, "modulus": 3.0}) for P in (1e-12, 1.0, 20.0)),
+    *(
+        (two_parabolas.edges, {"normal_load": P, "distance": 1.5, "radius": 2.0, "modulus": 3.0})
+        for P in (1e-12, 1.0, 20.0)
+    ),
     *((two_parabolas.pressure, {"x": x, **PARABOLAS}) for x in (1.0001, -1.4, 1.999)),
     (wavy.height, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
     (wavy.slope, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
@@ -254,14 +307,20 @@ def test_pressure_is_zero_beside_the_patches_and_infinite_at_sharp_corners_only(
 def test_a_corner_about_to_lift_carries_nothing() -> None:
     M = two_flats.largest_moment(**FLATS)
     assert two_flats.pressure(-2.0, **FLATS, moment=M) == 0
-    assert two_flats.pressure(-1.9999, **FLATS, moment=M) < 0.01 < two_flats.pressure(-1.9999, **FLATS)
+    assert (
+        two_flats.pressure(-1.9999, **FLATS, moment=M) < 0.01 < two_flats.pressure(-1.9999, **FLATS)
+    )
 
 
 @pytest.mark.parametrize("lib", [np, mp])
 def test_nonsense_is_refused(lib) -> None:
     with pytest.raises(ValueError, match=r"\|moment\| = .* exceeds largest_moment = .*lifts off"):
         two_flats.pressure(0.0, **FLATS, moment=9.0, lib=lib)
-    for function, rest in ((two_flats.largest_moment, {"normal_load": 1.0}), (two_parabolas.distance, {}), (cracks.pair, {"tension": 1.0})):
+    for function, rest in (
+        (two_flats.largest_moment, {"normal_load": 1.0}),
+        (two_parabolas.distance, {}),
+        (cracks.pair, {"tension": 1.0}),
+    ):
         with pytest.raises(ValueError, match=r"outer = 1\.0 is not more than inner = 2\.0"):
             function(inner=2.0, outer=1.0, **rest, lib=lib)
     with pytest.raises(ValueError, match="touch everywhere"):

@@ -7,19 +7,14 @@ import numpy as np
 import pytest
 
 import sie
-from sie import (
-    adaptive,
-    chebyshev,
-    composite,
-    edges,
-    growth,
-    interval,
-    normal,
-    solution,
-    touch,
-    widest,
-)
-from sie.slope_density import SlopeDensity
+from sie import solution
+from sie.certificate import quadrature
+from sie.contact import edges, normal, widest
+from sie.friction import dissipation
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.profiles import lowest_points, resolution
+from sie.traction.of_slope import SlopeDensity
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
 SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
@@ -58,17 +53,25 @@ def test_a_piecewise_polynomial_slope_needs_no_transform():
     assert not transforms
 
 
-@pytest.mark.parametrize(("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)])
+@pytest.mark.parametrize(
+    ("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)]
+)
 def test_the_edges_of_a_symmetric_profile_take_a_few_evaluations(profile, most):
     assert sie.solve(scene(profile)).normal.edges.evaluations <= most
 
 
 def test_given_the_half_width_nothing_is_searched():
-    assert sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations == 1
+    assert (
+        sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations
+        == 1
+    )
 
 
 def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
-    convex, wavy = sie.FromFunction(np.sinh, domain=(-3.0, 3.0)), sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0))
+    convex, wavy = (
+        sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
+        sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0)),
+    )
     with counted(solution, "verify_inequalities") as scans:
         assert sie.solve(scene(convex)).half_width > 0.0
         assert not scans
@@ -103,7 +106,7 @@ def test_full_sliding_of_similar_bodies_is_no_second_solve():
 
 
 def test_a_cauchy_equation_without_kernel_builds_no_matrix():
-    from sie import system  # noqa: PLC0415
+    from sie.cauchy import system  # noqa: PLC0415
 
     with counted(system.System, "matrix") as matrices:
         sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()
@@ -118,7 +121,10 @@ def test_the_counter_counts():
 
 
 def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
-    patterns, found = pytestconfig.getini("python_files"), [*(pytestconfig.rootpath / "benchmarks").glob("*.py")]
+    patterns, found = (
+        pytestconfig.getini("python_files"),
+        [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
+    )
     assert found
     for path in found:
         assert any(path.match(pattern) for pattern in patterns)
@@ -152,7 +158,7 @@ def test_small_steps_of_an_oblique_path_share_their_panels():
     loads = np.stack((0.4 * steps, 0.05 * steps * (-1.0) ** np.arange(200)), axis=1)
     path = sie.Path(loads.tolist())
     history = sie.follow(scene(PUNCH, friction=0.5), path)
-    with counted(growth.Growth, "_resolved") as panels:
+    with counted(dissipation.Growth, "_resolved") as panels:
         assert history[-1].energy_lost > 0.0
     assert len(panels) <= 20
 
@@ -180,7 +186,10 @@ def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double(
         calls.append(1)
         return x + np.where(x < 0.0, -0.1, 0.2)
 
-    assert touch.lowest_points(sie.FromFunction(slope, domain=(-1.0, 0.9)).pieces) == (0.0, 0.0)
+    assert lowest_points.lowest_points(sie.FromFunction(slope, domain=(-1.0, 0.9)).pieces) == (
+        0.0,
+        0.0,
+    )
     assert len(calls) <= 20
 
 
@@ -198,14 +207,14 @@ def test_the_rule_over_a_sum_of_powers_grows_with_their_number_alone():
         total = sie.Power(1.5, 0.01)
         for k in range(1, powers):
             total = total + sie.Power(1.5, 0.01).shifted(k / powers)
-        return len(composite.composite_rule(interval.Interval(-0.5, 1.5), total.pieces).x)
+        return len(quadrature.composite_rule(Interval(-0.5, 1.5), total.pieces).x)
 
-    assert nodes(20) <= 20 * 64 * composite.NODES
+    assert nodes(20) <= 20 * 64 * quadrature.NODES
 
 
 def test_the_gap_under_a_function_is_resolved_from_half_widths_outwards():
     solved = sie.solve(scene(sie.FromFunction("arctan(x) + x/10")))
     _ = solved.pressure
-    with counted(adaptive, "_degrees") as resolutions:
+    with counted(resolution, "_degrees") as resolutions:
         solved.check()
     assert len(resolutions) <= 30

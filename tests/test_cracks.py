@@ -21,11 +21,16 @@ mp.dps = 40
 
 def intensity_factors(density):
     """(left, right) of each crack."""
-    return [(-np.sqrt(2.0 * np.pi) * left, np.sqrt(2.0 * np.pi) * right) for left, right in density.intensities]
+    return [
+        (-np.sqrt(2.0 * np.pi) * left, np.sqrt(2.0 * np.pi) * right)
+        for left, right in density.intensities
+    ]
 
 
 def slit(half_length, pressure, centre=0.0, **question):
-    return sie.CauchyEquation((centre - half_length, centre + half_length), pressure, total=0.0, **question).solve()
+    return sie.CauchyEquation(
+        (centre - half_length, centre + half_length), pressure, total=0.0, **question
+    ).solve()
 
 
 # -- one crack --------------------------------------------------------------------------------------------------------
@@ -43,13 +48,18 @@ def test_a_slit_under_uniform_pressure(a, p):
 def test_a_slit_under_a_polynomial_load(coefficients):
     """K = 1/sqrt(πa) ∫ p sqrt((a + t)/(a - t)) dt (Green's function); ∫ s^m/sqrt(1 - s²) ds = π (m - 1)!!/m!! for even m; a = 2."""
     a = 2.0
-    even = [scipy.special.binom(m, m // 2) * 2.0**-m * np.pi if m % 2 == 0 else 0.0 for m in range(len(coefficients) + 1)]
+    even = [
+        scipy.special.binom(m, m // 2) * 2.0**-m * np.pi if m % 2 == 0 else 0.0
+        for m in range(len(coefficients) + 1)
+    ]
     right = sum(c * (even[m] + even[m + 1]) for m, c in enumerate(coefficients))
     left = sum(c * (even[m] - even[m + 1]) for m, c in enumerate(coefficients))
     size = np.sqrt(a / np.pi)
     density = slit(a, lambda x: np.polynomial.polynomial.polyval(x / a, coefficients))
     scale = max(1e-30, *map(abs, coefficients)) * size
-    assert intensity_factors(density)[0] == pytest.approx((size * left, size * right), abs=PROMISE * scale)
+    assert intensity_factors(density)[0] == pytest.approx(
+        (size * left, size * right), abs=PROMISE * scale
+    )
 
 
 @pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
@@ -70,7 +80,9 @@ def test_a_slit_under_a_point_load(place, height):
     """
     a, zeta = 1.0, mp.mpc(place, height)
     density = slit(a, lambda x: height / np.pi / ((x - place) ** 2 + height**2))
-    right, left = (-mp.im(mp.sqrt((z + a) / (z - a))) / mp.sqrt(mp.pi * a) for z in (zeta, -mp.conj(zeta)))
+    right, left = (
+        -mp.im(mp.sqrt((z + a) / (z - a))) / mp.sqrt(mp.pi * a) for z in (zeta, -mp.conj(zeta))
+    )
     assert intensity_factors(density)[0] == pytest.approx((float(left), float(right)), rel=PROMISE)
     if height == 0.01 and place == 0.0:
         assert float(right) == pytest.approx(1.0 / np.sqrt(np.pi * a), rel=0.02)
@@ -78,9 +90,13 @@ def test_a_slit_under_a_point_load(place, height):
 
 def test_a_load_as_narrow_as_a_point_costs_one_transform_of_40000_nodes():
     """The same load from a height of 1e-3: no matrix is built, which would hold 1.6e9 numbers."""
-    equation = sie.CauchyEquation((-1.0, 1.0), lambda x: 1e-3 / np.pi / ((x - 0.5) ** 2 + 1e-6), total=0.0)
+    equation = sie.CauchyEquation(
+        (-1.0, 1.0), lambda x: 1e-3 / np.pi / ((x - 0.5) ** 2 + 1e-6), total=0.0
+    )
     density, zeta = equation.solve(n=40_000), mp.mpc(0.5, 1e-3)
-    right, left = (float(-mp.im(mp.sqrt((z + 1) / (z - 1))) / mp.sqrt(mp.pi)) for z in (zeta, -mp.conj(zeta)))
+    right, left = (
+        float(-mp.im(mp.sqrt((z + 1) / (z - 1))) / mp.sqrt(mp.pi)) for z in (zeta, -mp.conj(zeta))
+    )
     assert intensity_factors(density)[0] == pytest.approx((left, right), rel=PROMISE)
     assert density.error < PROMISE
 
@@ -102,7 +118,9 @@ def willmore(a, b):
     m = (1 - a / b) * (1 + a / b)
     ratio = mp.ellipe(m) / mp.ellipk(m)
     root = mp.sqrt((b - a) * (b + a))
-    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (1 - ratio) / root
+    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (
+        1 - ratio
+    ) / root
 
 
 @pytest.mark.parametrize("ligament", [1.0, 1e-2, 1e-4, 1e-6, 1e-8])
@@ -128,7 +146,9 @@ def collinear(cracks):
     def rest(i, x):
         """Π over the other cracks, with φ's sign there."""
         sign = (-1) ** (n - 1 - i)
-        return sign / mp.sqrt(mp.fprod(abs((x - a) * (x - b)) for j, (a, b) in enumerate(tips) if j != i))
+        return sign / mp.sqrt(
+            mp.fprod(abs((x - a) * (x - b)) for j, (a, b) in enumerate(tips) if j != i)
+        )
 
     rows = []
     for i, (a, b) in enumerate(tips):
@@ -138,7 +158,10 @@ def collinear(cracks):
     found = []
     for i, (a, b) in enumerate(tips):
         factor = mp.sqrt(2 * mp.pi / (b - a))
-        left, right = (factor * (mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x) for x in (a, b))
+        left, right = (
+            factor * (mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x)
+            for x in (a, b)
+        )
         found.append((float(-left), float(right)))
     return found
 
@@ -158,7 +181,9 @@ CRACKS = [
 @pytest.mark.parametrize("cracks", CRACKS)
 def test_three_collinear_cracks_with_unequal_gaps(cracks):
     density = sie.CauchyEquation(cracks, 1.0, total=(0.0, 0.0, 0.0)).solve()
-    assert np.array(intensity_factors(density)) == pytest.approx(np.array(collinear(cracks)), rel=PROMISE)
+    assert np.array(intensity_factors(density)) == pytest.approx(
+        np.array(collinear(cracks)), rel=PROMISE
+    )
 
 
 @given(between(0.02, 0.98))

@@ -5,7 +5,9 @@ import pytest
 
 import sie
 
-SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.4)
+SCENE = sie.Scene(
+    profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.4
+)
 X, Y = np.linspace(-1.2, 1.2, 7), np.array([[0.0], [0.1], [0.5]])
 
 
@@ -27,7 +29,12 @@ def cycle():
     """Sliding to and fro, with a bulk stress in phase."""
     Q = 0.4 * 0.3
     states = [(Q, 0.02, 1.0), (-Q, -0.01, -3.0), (Q, 0.02, 1.0)]
-    return sie.Cycle([Moved(sie.solve(SCENE).with_(tangential_load=q, bulk_stress=s), slip) for q, s, slip in states])
+    return sie.Cycle(
+        [
+            Moved(sie.solve(SCENE).with_(tangential_load=q, bulk_stress=s), slip)
+            for q, s, slip in states
+        ]
+    )
 
 
 def test_the_history_holds_the_tensors_of_every_step(cycle):
@@ -43,7 +50,9 @@ def test_the_range_is_between_the_extremes(cycle):
     found, stresses = cycle.range(X, Y), [state.stress(X, Y) for state in cycle.states]
     for name in ("xx", "yy", "xy", "zz"):
         values = np.stack([getattr(s, name) for s in stresses])
-        assert (found[name].lowest == values.min(axis=0)).all() and (found[name].range == np.ptp(values, axis=0)).all()
+        assert (found[name].lowest == values.min(axis=0)).all() and (
+            found[name].range == np.ptp(values, axis=0)
+        ).all()
         assert found[name].mean + found[name].amplitude == pytest.approx(found[name].highest)
 
 
@@ -56,7 +65,9 @@ def test_no_plane_has_a_wider_range_of_shear_than_the_critical_one(cycle):
         return np.einsum("i...,...ij,j...->...", n, tensors, t)
 
     for theta in np.linspace(0.0, np.pi, 60):
-        assert (np.ptp(on_plane(np.full(widest.shape, theta)), axis=0) <= widest * (1 + 1e-12) + 1e-15).all()
+        assert (
+            np.ptp(on_plane(np.full(widest.shape, theta)), axis=0) <= widest * (1 + 1e-12) + 1e-15
+        ).all()
     assert np.ptp(on_plane(angle), axis=0) == pytest.approx(widest, rel=1e-12)
 
 
@@ -80,7 +91,9 @@ def test_in_plane_ranges_need_no_poisson_ratio():
     states = [sie.solve(scene).with_(tangential_load=q) for q in (0.12, -0.12)]
     cycle = sie.Cycle(states)
     assert cycle.range(X, Y).keys() == {"xx", "yy", "xy"}
-    assert (cycle.range(X, Y)["xx"].highest == np.maximum(*(s.stress(X, Y).xx for s in states))).all()
+    assert (
+        cycle.range(X, Y)["xx"].highest == np.maximum(*(s.stress(X, Y).xx for s in states))
+    ).all()
     assert cycle.shear_range(X, Y)[0].shape == (3, 7)
 
 
@@ -97,8 +110,12 @@ def test_a_path_in_parts_comes_to_the_same_states():
 
 
 def test_a_path_in_parts_shows_extremes_between_its_turning_points():
-    turning, parts = (sie.Cycle(sie.follow(SCENE, path)).range(X, Y)["xx"] for path in (PATH, PATH.subdivided(8)))
-    assert (parts.lowest <= turning.lowest + 1e-14).all() and (parts.highest >= turning.highest - 1e-14).all()
+    turning, parts = (
+        sie.Cycle(sie.follow(SCENE, path)).range(X, Y)["xx"] for path in (PATH, PATH.subdivided(8))
+    )
+    assert (parts.lowest <= turning.lowest + 1e-14).all() and (
+        parts.highest >= turning.highest - 1e-14
+    ).all()
     assert (parts.range > turning.range * (1.0 + 1e-3)).any()
 
 

@@ -54,7 +54,9 @@ def test_a_tilted_wedge_touches_where_its_two_flanks_say():
 
 def test_a_tilted_flat_lifts_off_at_the_moment_that_makes_one_edge_smooth():
     """p = (P + 2 M x/b²)/(π w): complete while |M| < P b/2, tilt = -4 M/(π E* b²)."""
-    complete = sie.solve(sie.Scene(profile=sie.Flat(2.0), modulus=3.0, normal_load=1.0, moment=0.999))
+    complete = sie.solve(
+        sie.Scene(profile=sie.Flat(2.0), modulus=3.0, normal_load=1.0, moment=0.999)
+    )
     assert complete.sharp == (True, True)
     assert complete.tilt == pytest.approx(-4 * 0.999 / (np.pi * 3.0 * 4.0), rel=PROMISE)
     lifted = complete.with_(moment=1.001)
@@ -63,20 +65,33 @@ def test_a_tilted_flat_lifts_off_at_the_moment_that_makes_one_edge_smooth():
 
 
 def test_a_half_width_is_met_to_the_last_digit():
-    for profile in (sie.Parabola(1.0), sie.RoundedFlat(0.1, 1.0), sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 3.0)))):
-        assert sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.3)).half_width == pytest.approx(0.3, rel=1e-15)
+    for profile in (
+        sie.Parabola(1.0),
+        sie.RoundedFlat(0.1, 1.0),
+        sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 3.0))),
+    ):
+        assert sie.solve(
+            sie.Scene(profile=profile, modulus=1.0, half_width=0.3)
+        ).half_width == pytest.approx(0.3, rel=1e-15)
 
 
 def test_a_half_width_below_that_of_the_flat_base_has_no_answer():
     """The whole flat touches under any load: no load gives less."""
-    for profile in (sie.RoundedFlat(1.0, 1.0), sie.Piecewise((-1.0, 1.0), ((1.0, 1.0), (0.0,), (-2.0, 2.0)))):
+    for profile in (
+        sie.RoundedFlat(1.0, 1.0),
+        sie.Piecewise((-1.0, 1.0), ((1.0, 1.0), (0.0,), (-2.0, 2.0))),
+    ):
         with pytest.raises(sie.ContactError, match=r"0\.5"):
             asked(sie.Scene(profile=profile, modulus=1.0, half_width=0.5))
 
 
 def test_a_half_width_beyond_that_of_the_indenter_has_no_answer():
     with pytest.raises(sie.LoadError, match=r"half-width 2\b.*1\.5"):
-        asked(sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-1.0, 2.0)), modulus=1.0, half_width=2.0))
+        asked(
+            sie.Scene(
+                profile=sie.FromFunction(np.sinh, domain=(-1.0, 2.0)), modulus=1.0, half_width=2.0
+            )
+        )
 
 
 @given(strategies.scenes())

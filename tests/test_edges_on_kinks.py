@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie import edges, normal, polish
-from sie.edges import Search
+from sie.contact import edge_refinement, edges, normal
+from sie.contact.edges import Search
 from validation import kinks
 from validation.kinks import Shape, Trial, mp
 
@@ -36,8 +36,12 @@ UNEQUAL = straight(
         [-1.209095426825833, 2.555887256164669], [-7.155678871675851, 5.895372269565693],
     ],
 )  # fmt: skip
-THIN_RIM = sie.Scene(profile=FLAT.profile, modulus=1.0, normal_load=0.04299531364007295, tilt=0.02583284228002516)
-STEEP = sie.Scene(profile=UNEQUAL.profile, modulus=1.0, normal_load=0.3357363415498418, tilt=-2.419532543582873)
+THIN_RIM = sie.Scene(
+    profile=FLAT.profile, modulus=1.0, normal_load=0.04299531364007295, tilt=0.02583284228002516
+)
+STEEP = sie.Scene(
+    profile=UNEQUAL.profile, modulus=1.0, normal_load=0.3357363415498418, tilt=-2.419532543582873
+)
 
 
 def test_an_edge_that_leaves_a_flat_base_beside_a_thin_rim_is_found():
@@ -60,7 +64,11 @@ def test_a_moment_is_met_where_tilting_moves_the_contact_across_a_straight_part_
         (-4.193920775974172, 2.5850516305798035), (-4.373284932726633, 2.7137503127948572),
     )  # fmt: skip
     moment = 0.0007652261035979348
-    given = {"profile": sie.Piecewise(breaks, rows), "modulus": 0.6455188178465567, "normal_load": 0.0005699239351927894}
+    given = {
+        "profile": sie.Piecewise(breaks, rows),
+        "modulus": 0.6455188178465567,
+        "normal_load": 0.0005699239351927894,
+    }
     solution = sie.solve(sie.Scene(**given, moment=moment))
     assert solution.moment == pytest.approx(moment, rel=1e-13)
     assert solution.check().ok
@@ -89,19 +97,21 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
         evaluations.append(contact)
         return search.moments(contact)
 
-    newton = polish.Polish(search.slope, evaluate)
+    newton = edge_refinement.Polish(search.slope, evaluate)
     off = (0.2 if inside else -0.2) * settled.r
     start = settled.moved(off, -off)
     first = search.moments(start)
     _, k, done = newton.both(start, target, left_sharp=False)
-    if trial.scene.profile.convex and min(first.JL, first.JR) > 0.0:  # on a straight part there is no derivative
+    if (
+        trial.scene.profile.convex and min(first.JL, first.JR) > 0.0
+    ):  # on a straight part there is no derivative
         assert done
     if done:
         rounding = newton.rounding(evaluations[-1], k, target)
         r = evaluations[-1].r
         assert abs(r * (k.I1 - k.I0) - target) <= rounding[0]
         assert abs(r * (k.I1 + k.I0) - target) <= rounding[1]
-    assert len(evaluations) <= polish.MAX_POLISHING
+    assert len(evaluations) <= edge_refinement.MAX_POLISHING
 
 
 def test_what_a_residual_is_rounded_by_is_what_it_differs_by_from_exact_integrals():
@@ -113,11 +123,17 @@ def test_what_a_residual_is_rounded_by_is_what_it_differs_by_from_exact_integral
         contact = sie.solve(trial.scene).normal.edges.contact
         k = Search(slope, 1.0).moments(contact)
         exact = trial.shape.contact(
-            mp.mpf(contact.x1) + mp.mpf(contact.tail1), mp.mpf(contact.x2) + mp.mpf(contact.tail2), mp.mpf(trial.scene.tilt)
+            mp.mpf(contact.x1) + mp.mpf(contact.tail1),
+            mp.mpf(contact.x2) + mp.mpf(contact.tail2),
+            mp.mpf(trial.scene.tilt),
         )
         I0, I1 = exact.integral((1,), (0, 1))
-        allowed = [(polish.ROUNDINGS * size, sign) for size, sign in ((k.size1, -1), (k.size2, 1))]
-        shares += [float(abs(k.I1 + sign * k.I0 - (I1 + sign * I0))) / most for most, sign in allowed]
+        allowed = [
+            (edge_refinement.ROUNDINGS * size, sign) for size, sign in ((k.size1, -1), (k.size2, 1))
+        ]
+        shares += [
+            float(abs(k.I1 + sign * k.I0 - (I1 + sign * I0))) / most for most, sign in allowed
+        ]
     assert max(shares) <= 1.0
     assert max(shares) >= 0.01
 
@@ -126,13 +142,17 @@ def test_a_contact_far_from_the_origin_keeps_its_half_width():
     """P = π E* r²/(4 R): the edges are doubles near 1e6, their distance is not."""
     E, R, P = 3.0, 2.0, 1e-6
     solution = sie.solve(sie.Scene(profile=sie.Parabola(R).shifted(1e6), modulus=E, normal_load=P))
-    assert solution.normal.edges.contact.r == pytest.approx(np.sqrt(4 * P * R / (np.pi * E)), rel=1e-13)
+    assert solution.normal.edges.contact.r == pytest.approx(
+        np.sqrt(4 * P * R / (np.pi * E)), rel=1e-13
+    )
 
 
 def test_a_moment_given_is_met_as_well_as_the_tilt_that_has_it():
     """The edges under (P, tilt), asked again with P and the moment that these have."""
     for tilt in (0.02, -0.05, 0.11):
-        tilted = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.2, tilt=tilt))
+        tilted = sie.solve(
+            sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.2, tilt=tilt)
+        )
         turned = tilted.with_(moment=tilted.moment)
         assert turned.tilt == pytest.approx(tilt, rel=1e-13)
         assert turned.edges == pytest.approx(tilted.edges, rel=1e-13)
@@ -150,8 +170,15 @@ FOUR_BUMPS = sie.Piecewise(
 
 def test_where_no_tilt_has_the_moment_few_tilts_are_tried(monkeypatch):
     tried, right = [], Search.general
-    monkeypatch.setattr(Search, "general", lambda search, load: tried.append(load) or right(search, load))
-    scene = sie.Scene(profile=FOUR_BUMPS, modulus=0.6174847823952508, normal_load=0.18644553803642064, moment=0.05176833916724739)
+    monkeypatch.setattr(
+        Search, "general", lambda search, load: tried.append(load) or right(search, load)
+    )
+    scene = sie.Scene(
+        profile=FOUR_BUMPS,
+        modulus=0.6174847823952508,
+        normal_load=0.18644553803642064,
+        moment=0.05176833916724739,
+    )
     with contextlib.suppress(sie.ContactError):
         _ = sie.solve(scene).edges
     assert len(tried) <= normal.MAX_TILTS + 1
@@ -170,32 +197,56 @@ def test_corners_of_a_slope_are_what_its_pieces_say():
     for j, b in enumerate(UNEQUAL.breaks, start=1):
         left, right = UNEQUAL.rows[j - 1][1], UNEQUAL.rows[j][1]
         jump, kink = slope.corner(float(b))
-        assert jump == pytest.approx(float(right[0] - left[0] + (right[1] - left[1]) * b), abs=64 * EPS)
+        assert jump == pytest.approx(
+            float(right[0] - left[0] + (right[1] - left[1]) * b), abs=64 * EPS
+        )
         assert kink == pytest.approx(float(right[1] - left[1]), rel=4 * EPS)
 
 
 def test_the_edges_move_with_the_load_as_their_uncertainty_says():
     """Per relative change of the load, without what rounding adds."""
     scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=2.0, normal_load=0.2, tilt=0.03)
-    light, heavy = (sie.solve(scene).with_(normal_load=0.2 * (1.0 + change)).normal.edges.contact for change in (-1e-5, 1e-5))
+    light, heavy = (
+        sie.solve(scene).with_(normal_load=0.2 * (1.0 + change)).normal.edges.contact
+        for change in (-1e-5, 1e-5)
+    )
     contact = sie.solve(scene).normal.edges.contact
     k = Search(scene.profile.pieces.tilted(scene.tilt), 1.0).moments(contact)
     alone = k._replace(size1=0.0, size2=0.0)
-    moves = [off / (EPS + polish.ROUNDINGS) for off in polish.uncertainty(contact, alone, 0.2)]
+    moves = [
+        off / (EPS + edge_refinement.ROUNDINGS)
+        for off in edge_refinement.uncertainty(contact, alone, 0.2)
+    ]
     assert moves[0] == pytest.approx((light.x1 - heavy.x1) / 2e-5, rel=1e-4)
     assert moves[1] == pytest.approx((heavy.x2 - light.x2) / 2e-5, rel=1e-4)
-    assert min(np.subtract(polish.uncertainty(contact, k, 0.2), polish.uncertainty(contact, alone, 0.2))) > 0.0
+    assert (
+        min(
+            np.subtract(
+                edge_refinement.uncertainty(contact, k, 0.2),
+                edge_refinement.uncertainty(contact, alone, 0.2),
+            )
+        )
+        > 0.0
+    )
 
 
-TINY = straight([29.238249670088848], [[-0.04199447921947186, 0.0010454147804437085], [-0.05185657725793592, 0.0013828587081438938]])
+TINY = straight(
+    [29.238249670088848],
+    [[-0.04199447921947186, 0.0010454147804437085], [-0.05185657725793592, 0.0013828587081438938]],
+)
 
 
 def test_a_contact_much_narrower_than_the_first_guess_is_found_beside_a_kink():
     """The left edge lies right of the middle of the contact from which both edges are polished."""
     scene = sie.Scene(
-        profile=TINY.profile, modulus=0.8, normal_load=2.7856825138523804e-18 * 0.8 / 0.8093449815863573, tilt=0.011428380927743514
+        profile=TINY.profile,
+        modulus=0.8,
+        normal_load=2.7856825138523804e-18 * 0.8 / 0.8093449815863573,
+        tilt=0.011428380927743514,
     )
-    meeting = replace(TINY, jumps=frozenset(TINY.profile.breaks))  # its pieces do not meet but for rounding
+    meeting = replace(
+        TINY, jumps=frozenset(TINY.profile.breaks)
+    )  # its pieces do not meet but for rounding
     found = kinks.outcome(Trial(meeting, scene, 29.238249670088848, 0.0))
     assert not found.refused
     assert found.edges <= kinks.PROMISE
@@ -225,11 +276,19 @@ def test_a_flat_base_wider_than_the_contact_is_pressed_by_its_rim():
 
 
 @pytest.mark.parametrize("moment", [-1e16, 1e20, 1e100, -1e200])
-@pytest.mark.parametrize("given", [{"normal_load": 0.3}, {"half_width": 0.8}], ids=["load", "half-width"])
-@pytest.mark.parametrize("profile", [sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Power(2.5, 0.75)])
-def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(profile, given, moment, monkeypatch):
+@pytest.mark.parametrize(
+    "given", [{"normal_load": 0.3}, {"half_width": 0.8}], ids=["load", "half-width"]
+)
+@pytest.mark.parametrize(
+    "profile", [sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0), sie.Wedge(0.3), sie.Power(2.5, 0.75)]
+)
+def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(
+    profile, given, moment, monkeypatch
+):
     evaluated, right = [], edges.moments
-    monkeypatch.setattr(edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how))
+    monkeypatch.setattr(
+        edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
+    )
     with pytest.raises(sie.ContactError):
         _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, moment=moment, **given)).edges
     assert len(evaluated) <= 5000
@@ -237,7 +296,9 @@ def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(profile, 
 
 def test_a_load_where_the_slope_of_a_polynomial_is_no_double_is_refused_at_once(monkeypatch):
     evaluated, right = [], edges.moments
-    monkeypatch.setattr(edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how))
+    monkeypatch.setattr(
+        edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
+    )
     lopsided = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
     with pytest.raises(sie.ContactError):
         _ = sie.solve(sie.Scene(profile=lopsided, modulus=1.0, normal_load=0.3, moment=1e200)).edges

@@ -18,7 +18,11 @@ def defects(solution):
     P, about_centre = laws.load_and_moment(solution.pressure, solution.edges, breaks)
     rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / solution.normal_load
     moment = about_centre + solution.normal_load * solution.centre - solution.moment
-    return abs(P / solution.normal_load - 1), abs(moment) / (solution.normal_load * solution.half_width), rounding
+    return (
+        abs(P / solution.normal_load - 1),
+        abs(moment) / (solution.normal_load * solution.half_width),
+        rounding,
+    )
 
 
 @given(strategies.scenes())
@@ -68,11 +72,22 @@ def test_the_pressure_is_positive_inside_zero_outside_and_never_nan(scene, seed)
     (x1, x2), r = solution.edges, solution.half_width
     inside = x1 + 2 * r * np.random.default_rng(seed).uniform(1e-6, 1 - 1e-6, 200)
     assert (solution.pressure(inside) > 0).all()
-    outside = np.array([np.nextafter(x1, -np.inf) - 1e-15 * r, np.nextafter(x2, np.inf) + 1e-15 * r, x1 - r, x2 + 1e6 * r, -np.inf, np.inf])
+    outside = np.array(
+        [
+            np.nextafter(x1, -np.inf) - 1e-15 * r,
+            np.nextafter(x2, np.inf) + 1e-15 * r,
+            x1 - r,
+            x2 + 1e6 * r,
+            -np.inf,
+            np.inf,
+        ]
+    )
     assert (solution.pressure(outside) == 0).all()
 
 
 def test_a_quadrature_of_the_tests_finds_a_load_that_is_wrong():
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0))
-    P, _ = laws.load_and_moment(lambda x: solution.pressure(x) * (1 + 1e-12), solution.edges, (-0.5, 0.5))
+    P, _ = laws.load_and_moment(
+        lambda x: solution.pressure(x) * (1 + 1e-12), solution.edges, (-0.5, 0.5)
+    )
     assert abs(P / solution.normal_load - 1) == pytest.approx(1e-12, rel=0.1)

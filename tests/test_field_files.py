@@ -10,18 +10,24 @@ import numpy as np
 import pytest
 
 import sie
-from sie import scenefile
-from sie.__main__ import main
-from sie.grid import Grid, file_bytes
+from sie.cli import main
+from sie.io import scene_file
+from sie.io.stress_grid import Grid, file_bytes
 
 STEEL = sie.Elastic(210e3, 0.3)
-SCENE = sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=STEEL, normal_load=500.0, friction=0.3, tangential_load=150.0)
+SCENE = sie.Scene(
+    profile=sie.RoundedFlat(1.0, 50.0),
+    body=STEEL,
+    normal_load=500.0,
+    friction=0.3,
+    tangential_load=150.0,
+)
 
 
 @pytest.fixture
 def scene(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(scenefile.example("rounded-flat"))
+    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
     return "scene.toml"
 
 
@@ -57,12 +63,29 @@ def test_the_vti_file_decodes_to_the_arrays(grid):
         assert (np.frombuffer(data[8:]) == expected.ravel()).all()
     tensor = np.frombuffer(base64.b64decode(arrays["stress"].text)[8:]).reshape(5, 7, 6)
     assert (tensor[..., 0] == grid.stress.xx).all() and (tensor[..., 3] == grid.stress.xy).all()
-    origin, spacing = (np.array(image.get(name).split(), dtype=float) for name in ("Origin", "Spacing"))
+    origin, spacing = (
+        np.array(image.get(name).split(), dtype=float) for name in ("Origin", "Spacing")
+    )
     assert origin[:2] + spacing[:2] * (6, 4) == pytest.approx((grid.x[-1], grid.y[-1]))
 
 
 @pytest.mark.parametrize(
-    "title", ["---", "a---b", "-", "--", "-->", "-" * 7, "]]>", "<!-- & -->", "\x00\x08\x0b\x1f\x7f", "\ud800", "\uffff", "a\nb\u2028c", ""]
+    "title",
+    [
+        "---",
+        "a---b",
+        "-",
+        "--",
+        "-->",
+        "-" * 7,
+        "]]>",
+        "<!-- & -->",
+        "\x00\x08\x0b\x1f\x7f",
+        "\ud800",
+        "\uffff",
+        "a\nb\u2028c",
+        "",
+    ],
 )
 def test_with_any_title_the_vti_file_is_xml_and_the_csv_file_has_its_rows(title, grid):
     image = ET.fromstring(file_bytes(grid, "vti", (title, title)))
@@ -72,17 +95,35 @@ def test_with_any_title_the_vti_file_is_xml_and_the_csv_file_has_its_rows(title,
 
 
 def test_the_command_writes_the_field_and_the_contours(scene, tmp_path):
-    assert main(["solve", scene, "--want", "stress", "--field", "field.npz", "--grid", "9x4", "--plot", "stress.png"]) == 0
+    assert (
+        main(
+            [
+                "solve",
+                scene,
+                "--want",
+                "stress",
+                "--field",
+                "field.npz",
+                "--grid",
+                "9x4",
+                "--plot",
+                "stress.png",
+            ]
+        )
+        == 0
+    )
     assert np.load(tmp_path / "field.npz")["xx"].shape == (4, 9)
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
 
 def test_the_json_text_holds_the_numbers_of_the_solution(scene, capsys):
     main(["solve", scene, "--want", "stress,yield,tension", "--json"])
-    found, solution = json.loads(capsys.readouterr().out), sie.solve(scenefile.read(scene).scene)
+    found, solution = json.loads(capsys.readouterr().out), sie.solve(scene_file.read(scene).scene)
     assert found["yield"]["ratio"] == solution.elastic_limit().ratio
     assert found["tension"]["value"] == solution.peak_tension().value == 0.0
-    assert found["stress"]["xx"][200] == float(solution.surface_stress(found["stress"]["x"][200]).xx)
+    assert found["stress"]["xx"][200] == float(
+        solution.surface_stress(found["stress"]["x"][200]).xx
+    )
 
 
 @pytest.mark.parametrize(
@@ -103,25 +144,32 @@ def test_what_cannot_be_written_is_refused(arguments, words, scene, capsys):
 
 def test_the_picture_marks_the_contact_and_the_weakest_points():
     pytest.importorskip("matplotlib")
-    from sie.contours import contours  # noqa: PLC0415
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
 
     for solution in (sie.solve(SCENE), sie.solve(SCENE).with_(tangential_load=0.0, friction=0.0)):
         axes = contours(solution).axes[0]
         lines = {line.get_label(): line for line in axes.lines}
         assert tuple(lines["contact"].get_xdata()) == solution.edges
         weakest = next(line for line in axes.lines if line.get_marker() == "x")
-        assert list(zip(weakest.get_xdata(), weakest.get_ydata(), strict=True)) == list(solution.elastic_limit().places)
+        assert list(zip(weakest.get_xdata(), weakest.get_ydata(), strict=True)) == list(
+            solution.elastic_limit().places
+        )
         assert axes.get_ylim()[0] > 0.0 > axes.get_ylim()[1]  # depth runs downwards
 
 
 @pytest.mark.parametrize(
-    "title", ["", "Fretting pad", "Steel punch with rounded edges sliding on rubber-like polymer, dry, unworn, at 20 degrees"]
+    "title",
+    [
+        "",
+        "Fretting pad",
+        "Steel punch with rounded edges sliding on rubber-like polymer, dry, unworn, at 20 degrees",
+    ],
 )
 def test_no_title_pushes_a_label_out_of_the_picture(title):
     pytest.importorskip("matplotlib")
     from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
 
-    from sie.contours import contours  # noqa: PLC0415
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
 
     figure = contours(sie.solve(SCENE), title=title)
     canvas = FigureCanvasAgg(figure)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.expression import NAMES, Expression
+from sie.profiles.expression import NAMES, Expression
 
 X = np.array([-2.0, 0.5, 3.0])
 
@@ -51,7 +51,14 @@ def test_what_is_no_arithmetic_is_refused_with_what_was_meant(text, said):
 
 
 @pytest.mark.parametrize(
-    "text", ["x" + "+x" * 20_000, "-" * 9000 + "x", "x**" * 3000 + "x", "(" * 300 + "x" + ")" * 300, "x*" + "7" * 5000]
+    "text",
+    [
+        "x" + "+x" * 20_000,
+        "-" * 9000 + "x",
+        "x**" * 3000 + "x",
+        "(" * 300 + "x" + ")" * 300,
+        "x*" + "7" * 5000,
+    ],
 )
 def test_a_formula_too_long_or_too_deep_is_refused_in_a_short_sentence(text):
     with pytest.raises(ValueError, match="expression") as caught:
@@ -60,7 +67,9 @@ def test_a_formula_too_long_or_too_deep_is_refused_in_a_short_sentence(text):
     assert "recursion" not in str(caught.value)
 
 
-@pytest.mark.parametrize("text", ["9**9**9*x", "10**10**10", "x*8**8**8**8**8**8", "1e999*x", "x*10**400"])
+@pytest.mark.parametrize(
+    "text", ["9**9**9*x", "10**10**10", "x*8**8**8**8**8**8", "1e999*x", "x*10**400"]
+)
 def test_a_tower_of_powers_is_infinite_at_once(text):
     assert np.isinf(Expression(text)(X)).all()
 

@@ -1,6 +1,7 @@
-"""What depends on what: imports point downward, the solver and the closed forms know nothing of each other, heavy packages wait."""
+"""What depends on what: imports point downward, solver and closed forms share nothing, heavy packages wait."""
 
 import ast
+import graphlib
 import json
 import subprocess
 import sys
@@ -13,19 +14,23 @@ import sie
 
 HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).parent}
 
-# From the ground up: a module imports only from those before it.
-ORDER = (
-    "quiet", "errors", "interval", "power_law", "checks", "files", "entries",
-    "expression", "chebyshev", "lerch", "slope", "touch", "adaptive", "unseen", "geometry", "moments",
-    "summation", "batched", "batched_plane", "panels", "density", "potential", "slope_density", "validity", "superposition",
-    "jacobi", "grading", "jacobi_density", "roundoff", "question", "kernel", "transform", "system", "collocation", "equation", "sliding",
-    "material", "profile", "smoothing", "traces", "fits", "sampled", "indenters", "scene", "polish", "edges", "widest",
-    "smooth", "normal", "noise", "ladder", "growth", "gap", "composite",
-    "check", "bonded", "zones", "narrow", "shear", "states", "slip", "slipcheck", "field", "maxima", "strength", "plan",
-    "solution", "remedy", "path", "history", "fretting", "charts", "workers", "sweep",
-    "abscissae", "scenefile", "compare", "grid",
-    "export", "summary", "plot", "contours", "overlay", "__main__",
-)  # fmt: skip
+# From the ground up: a folder or a module at the top imports only from its own row and from rows before it.
+LAYERS = (
+    ("interrupt", "errors", "arguments", "workers"),
+    ("numerics",),
+    ("profiles",),
+    ("problem", "traction"),
+    ("contact", "stress", "cauchy"),
+    ("friction",),
+    ("certificate",),
+    ("plan",),
+    ("solution",),
+    ("smoothing_search", "history"),
+    ("sweep", "charts"),
+    ("io",),
+    ("plots",),
+    ("cli", "__main__"),
+)
 
 
 def modules(house):
@@ -51,21 +56,51 @@ def test_the_solver_and_the_closed_forms_share_no_code(house, other):
             assert name.split(".")[0] != other, f"{path.name}:{line}"
 
 
-def test_within_the_solver_an_import_points_only_downward():
+def parts(name):
+    """The layer of a module of the solver, by its full name."""
+    return name.split(".")[1] if "." in name else ""
+
+
+def dependencies():
+    """Every import in the solver: (importing module, imported name, line), both by their full names."""
     for path in modules("sie"):
-        module = path.relative_to(HOUSES["sie"]).with_suffix("").parts[0]
-        if module == "__init__":
-            continue
-        assert module in ORDER, f"{module} has no place in the order of the house"
+        inside = path.relative_to(HOUSES["sie"].parent).with_suffix("").parts
+        package = list(inside[:-1])
         for name, line in imported(path):
-            target = name.removeprefix("sie.").removeprefix(".").split(".")[0] if name.startswith((".", "sie.")) else None
-            if target and target != "__version__":
-                assert ORDER.index(target) < ORDER.index(module), f"{path.name}:{line} imports {target}"
+            dots = len(name) - len(name.lstrip("."))
+            full = (
+                ".".join([*package[: len(package) - dots + 1], name.lstrip(".")]) if dots else name
+            )
+            if full.startswith("sie."):
+                yield ".".join(inside), full, line
+
+
+def test_an_import_in_the_solver_points_only_downward():
+    level = {name: k for k, row in enumerate(LAYERS) for name in row}
+    for module, target, line in dependencies():
+        if parts(module) == "__init__" or parts(target) in {"__version__", "examples"}:
+            continue
+        assert level[parts(target)] <= level[parts(module)], f"{module}:{line} imports {target}"
+
+
+def test_no_module_of_the_solver_imports_itself_by_way_of_others():
+    below = {}
+    for module, target, _ in dependencies():
+        if parts(module) != "__init__":
+            below.setdefault(module.removesuffix(".__init__"), set()).add(target)
+    graph = graphlib.TopologicalSorter(below)
+    graph.prepare()
 
 
 def loaded_after(statement):
     code = f"import sys; {statement}; import json; print(json.dumps(sorted({{m.split('.')[0] for m in sys.modules}})))"
-    return set(json.loads(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout))
+    return set(
+        json.loads(
+            subprocess.run(
+                [sys.executable, "-c", code], capture_output=True, text=True, check=True
+            ).stdout
+        )
+    )
 
 
 def test_importing_the_solver_loads_neither_mpmath_nor_matplotlib_nor_scipy():

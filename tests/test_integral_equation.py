@@ -31,7 +31,9 @@ def test_the_pressure_solves_the_integral_equation(scene, seed):
     solution = sie.solve(scene)
     breaks = scene.profile.breaks
     peak = laws.peak(solution.pressure, solution.edges, breaks)
-    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / (peak * solution.half_width)
+    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / (
+        peak * solution.half_width
+    )
     for x in interior(solution, seed):
         equation = laws.principal_value(solution.pressure, solution.edges, x, breaks)
         slope = 0.5 * scene.Estar * (scene.profile.slope(x) + solution.tilt)
@@ -65,7 +67,15 @@ def places(case: Case) -> list[complex]:
     """Off the axis next to the surface, breaks and edges; beside the contact; far away."""
     solution = solved(case)
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
-    about = ((-0.83, 1e-9), (0.11, 1e-3), (0.37, 0.6), (0.95, -0.02), (1.3, 0.01), (-1.2, -1e-7), (0.2, 9.0))
+    about = (
+        (-0.83, 1e-9),
+        (0.11, 1e-3),
+        (0.37, 0.6),
+        (0.95, -0.02),
+        (1.3, 0.01),
+        (-1.2, -1e-7),
+        (0.2, 9.0),
+    )
     z = [complex(m + s * r, d * r) for s, d in about]
     z += [complex(x2 + 1e-5 * r, 1e-5 * r), complex(x1 - 1e-3 * r, 1e-9 * r)]
     z += [complex(x2 + 0.01 * r), complex(x1 - 0.4 * r), complex(x2 + 30 * r)]
@@ -81,7 +91,11 @@ def test_the_potential_agrees_with_the_40_digit_reference(case: Case):
     z = places(case)
     for where, value in zip(z, solution.pressure.cauchy(z), strict=True):
         e = truth.potential(where)
-        size = max(peak, abs(complex(e))) if abs(where - solution.centre) < 4 * solution.half_width else abs(complex(e))
+        size = (
+            max(peak, abs(complex(e)))
+            if abs(where - solution.centre) < 4 * solution.half_width
+            else abs(complex(e))
+        )
         assert abs(mp.mpmathify(complex(value)) - e) <= PROMISE * size, where
 
 
@@ -116,7 +130,10 @@ def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed
     """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative, and rounding."""
     solution = sie.solve(scene)
     r = solution.half_width
-    beside = solution.edges[1] + r * np.array([0.1, 1.0]), solution.edges[0] - r * np.array([0.1, 3.0])
+    beside = (
+        solution.edges[1] + r * np.array([0.1, 1.0]),
+        solution.edges[0] - r * np.array([0.1, 3.0]),
+    )
     x = np.concatenate((interior(solution, seed, 8), *beside))
     peak = laws.peak(solution.pressure, solution.edges, scene.profile.breaks)
     F = solution.pressure.cauchy
@@ -124,7 +141,10 @@ def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed
     for side in (1, -1):
         surface = F(x, side=side)
         for depth in (1e-6, 1e-9, 1e-12, 1e-15):
-            assert (np.abs(F(x + side * 1j * depth * r) - surface) <= 2 * depth * derivative + 4 * PROMISE * peak).all()
+            assert (
+                np.abs(F(x + side * 1j * depth * r) - surface)
+                <= 2 * depth * derivative + 4 * PROMISE * peak
+            ).all()
 
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
@@ -143,7 +163,11 @@ FAR = [10.0, 1e2, 1e3, 1e4, 1e6]
 def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy(case: Case, angle):
     """π z F(z) = P + M/z + ..., about the centre."""
     solution = solved(case)
-    P, M, r = solution.normal_load, solution.moment - solution.centre * solution.normal_load, solution.half_width
+    P, M, r = (
+        solution.normal_load,
+        solution.moment - solution.centre * solution.normal_load,
+        solution.half_width,
+    )
     direction = complex(np.cos(angle), 0.0 if angle in (0.0, np.pi) else np.sin(angle))
     t, weight = laws.rule(solution.edges, case.profile.breaks)
     second = float((weight * solution.pressure(t) * (t - solution.centre) ** 2).sum())
@@ -151,7 +175,9 @@ def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy
         z = solution.centre + k * r * direction
         s = z - solution.centre
         expected = (P + M / s + second / s**2) / (np.pi * s)
-        assert complex(solution.pressure.cauchy(z)) == pytest.approx(expected, rel=2 * PROMISE + 2 * k**-3)
+        assert complex(solution.pressure.cauchy(z)) == pytest.approx(
+            expected, rel=2 * PROMISE + 2 * k**-3
+        )
 
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
@@ -171,7 +197,14 @@ def test_infinities_are_infinite_and_nothing_is_nan():
     tip = sie.solve(sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=1.0))
     assert tip.pressure(0.0) == np.inf
     assert np.isfinite(tip.pressure(np.array([-5e-324, 5e-324, 1e-300]))).all()
-    shifted = sie.solve(sie.Scene(profile=sie.Wedge(0.5).shifted(0.3) + sie.Parabola(1.0), modulus=1.0, normal_load=1.0, tilt=0.1))
+    shifted = sie.solve(
+        sie.Scene(
+            profile=sie.Wedge(0.5).shifted(0.3) + sie.Parabola(1.0),
+            modulus=1.0,
+            normal_load=1.0,
+            tilt=0.1,
+        )
+    )
     assert shifted.pressure(0.3) == np.inf
     flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0))
     assert (flat.pressure(np.array([-1.0, 1.0])) == np.inf).all()
@@ -179,7 +212,9 @@ def test_infinities_are_infinite_and_nothing_is_nan():
 
 
 def test_values_keep_the_shape_of_their_argument():
-    p = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)).pressure
+    p = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
+    ).pressure
     for shape in ((), (1,), (3, 2), (0,)):
         x = np.full(shape, 0.3)
         assert np.shape(p(x)) == np.shape(p.hilbert(x)) == np.shape(p.cauchy(x + 0.1j)) == shape
@@ -189,7 +224,14 @@ def test_values_keep_the_shape_of_their_argument():
 
 # -- the gap ----------------------------------------------------------------------------------------------------------
 
-SAMPLED = ("rounded-P=0.2", "rounded-P=0.2-tilt=0.05", "corners-r=1.125", "eight-P=0.9", "flat-P=1-tilt=1.5", "cut-P=0.6")
+SAMPLED = (
+    "rounded-P=0.2",
+    "rounded-P=0.2-tilt=0.05",
+    "corners-r=1.125",
+    "eight-P=0.9",
+    "flat-P=1-tilt=1.5",
+    "cut-P=0.6",
+)
 GAP_CASES = [case for case in CASES if str(case) in SAMPLED]
 
 
@@ -209,7 +251,9 @@ def test_the_gap_is_zero_in_contact_positive_outside_and_infinite_beyond_the_ind
     (x1, x2), r = solution.edges, solution.half_width
     lo, hi = scene.profile.domain
     assert (solution.gap(x1 + 2 * r * np.linspace(1e-9, 1 - 1e-9, 33)) == 0).all()
-    outside = np.concatenate((x2 + r * np.array([1e-3, 0.1, 1.0]), x1 - r * np.array([1e-3, 0.1, 1.0])))
+    outside = np.concatenate(
+        (x2 + r * np.array([1e-3, 0.1, 1.0]), x1 - r * np.array([1e-3, 0.1, 1.0]))
+    )
     gap = solution.gap(outside)
     beyond = (outside < lo) | (outside > hi)
     assert (gap[beyond] == np.inf).all()
@@ -249,7 +293,9 @@ def test_the_slope_of_the_gap_is_what_the_pressure_leaves_of_the_profile(scene, 
 def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
     """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to 30 digits."""
     a, b = mp.mpf(1) / 2, mp.mpf(1)
-    pieces = reference.Pieces((-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a))
+    pieces = reference.Pieces(
+        (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)
+    )
     contact = reference.contact(pieces, 1.0, (-1.0, 1.0), half_width=1.0, symmetric=True)
     theta = mp.acos(a / b)
     assert abs(contact.P - (theta - mp.sin(theta) * mp.cos(theta)) / 2) < mp.mpf(10) ** -30

@@ -1,7 +1,5 @@
 """Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows nothing of superposition."""
 
-from itertools import pairwise
-
 import mpmath
 import numpy as np
 import pytest
@@ -10,17 +8,23 @@ from hypothesis import strategies as st
 from kalker import Mesh
 
 import sie
-from sie.export import as_dict
-from sie.ladder import Ladder
-from sie.scenefile import SceneFile
-from sie.states import rims
-from sie.summary import summary
-from sie.zones import zone
+from sie.friction.memory import Ladder
+from sie.friction.slip_zones import zone
+from sie.friction.states import rims
+from sie.io.export import as_dict
+from sie.io.report import summary
+from sie.io.scene_file import SceneFile
 
 E, F, P = 2.0, 0.5, 0.375
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=E, normal_load=P, friction=F)
 HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=P, friction=F)
-LOPSIDED = sie.Scene(profile=sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)), modulus=E, normal_load=P, friction=F, tilt=0.02)
+LOPSIDED = sie.Scene(
+    profile=sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6)),
+    modulus=E,
+    normal_load=P,
+    friction=F,
+    tilt=0.02,
+)
 FP = F * P
 
 
@@ -45,17 +49,24 @@ def test_a_path_of_one_point_is_the_scene():
 def test_unloading_is_half_of_the_first_loading_twice(scene):
     """From Q_max to Q: q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953; slip likewise."""
     unloaded = at_constant_load(scene, 0.75, 0.25)[1]
-    first, half = (sie.solve(sie.Scene(**fields(scene), tangential_load=k * FP)) for k in (0.75, 0.25))
+    first, half = (
+        sie.solve(sie.Scene(**fields(scene), tangential_load=k * FP)) for k in (0.75, 0.25)
+    )
     x = np.linspace(*first.edges, 31)
     assert unloaded.stick == half.stick
     assert unloaded.shear(x) == pytest.approx(first.shear(x) - 2.0 * half.shear(x), abs=1e-15)
     assert unloaded.slip(x) == pytest.approx(first.slip(x) - 2.0 * half.slip(x), abs=1e-16)
-    assert unloaded.energy_lost == pytest.approx(first.energy_lost + 2.0 * half.energy_lost, rel=1e-13)
+    assert unloaded.energy_lost == pytest.approx(
+        first.energy_lost + 2.0 * half.energy_lost, rel=1e-13
+    )
     assert unloaded.check().ok
 
 
 def fields(scene):
-    return {name: getattr(scene, name) for name in ("profile", "modulus", "normal_load", "friction", "tilt")}
+    return {
+        name: getattr(scene, name)
+        for name in ("profile", "modulus", "normal_load", "friction", "tilt")
+    }
 
 
 def test_a_closed_loop_closes_after_the_first_cycle_and_is_forgotten():
@@ -83,7 +94,10 @@ def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
 
 
 @settings(max_examples=30)
-@given(st.lists(st.integers(-50, 50).map(lambda k: k / 50), min_size=2, max_size=6), st.sampled_from([PUNCH, HERTZ, LOPSIDED]))
+@given(
+    st.lists(st.integers(-50, 50).map(lambda k: k / 50), min_size=2, max_size=6),
+    st.sampled_from([PUNCH, HERTZ, LOPSIDED]),
+)
 def test_every_point_of_every_path_obeys_the_laws(fractions, scene):
     lost = 0.0
     for solution in at_constant_load(scene, *fractions):
@@ -96,7 +110,10 @@ def test_every_point_of_every_path_obeys_the_laws(fractions, scene):
 def test_the_ladder_carries_the_load_within_its_limits(targets):
     ladder = Ladder(1.0)
     for target in targets:
-        before, (ladder, done) = ladder, ladder.pulled(target - ladder.total) if target != ladder.total else (ladder, ())
+        before, (ladder, done) = (
+            ladder,
+            ladder.pulled(target - ladder.total) if target != ladder.total else (ladder, ()),
+        )
         assert ladder.total == pytest.approx(target, abs=1e-14)
         assert all(thickness > 0.0 and abs(k) <= 1.0 for thickness, k in ladder.layers)
         assert sum(thickness for thickness, _ in ladder.layers) <= 1.0 + 1e-15
@@ -109,7 +126,11 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
     Q = 0.8 * np.sin(np.linspace(0.0, 2.0 * np.pi, 1001))[1:]
     history = at_constant_load(PUNCH, *Q)
     zones = [solution.stick for solution in history]
-    spent = sum(state.found.edges.evaluations for state in history._virgin.values() if hasattr(state, "found"))
+    spent = sum(
+        state.found.edges.evaluations
+        for state in history._virgin.values()
+        if hasattr(state, "found")
+    )
     assert len(zones) == 1000 and len(history._plain) == 1
     assert spent < 0.6 * 1000 * sie.solve(PUNCH).normal.edges.evaluations
     assert "pressure" in vars(history.plain(P))
@@ -144,7 +165,9 @@ def test_what_a_slip_zone_pulls_with_beyond_its_length_is_its_sum(length):
     zone_ = zone(rims(solved.slope_density, solved.normal.slope(PUNCH.profile))[1], length)
     distance = length * np.array([0.0, 1e-8, 0.3, 0.999, 1.0, 1.001, 3.0, 1e4])
     weight = zone_.force / np.sqrt(zone_.inwards * (zone_.inwards + 0.8))
-    assert zone_.pull(distance, 0.4) == pytest.approx((weight / (distance[:, None] + zone_.inwards)).sum(axis=1), rel=1e-13)
+    assert zone_.pull(distance, 0.4) == pytest.approx(
+        (weight / (distance[:, None] + zone_.inwards)).sum(axis=1), rel=1e-13
+    )
 
 
 def test_nothing_is_solved_before_it_is_asked_for():
@@ -188,14 +211,18 @@ def test_a_locked_in_layer_survives_more_normal_load():
 
 
 def test_unloading_along_the_way_one_came_takes_everything_back():
-    there, back = list(sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.1, 0.03), (0.4, 0.05), (0.1, 0.03)])))[1::2]
+    there, back = list(
+        sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.1, 0.03), (0.4, 0.05), (0.1, 0.03)]))
+    )[1::2]
     x = np.linspace(*there.edges, 21)
     assert back.shear(x) == pytest.approx(there.shear(x), abs=1e-15)
     assert back.energy_lost == 0.0
 
 
 def test_energy_while_the_normal_load_changes_tends_to_that_at_constant_load():
-    almost = sie.follow(HERTZ, sie.Path([(P, 0.1 * FP), (P * (1.0 + 1e-9), 0.7 * FP)]))[1].energy_lost
+    almost = sie.follow(HERTZ, sie.Path([(P, 0.1 * FP), (P * (1.0 + 1e-9), 0.7 * FP)]))[
+        1
+    ].energy_lost
     constant = at_constant_load(HERTZ, 0.1, 0.7)[1].energy_lost
     assert almost == pytest.approx(constant, rel=1e-7)
 
@@ -212,19 +239,34 @@ KINDS = {
     "function": sie.FromFunction("sinh(x) + x**2/8", domain=(-3.0, 3.0)),
     "trace": sie.Sampled(np.linspace(-1.6, 1.6, 161), np.linspace(-1.6, 1.6, 161) ** 2 / 2 + np.linspace(-1.6, 1.6, 161) ** 3 / 20),
 }  # fmt: skip
-TURNING = [(0.1, 0.02), (0.3, 0.1), (0.25, -0.05), (0.1, 0.02), (0.3, 0.04), (0.2, 0.09), (0.2, -0.06), (0.26, 0.1)]
+TURNING = [
+    (0.1, 0.02),
+    (0.3, 0.1),
+    (0.25, -0.05),
+    (0.1, 0.02),
+    (0.3, 0.04),
+    (0.2, 0.09),
+    (0.2, -0.06),
+    (0.26, 0.1),
+]
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_of_a_path_is_that_of_the_path_cut_into_many_parts(name):
     scene = sie.Scene(profile=KINDS[name], modulus=1.0, normal_load=0.3, friction=0.5)
-    whole, parts = sie.follow(scene, sie.Path(TURNING)), sie.follow(scene, sie.Path(TURNING).subdivided(7))
+    whole, parts = (
+        sie.follow(scene, sie.Path(TURNING)),
+        sie.follow(scene, sie.Path(TURNING).subdivided(7)),
+    )
     for one, same in zip(whole, parts[::7], strict=True):
         assert one.energy_lost == pytest.approx(same.energy_lost, rel=1e-10)
 
 
 @settings(max_examples=40)
-@given(st.lists(st.tuples(st.integers(1, 40), st.integers(-9, 9)), min_size=2, max_size=6), st.sampled_from([PUNCH, HERTZ, LOPSIDED]))
+@given(
+    st.lists(st.tuples(st.integers(1, 40), st.integers(-9, 9)), min_size=2, max_size=6),
+    st.sampled_from([PUNCH, HERTZ, LOPSIDED]),
+)
 def test_energy_of_every_oblique_path_is_that_of_the_path_cut_into_parts(points, scene):
     path = sie.Path([(0.02 * p, 0.1 * q * F * 0.02 * p) for p, q in points])
     whole, parts = sie.follow(scene, path), sie.follow(scene, path.subdivided(9))
@@ -251,7 +293,11 @@ def test_slip_that_turns_while_the_normal_load_falls_is_told_in_both_directions(
     assert history[-1].energy_lost == pytest.approx(parts[-1].energy_lost, rel=1e-12)
 
 
-@given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.02, 1.0)), min_size=2, max_size=6), st.floats(0.05, 0.95), st.floats(-2.0, 2.0))
+@given(
+    st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(0.02, 1.0)), min_size=2, max_size=6),
+    st.floats(0.05, 0.95),
+    st.floats(-2.0, 2.0),
+)
 def test_what_slips_while_the_ladder_is_lowered_accounts_for_the_load(layers, share, rate):
     """Q falls by what the layers carried away, and rises by the pull of the slip; no front is behind the edge."""
     ladder = Ladder(1.0)
@@ -275,22 +321,42 @@ def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
     G, load, Q, f = mpmath.mpf("0.5"), mpmath.mpf(0.3), mpmath.mpf(0.1), mpmath.mpf(0.5)
 
     def under(r):
-        m = mpmath.findroot(lambda m: mpmath.sinh(m) * mpmath.besseli(0, r) + (m * m + r * r / 2) / 10, -r * r / 20)
+        m = mpmath.findroot(
+            lambda m: mpmath.sinh(m) * mpmath.besseli(0, r) + (m * m + r * r / 2) / 10, -r * r / 20
+        )
         return mpmath.pi * G * r * (mpmath.cosh(m) * mpmath.besseli(1, r) + m * r / 10)
 
-    b, c = (mpmath.findroot(lambda r, y=y: under(r) - y, (0.3, 0.7), solver="anderson", tol=1e-24) for y in (load, load - Q / f))
-    by_hand = f * f / (mpmath.pi * G) * mpmath.quad(lambda r: (load - under(r)) * (under(r) - load + Q / f) / r, [c, b])
+    b, c = (
+        mpmath.findroot(lambda r, y=y: under(r) - y, (0.3, 0.7), solver="anderson", tol=1e-24)
+        for y in (load, load - Q / f)
+    )
+    by_hand = (
+        f
+        * f
+        / (mpmath.pi * G)
+        * mpmath.quad(lambda r: (load - under(r)) * (under(r) - load + Q / f) / r, [c, b])
+    )
     profile = sie.FromFunction(lambda x: np.sinh(x) + 0.1 * x * x, domain=(-3.0, 3.0))
-    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.1)
+    scene = sie.Scene(
+        profile=profile, modulus=1.0, normal_load=0.3, friction=0.5, tangential_load=0.1
+    )
     assert sie.solve(scene).energy_lost == pytest.approx(float(by_hand), rel=1e-12)
 
 
 def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
     """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle there is no contact."""
     profile = sie.Piecewise([-0.4, 0.0], [(0.1, 1.5), (0.0, 1.0), (0.0, 1.5)])
-    points = [(0.17463394504062985, -0.18860466064388023), (0.3, 0.3028715783482759), (0.3, 0.35964), (0.11927161476021313, 0.1187)]
+    points = [
+        (0.17463394504062985, -0.18860466064388023),
+        (0.3, 0.3028715783482759),
+        (0.3, 0.35964),
+        (0.11927161476021313, 0.1187),
+    ]
     here, there = (
-        sie.follow(sie.Scene(profile=p, modulus=1.0, normal_load=0.3, friction=1.2), sie.Path([(P, s * Q) for P, Q in points]))
+        sie.follow(
+            sie.Scene(profile=p, modulus=1.0, normal_load=0.3, friction=1.2),
+            sie.Path([(P, s * Q) for P, Q in points]),
+        )
         for p, s in ((profile, 1.0), (profile.mirrored(), -1.0))
     )
     for one, other in zip(here, there, strict=True):
@@ -299,7 +365,12 @@ def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
 
 def test_the_energy_of_small_loads_has_as_many_digits_as_that_of_large_ones():
     """A front from 0.3 down to a load 450 times as small: what a panel may miss is measured by the loads that it is for."""
-    scene = sie.Scene(profile=sie.Power(2.5, 0.5).shifted(0.3).tilted(0.05), modulus=1.0, normal_load=0.3, friction=1.2)
+    scene = sie.Scene(
+        profile=sie.Power(2.5, 0.5).shifted(0.3).tilted(0.05),
+        modulus=1.0,
+        normal_load=0.3,
+        friction=1.2,
+    )
     path = sie.Path([(0.3, 0.0), (0.0006679102250409004, 0.0007213430430441724)])
     whole, parts = sie.follow(scene, path)[-1], sie.follow(scene, path.subdivided(16))[-1]
     assert whole.energy_lost == pytest.approx(parts.energy_lost, rel=1e-10)
@@ -315,7 +386,16 @@ def test_energy_of_loading_hertz_with_a_growing_normal_load():
     g, w = np.polynomial.legendre.leggauss(60)
     load = P0 + (P1 - P0) * 0.5 * (1.0 + g)
     level = load - (load - P0) * k / F
-    by_hand = F * F / (np.pi * E) * (k / F - 1.0) * 0.5 * (P1 - P0) * w @ (load * np.log(load / level) - load + level)
+    by_hand = (
+        F
+        * F
+        / (np.pi * E)
+        * (k / F - 1.0)
+        * 0.5
+        * (P1 - P0)
+        * w
+        @ (load * np.log(load / level) - load + level)
+    )
     assert lost == pytest.approx(by_hand, rel=1e-10)
 
 
@@ -327,13 +407,20 @@ def test_normal_load_alone_comes_before_anything():
     at_once = sie.follow(HERTZ, sie.Path(loads))
     x = np.linspace(*at_once[0].edges, 21)
     for one, other in zip(later[4:], at_once, strict=True):
-        assert one.stick == other.stick and one.energy_lost == other.energy_lost and one.shift == other.shift
+        assert (
+            one.stick == other.stick
+            and one.energy_lost == other.energy_lost
+            and one.shift == other.shift
+        )
         assert (one.shear(x) == other.shear(x)).all() and (one.slip(x) == other.slip(x)).all()
 
 
 def test_no_moment_on_a_symmetric_profile_is_no_tilt():
     path = sie.Path([(P, 0.05), (2 * P, 0.3), (P, 0.1)])
-    balanced, upright = (sie.follow(sie.Scene(**fields(HERTZ) | {"tilt": 0.0} | more), path) for more in ({}, {"moment": 0.0}))
+    balanced, upright = (
+        sie.follow(sie.Scene(**fields(HERTZ) | {"tilt": 0.0} | more), path)
+        for more in ({}, {"moment": 0.0})
+    )
     for one, other in zip(balanced, upright, strict=True):
         assert one.stick == other.stick and one.energy_lost == other.energy_lost
 
@@ -370,7 +457,9 @@ def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(mor
     scene = sie.solve(sie.Scene(**given, tangential_load=0.6 * FP, bulk_stress=0.5))
     x = np.linspace(*scene.edges, 21)
     assert history[0].stick == scene.stick and history[0].energy_lost == scene.energy_lost
-    assert (history[0].shear(x) == scene.shear(x)).all() and (history[0].slip(x) == scene.slip(x)).all()
+    assert (history[0].shear(x) == scene.shear(x)).all() and (
+        history[0].slip(x) == scene.slip(x)
+    ).all()
     for solution in (history[0], scene):
         assert "retreat" in str(solution.check())
         assert "retreat" in solution.notes[-1]
@@ -430,15 +519,28 @@ def on_a_mesh(scene, points, n):
         tau, slip = 0.25 * sigma, slip + moved
         stuck = mesh.x[moved == 0.0]
         lo, hi = solution.stick[0]
-        ends = max(abs(stuck.min() - 0.5 * mesh.h - lo), abs(stuck.max() + 0.5 * mesh.h - hi)) / mesh.h
+        ends = (
+            max(abs(stuck.min() - 0.5 * mesh.h - lo), abs(stuck.max() + 0.5 * mesh.h - hi)) / mesh.h
+        )
         scale = np.abs(solution.slip(mesh.x)).max() or 1.0
-        errors.append((np.abs(q - solution.shear(mesh.x)).mean() / bound.max(), np.abs(slip - solution.slip(mesh.x)).max() / scale, ends))
+        errors.append(
+            (
+                np.abs(q - solution.shear(mesh.x)).mean() / bound.max(),
+                np.abs(slip - solution.slip(mesh.x)).max() / scale,
+                ends,
+            )
+        )
     return np.array(errors)
 
 
-def shrinking(steps):
-    """Each turning point well inside the last two: nothing is wiped out, where a mesh and a formula may take different sides."""
-    return all(abs(b) < abs(a) and abs(a - b) > 2 for a, b in pairwise([10, *steps]))
+def shrinking(last, turns):
+    """Every sequence of so many turning points, each well inside the one before: nothing is wiped out, where a mesh and a formula
+    may take different sides."""
+    inside = [k for k in range(1 - abs(last), abs(last)) if abs(last - k) > 2]
+    return [[]] if turns == 0 else [[k, *rest] for k in inside for rest in shrinking(k, turns - 1)]
+
+
+SHRINKING = [steps for turns in (2, 3, 4) for steps in shrinking(10, turns)]
 
 
 # (scene, Q of a step over f P, σ of a step)
@@ -450,7 +552,7 @@ CASES = [
 
 
 @settings(max_examples=12)
-@given(st.lists(st.integers(-9, 9), min_size=2, max_size=4).filter(shrinking), st.sampled_from(CASES))
+@given(st.sampled_from(SHRINKING), st.sampled_from(CASES))
 def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
     """Moderate and large bulk stress included; σ is in proportion to Q. First order: half the element, half the error."""
     scene, Q, sigma = case
@@ -459,7 +561,9 @@ def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
     assert coarse[:, 0].max() < 6e-3 and coarse[:, 2].max() < 1.5
     assert fine[:, 0].max() < 1.6e-3 and fine[:, 2].max() < 1.5
     assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
-    assert fine[-1, 1] < 0.45 * coarse[-1, 1]  # of a zone of a few elements the slip is known to few digits, on any mesh
+    assert (
+        fine[-1, 1] < 0.45 * coarse[-1, 1]
+    )  # of a zone of a few elements the slip is known to few digits, on any mesh
 
 
 def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():
@@ -503,7 +607,9 @@ def test_reports_without_a_certificate_note_zones_that_retreat(sigma):
         file = SceneFile(solution.scene, want=want)
         return summary(solution, file), " ".join(as_dict(solution, file)["notes"])
 
-    assert all(("retreat" in report) is (sigma != 0.0) for report in (*reports(), *reports("stress")))
+    assert all(
+        ("retreat" in report) is (sigma != 0.0) for report in (*reports(), *reports("stress"))
+    )
     assert not any("retreat" in report for report in reports("pressure"))
 
 

@@ -8,14 +8,14 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import sie
-from sie import batched, panels
-from sie.composite import NODES, composite_rule
-from sie.geometry import Geometry
-from sie.interval import Interval
-from sie.moments import moments
-from sie.sliding import SlidingGeometry, SlidingPanels
-from sie.slope import Slope
-from sie.summation import LEAF, KernelSums
+from sie.certificate.quadrature import NODES, composite_rule
+from sie.contact.edge_integrals import moments
+from sie.numerics.cauchy_sums import LEAF, KernelSums
+from sie.numerics.interval import Interval
+from sie.profiles.slope import Slope
+from sie.traction import many_panels, panels
+from sie.traction.piece_quadrature import Geometry
+from sie.traction.sliding_panels import SlidingGeometry, SlidingPanels
 from validation import reference
 from validation.reference import mp
 
@@ -25,15 +25,28 @@ CONTACT = Interval(-1.01, 0.97)
 def spline_slope(n, roughness=0.0, seed=0):
     """The slope of a spline through n + 1 points; rough ones have noise of that size on their heights."""
     x = np.linspace(-1.2, 1.3, n + 1)
-    h = np.cosh(x) - 1.0 + 0.1 * x**3 + roughness * np.random.default_rng(seed).standard_normal(n + 1)
+    h = (
+        np.cosh(x)
+        - 1.0
+        + 0.1 * x**3
+        + roughness * np.random.default_rng(seed).standard_normal(n + 1)
+    )
     c = CubicSpline(x, h).c
     return Slope(x, x[:-1], np.stack((c[2], 2.0 * c[1], 3.0 * c[0]), axis=1), np.full(n, 2))
 
 
 def rows(kind, n, rng):
-    ends = {"even": np.linspace(-1.0, 1.0, n + 1), "graded": np.append(0.0, np.geomspace(1e-12, 1.0, n))}[kind]
+    ends = {
+        "even": np.linspace(-1.0, 1.0, n + 1),
+        "graded": np.append(0.0, np.geomspace(1e-12, 1.0, n)),
+    }[kind]
     lo, length = ends[:-1], np.diff(ends)
-    return lo, length, length[:, None] * np.sort(rng.random((n, 9)), axis=1), rng.standard_normal((n, 9))
+    return (
+        lo,
+        length,
+        length[:, None] * np.sort(rng.random((n, 9)), axis=1),
+        rng.standard_normal((n, 9)),
+    )
 
 
 @pytest.mark.parametrize("kind", ["even", "graded"])
@@ -42,7 +55,9 @@ def rows(kind, n, rng):
 def test_what_is_far_is_the_dense_sum_to_rounding(kind, n, plane):
     rng = np.random.default_rng(n)
     lo, length, offset, charge = rows(kind, n, rng)
-    z = np.concatenate((rng.uniform(-1.5, 1.5, 60), rng.uniform(-30.0, 30.0, 20), 10.0 ** rng.uniform(-12, 0, 20)))
+    z = np.concatenate(
+        (rng.uniform(-1.5, 1.5, 60), rng.uniform(-30.0, 30.0, 20), 10.0 ** rng.uniform(-12, 0, 20))
+    )
     z = z + 1j * 10.0 ** rng.uniform(-9, 1, len(z)) if plane else z
     far, k, i = KernelSums(lo, length, offset, charge).far(z)
     for j, at in enumerate(z):
@@ -88,7 +103,11 @@ def test_pairs_give_the_values_of_piece_by_piece(n, epsilon, roughness, monkeypa
     """To the loop's rounding, which grows with the curvature of the pieces: the pairs have less, as the next test shows."""
     slope, rng = spline_slope(n, roughness), np.random.default_rng(1)
     beyond = 10.0 ** np.sort(rng.uniform(-13, 2, 60))
-    x = np.sort(np.concatenate((rng.uniform(-1.01, 0.97, 60), [-1.01, 0.97], slope.breaks[n // 2 : n // 2 + 4])))
+    x = np.sort(
+        np.concatenate(
+            (rng.uniform(-1.01, 0.97, 60), [-1.01, 0.97], slope.breaks[n // 2 : n // 2 + 4])
+        )
+    )
 
     def build():
         if epsilon:
@@ -103,7 +122,10 @@ def test_pairs_give_the_values_of_piece_by_piece(n, epsilon, roughness, monkeypa
     for side in (0.97 + beyond, (-1.01 - beyond)[::-1]):
         (V, H), (V_dense, H_dense) = both_ways(monkeypatch, build, lambda p, x=side: p.beside(x))
         cos = np.cos(np.pi * epsilon)
-        assert np.abs((V - V_dense) - np.pi / cos * (H - H_dense)).max() <= 2e-14 * np.abs(V_dense - np.pi / cos * H_dense).max()
+        assert (
+            np.abs((V - V_dense) - np.pi / cos * (H - H_dense)).max()
+            <= 2e-14 * np.abs(V_dense - np.pi / cos * H_dense).max()
+        )
     z = x + 1j * 10.0 ** rng.uniform(-14, 2, len(x))
     plane, dense = both_ways(monkeypatch, build, lambda p: p.off_axis(z))
     assert (np.abs(plane - dense) <= 2e-14 * np.abs(dense)).all()
@@ -114,7 +136,9 @@ def test_pairs_of_a_rough_spline_are_exact_to_rounding():
     exact = ExactSpline(slope, CONTACT.x1, CONTACT.x2)
     x = np.random.default_rng(2).uniform(-1.01, 0.97, 8)
     found = panels.Panels(Geometry(slope, CONTACT)).on_contact(x)  # π p/G of smooth edges
-    assert found == pytest.approx([float(exact.pressure(at, mp.pi)) for at in x], abs=1e-14 * np.abs(found).max())
+    assert found == pytest.approx(
+        [float(exact.pressure(at, mp.pi)) for at in x], abs=1e-14 * np.abs(found).max()
+    )
 
 
 def test_a_loop_over_pieces_is_never_entered_with_many(monkeypatch):
@@ -135,13 +159,15 @@ def test_jumps_of_a_slope_of_many_pieces_are_infinite_where_they_are():
     x1, x2 = solution.edges
     jumps = [b for k, b in enumerate(breaks[1:-1], 1) if k % 10 == 0 and x1 < b < x2]
     assert jumps and np.isinf(solution.pressure(jumps)).all()
-    assert np.isfinite(solution.pressure([b for b in breaks if x1 < b < x2 and b not in jumps])).all()
+    assert np.isfinite(
+        solution.pressure([b for b in breaks if x1 < b < x2 and b not in jumps])
+    ).all()
 
 
 def test_moments_with_short_rules_are_those_of_long_ones(monkeypatch):
     slope = spline_slope(2000, 1e-4)
     short = moments(slope, CONTACT)
-    monkeypatch.setattr("sie.moments.MANY", 10**9)
+    monkeypatch.setattr("sie.contact.edge_integrals.MANY", 10**9)
     long = moments(slope, CONTACT)
     scale = long.positive + long.negative
     assert short[:3] == pytest.approx(long[:3], abs=1e-15 * scale)
@@ -160,13 +186,21 @@ class ExactSpline:
         self.m, self.r = (x1 + x2) / 2, (x2 - x1) / 2
         self.pieces = []  # ends, their angles, origin, coefficients, and the nodes (t, sin φ, weight)
         g, w = reference.gauss_legendre(12)
-        rows = zip(pairwise(slope.breaks.tolist()), slope.origins.tolist(), slope.coefficients.tolist(), strict=True)
+        rows = zip(
+            pairwise(slope.breaks.tolist()),
+            slope.origins.tolist(),
+            slope.coefficients.tolist(),
+            strict=True,
+        )
         for (lo, hi), origin, c in rows:
             A, B = max(mp.mpf(lo), x1), min(mp.mpf(hi), x2)
             if A < B:
                 a, b = mp.asin((A - self.m) / self.r), mp.asin((B - self.m) / self.r)
                 sines = [mp.sin(a + (b - a) * node) for node in g]
-                nodes = [(self.m + self.r * s, s, (b - a) * weight) for s, weight in zip(sines, w, strict=True)]
+                nodes = [
+                    (self.m + self.r * s, s, (b - a) * weight)
+                    for s, weight in zip(sines, w, strict=True)
+                ]
                 self.pieces.append((A, B, a, b, mp.mpf(origin), [mp.mpf(v) for v in c], nodes))
 
     @staticmethod
@@ -223,10 +257,12 @@ def test_memory_is_not_the_product_of_pieces_and_points():
 
 def test_the_certificate_of_many_pieces_sees_a_wrong_pressure(monkeypatch):
     x = np.linspace(-2.0, 2.2, 400)
-    scene = sie.Scene(profile=sie.Sampled(x, x * x / 2 + 0.05 * x**3 + 0.01 * x**4), modulus=1.0, normal_load=1.0)
+    scene = sie.Scene(
+        profile=sie.Sampled(x, x * x / 2 + 0.05 * x**3 + 0.01 * x**4), modulus=1.0, normal_load=1.0
+    )
     assert sie.solve(scene).check().error < 1e-14
-    right = batched._closed
-    monkeypatch.setattr(batched, "_closed", lambda *args: right(*args) * (1.0 + 1e-9))
+    right = many_panels._closed
+    monkeypatch.setattr(many_panels, "_closed", lambda *args: right(*args) * (1.0 + 1e-9))
     found = sie.solve(scene).check()
     assert not found.ok and found.error > 1e-11
 
@@ -241,10 +277,15 @@ def test_the_certificate_s_rule_integrates_what_corners_of_many_kinds_leave():
         c[:, 0], c[:, 1] = breaks[:-1], 1.0
         for k in range(30, n):
             # the polynomial (t - e)^m about each piece's own origin
-            c[k, : m + 1] += np.polynomial.polynomial.polyfromroots([e - breaks[k]] * m) if m else 1.0
+            c[k, : m + 1] += (
+                np.polynomial.polynomial.polyfromroots([e - breaks[k]] * m) if m else 1.0
+            )
         slope = Slope(breaks, breaks[:-1], c, np.full(n, 2))
         rule = composite_rule(Interval(-1.0, 1.1), slope)
-        exact = sum(s ** (m + 1) * d ** (m + 2) * (np.log(d) / (m + 2) - 1.0 / (m + 2) ** 2) for s, d in ((1, 1.1 - e), (-1, 1.0 + e)))
+        exact = sum(
+            s ** (m + 1) * d ** (m + 2) * (np.log(d) / (m + 2) - 1.0 / (m + 2) ** 2)
+            for s, d in ((1, 1.1 - e), (-1, 1.0 + e))
+        )
         distance = np.abs(rule.x - e)
         values = (rule.x - e) ** (m + 1) * np.log(np.where(distance == 0.0, 1.0, distance))
         assert rule.weight @ values == pytest.approx(exact, abs=1e-14)
@@ -262,16 +303,22 @@ def chained(pieces, jump, **more):
     H = x + 0.3 * x**3
     steep = np.diff(H) / np.diff(x)
     rows = np.stack((H[:-1] - steep * x[:-1] + jump * x[:-1], steep), axis=1)
-    return sie.Scene(profile=sie.Piecewise(x.tolist(), rows.tolist()), modulus=2.0, normal_load=0.5, **more)
+    return sie.Scene(
+        profile=sie.Piecewise(x.tolist(), rows.tolist()), modulus=2.0, normal_load=0.5, **more
+    )
 
 
 @pytest.mark.parametrize("jump", [0.0, 1e-3])
-@pytest.mark.parametrize("more", [{}, {"dundurs": 0.2, "friction": 1.5, "sliding": 1}], ids=["similar", "dissimilar"])
+@pytest.mark.parametrize(
+    "more", [{}, {"dundurs": 0.2, "friction": 1.5, "sliding": 1}], ids=["similar", "dissimilar"]
+)
 def test_both_potentials_are_those_of_a_loop_over_the_pieces(jump, more, monkeypatch):
     scene = chained(150, jump, **more)
     batched = sie.solve(scene)
     rng = np.random.default_rng(7)
-    z = batched.centre + batched.half_width * (rng.uniform(-1.5, 1.5, 500) + 1j * 10.0 ** rng.uniform(-10.0, 1.0, 500))
+    z = batched.centre + batched.half_width * (
+        rng.uniform(-1.5, 1.5, 500) + 1j * 10.0 ** rng.uniform(-10.0, 1.0, 500)
+    )
     F, dF = batched.pressure.potentials(z)
     monkeypatch.setattr(panels, "MANY", 10**9)
     F_looped, dF_looped = sie.solve(scene).pressure.potentials(z)

@@ -4,20 +4,24 @@ import numpy as np
 import pytest
 
 import sie
-from sie.scenefile import Units, example, parse
+from sie.io.scene_file import Units, example, parse
 
 matplotlib = pytest.importorskip("matplotlib")
-plot = pytest.importorskip("sie.plot")
+plot = pytest.importorskip("sie.plots.contact_plot")
 
 STEEL = sie.Elastic(210e3, 0.3)
 SCENES = {
     "rounded flat": parse(example("rounded-flat")).scene,
     "wedge": parse(example("wedge")).scene,
     "flat": parse(example("flat")).scene,
-    "tilted": sie.Scene(profile=sie.RoundedFlat(2.0, 20.0).tilted(4e-4), body=STEEL, normal_load=500.0),
+    "tilted": sie.Scene(
+        profile=sie.RoundedFlat(2.0, 20.0).tilted(4e-4), body=STEEL, normal_load=500.0
+    ),
     "thin rim": sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=STEEL, half_width=1.0),
     "one sharp edge": sie.Scene(profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, tilt=1e-4),
-    "far from x = 0": sie.Scene(profile=sie.Parabola(0.01).shifted(1.0), body=STEEL, normal_load=1e-3),
+    "far from x = 0": sie.Scene(
+        profile=sie.Parabola(0.01).shifted(1.0), body=STEEL, normal_load=1e-3
+    ),
 }
 EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
@@ -49,7 +53,11 @@ def test_both_edges_run_through_both_panels_and_are_named(scene):
     upper, lower = plot.picture(solution).axes
     factor, _ = plot._scaled(solution.half_width, "mm")
     for axes in (upper, lower):
-        dotted = {line.get_xdata()[0] for line in axes.lines if line.get_linestyle() != "-" and len(set(line.get_xdata())) == 1}
+        dotted = {
+            line.get_xdata()[0]
+            for line in axes.lines
+            if line.get_linestyle() != "-" and len(set(line.get_xdata())) == 1
+        }
         assert set(np.multiply(solution.edges, factor)) <= dotted
     assert [word.split("$")[1] for word in words(upper) if word.startswith("$x_")] == ["x_1", "x_2"]
 
@@ -59,12 +67,20 @@ def test_nothing_that_is_written_leaves_the_picture_or_overlaps(scene):
     figure = plot.picture(sie.solve(scene), title="A title")
     figure.draw_without_rendering()
     upper, lower = figure.axes
-    labels = [upper.yaxis.label, lower.xaxis.label, lower.yaxis.label, figure._suptitle, *lower.get_legend().get_texts()]
+    labels = [
+        upper.yaxis.label,
+        lower.xaxis.label,
+        lower.yaxis.label,
+        figure._suptitle,
+        *lower.get_legend().get_texts(),
+    ]
     shown = [text for text in (*labels, *upper.texts, *lower.texts) if text.get_text()]
     boxes = [text.get_window_extent() for text in shown]
     width, height = figure.get_size_inches() * figure.dpi
     for k, box in enumerate(boxes):
-        assert min(box.x0, box.y0) >= 0.0 and box.x1 <= width and box.y1 <= height, shown[k].get_text()
+        assert min(box.x0, box.y0) >= 0.0 and box.x1 <= width and box.y1 <= height, shown[
+            k
+        ].get_text()
         for j in range(k):
             assert not box.overlaps(boxes[j]), (shown[k].get_text(), shown[j].get_text())
 
@@ -78,13 +94,17 @@ def test_the_curves_are_the_pressure_the_gap_and_the_unloaded_profile():
     np.testing.assert_allclose(gap, 1e3 * solution.gap(x), rtol=1e-14)
     x, unloaded = lines(lower)["$h(x)$, unloaded"].get_data()
     assert unloaded.min() == 0.0
-    np.testing.assert_allclose(np.diff(unloaded), 1e3 * np.diff(solution.scene.profile.height(x)), atol=1e-12)
+    np.testing.assert_allclose(
+        np.diff(unloaded), 1e3 * np.diff(solution.scene.profile.height(x)), atol=1e-12
+    )
 
 
 def test_the_unloaded_indenter_is_never_closer_than_the_loaded_one():
     for scene in SCENES.values():
         curves = list(lines(panels(scene)[1]).values())
-        unloaded, loaded = (next(c for c in curves if word in c.get_label()) for word in ("unloaded", "under load"))
+        unloaded, loaded = (
+            next(c for c in curves if word in c.get_label()) for word in ("unloaded", "under load")
+        )
         assert (unloaded.get_ydata() >= loaded.get_ydata() - 1e-12).all()
 
 
@@ -128,7 +148,9 @@ def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
 
 
 def test_dollars_in_titles_and_units_are_letters():
-    figure = plot.picture(sie.solve(SCENES["wedge"]), units=Units("$", "$", "$"), title="$1 for $x_")
+    figure = plot.picture(
+        sie.solve(SCENES["wedge"]), units=Units("$", "$", "$"), title="$1 for $x_"
+    )
     assert plot.picture_bytes(figure, "svg").startswith(b"<?xml")
 
 
@@ -150,9 +172,29 @@ def test_matplotlib_s_settings_stay_as_they_were():
 FRETTING = parse(example("fretting-cycle"))
 SHEARED = {
     "partial slip": sie.solve(parse(example("partial-slip")).scene),
-    "sharp edges": sie.solve(sie.Scene(profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=-10.0)),
-    "both signs": sie.solve(sie.Scene(profile=sie.Parabola(10.0), body=STEEL, normal_load=50.0, friction=0.5, bulk_stress=300.0)),
-    "sliding": sie.solve(sie.Scene(profile=sie.Wedge(0.01), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=25.0)),
+    "sharp edges": sie.solve(
+        sie.Scene(
+            profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=-10.0
+        )
+    ),
+    "both signs": sie.solve(
+        sie.Scene(
+            profile=sie.Parabola(10.0),
+            body=STEEL,
+            normal_load=50.0,
+            friction=0.5,
+            bulk_stress=300.0,
+        )
+    ),
+    "sliding": sie.solve(
+        sie.Scene(
+            profile=sie.Wedge(0.01),
+            body=STEEL,
+            normal_load=50.0,
+            friction=0.5,
+            tangential_load=25.0,
+        )
+    ),
     "path": sie.follow(FRETTING.scene, sie.Path(FRETTING.path))[-1],
 }
 
@@ -167,7 +209,9 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
     factor, _ = plot._scaled(solution.half_width, "mm")
     scale, _ = plot._scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
     middle = len(x) // 2 + 3
-    assert q[middle] == pytest.approx(float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max())
+    assert q[middle] == pytest.approx(
+        float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max()
+    )
     shaded = [patch.get_extents().bounds[2] for patch in axes.patches]
     assert len(shaded) == len(solution.stick)
 
@@ -176,8 +220,14 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
 def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
     axes = plot.picture(solution).axes[2]
     low, high = axes.get_ylim()
-    limits = [line.get_ydata() for line in axes.lines if line.get_linestyle() == "--" and len(line.get_ydata()) > 2]
-    assert all(low <= y[2 * len(y) // 5] <= high for y in limits)  # beside the middle, where a wedge's is infinite
+    limits = [
+        line.get_ydata()
+        for line in axes.lines
+        if line.get_linestyle() == "--" and len(line.get_ydata()) > 2
+    ]
+    assert all(
+        low <= y[2 * len(y) // 5] <= high for y in limits
+    )  # beside the middle, where a wedge's is infinite
     assert len(limits) == 1 + bool((lines(axes)["$q$"].get_ydata() < 0.0).any())
 
 
@@ -187,7 +237,9 @@ def test_after_a_path_the_loop_goes_through_its_turning_points():
     shift, Q = loop.lines[-2].get_data()
     assert pytest.approx([point[1] for point in FRETTING.path]) == Q
     factor, _ = plot._scaled(max(abs(s.shift) for s in solution.history), "mm")
-    assert shift == pytest.approx([s.shift * factor for s in solution.history], abs=1e-9 * abs(shift).max())
+    assert shift == pytest.approx(
+        [s.shift * factor for s in solution.history], abs=1e-9 * abs(shift).max()
+    )
 
 
 @pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)

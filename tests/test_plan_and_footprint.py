@@ -15,23 +15,66 @@ ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "slid
 SCENES = {
     "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
     "tilted": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, tilt=0.05),
-    "moment": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, moment=0.1),
+    "moment": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, moment=0.1
+    ),
     "cylinder": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=0.5),
-    "function": sie.Scene(profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0)), modulus=1.0, normal_load=1.0),
-    "even function": sie.Scene(profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0), parity="even"), modulus=1.0, normal_load=1.0),
+    "function": sie.Scene(
+        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0)), modulus=1.0, normal_load=1.0
+    ),
+    "even function": sie.Scene(
+        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0), parity="even"),
+        modulus=1.0,
+        normal_load=1.0,
+    ),
     "flat": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0),
     "many flats": sie.Scene(
-        profile=sie.Piecewise((-3.0, -2.0, -0.5, 0.5, 1.0), ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0))),
+        profile=sie.Piecewise(
+            (-3.0, -2.0, -0.5, 0.5, 1.0),
+            ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0)),
+        ),
         modulus=1.0,
         half_width=2.75,
     ),
-    "partial slip": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.3),
-    "full sliding": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=-0.5),
-    "both signs": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3),
-    "rough, not sheared": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5),
-    "dissimilar": sie.Scene(profile=sie.Parabola(2.0), body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5),
-    "dissimilar, sliding": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=0.5, sliding=1),
-    "bonded": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=float("inf"), tangential_load=0.3),
+    "partial slip": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0),
+        modulus=1.0,
+        normal_load=1.0,
+        friction=0.5,
+        tangential_load=0.3,
+    ),
+    "full sliding": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0),
+        modulus=1.0,
+        normal_load=1.0,
+        friction=0.5,
+        tangential_load=-0.5,
+    ),
+    "both signs": sie.Scene(
+        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3
+    ),
+    "rough, not sheared": sie.Scene(
+        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5
+    ),
+    "dissimilar": sie.Scene(
+        profile=sie.Parabola(2.0), body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5
+    ),
+    "dissimilar, sliding": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0),
+        modulus=1.0,
+        dundurs=0.2,
+        normal_load=1.0,
+        friction=0.5,
+        sliding=1,
+    ),
+    "bonded": sie.Scene(
+        profile=sie.Flat(1.0),
+        modulus=1.0,
+        dundurs=0.2,
+        normal_load=1.0,
+        friction=float("inf"),
+        tangential_load=0.3,
+    ),
 }
 
 
@@ -66,9 +109,28 @@ def test_the_footprint_is_the_plan(name, want, economy):
     assert footprint(solution) == sie.plan(SCENES[name], want=want, economy=economy).stages
 
 
-@pytest.mark.parametrize("want", ["half_width", "centre", "stick", "slip", "shift", "energy_lost", "elastic_limit", "peak_tension"])
+@pytest.mark.parametrize(
+    "want",
+    [
+        "half_width",
+        "centre",
+        "stick",
+        "slip",
+        "shift",
+        "energy_lost",
+        "elastic_limit",
+        "peak_tension",
+    ],
+)
 def test_what_a_solution_is_asked_for_may_be_wanted_by_the_same_name(want):
-    scene = sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5, tangential_load=0.3)
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0),
+        modulus=1.0,
+        poisson=0.3,
+        normal_load=1.0,
+        friction=0.5,
+        tangential_load=0.3,
+    )
     solution = sie.solve(scene)
     answer = getattr(solution, want)
     if callable(answer):
@@ -92,7 +154,10 @@ def test_the_footprint_is_the_plan_for_random_scenes(scene):
 
 def test_a_plan_for_several_wants_is_the_union():
     scene = SCENES["convex"]
-    assert sie.plan(scene, want=("edges", "check")).stages == sie.plan(scene, want="edges").stages | sie.plan(scene, want="check").stages
+    assert (
+        sie.plan(scene, want=("edges", "check")).stages
+        == sie.plan(scene, want="edges").stages | sie.plan(scene, want="check").stages
+    )
 
 
 def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
@@ -151,7 +216,14 @@ def test_with_keeps_the_stages_that_cannot_have_changed():
 
 @pytest.mark.parametrize(
     "changes",
-    [{"normal_load": 2.0}, {"half_width": 1.25}, {"tilt": 0.03}, {"moment": 0.05}, {"modulus": 3.0}, {"profile": sie.Parabola(1.0)}],
+    [
+        {"normal_load": 2.0},
+        {"half_width": 1.25},
+        {"tilt": 0.03},
+        {"moment": 0.05},
+        {"modulus": 3.0},
+        {"profile": sie.Parabola(1.0)},
+    ],
 )
 def test_with_drops_what_may_have_changed_and_answers_the_new_question(changes):
     solution = sie.solve(SCENES["convex"])
@@ -186,7 +258,15 @@ def test_a_given_load_replaces_a_half_width_and_a_moment_a_tilt():
 
 @pytest.mark.parametrize(
     ("name", "most"),
-    [("convex", 6), ("cylinder", 2), ("flat", 2), ("even function", 8), ("function", 25), ("tilted", 60), ("dissimilar", 4)],
+    [
+        ("convex", 6),
+        ("cylinder", 2),
+        ("flat", 2),
+        ("even function", 8),
+        ("function", 25),
+        ("tilted", 60),
+        ("dissimilar", 4),
+    ],
 )
 def test_the_edges_cost_few_passes_over_the_pieces(name, most):
     assert sie.solve(SCENES[name]).normal.edges.evaluations <= most
@@ -195,7 +275,9 @@ def test_the_edges_cost_few_passes_over_the_pieces(name, most):
 def test_the_slope_of_a_function_is_called_a_few_times_only():
     calls = []
     profile = sie.FromFunction(lambda x: calls.append(np.size(x)) or np.sinh(x), domain=(-9.0, 9.0))
-    sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1.0)).pressure(np.linspace(-1, 1, 1001))
+    sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1.0)).pressure(
+        np.linspace(-1, 1, 1001)
+    )
     assert len(calls) <= 80
     assert sum(calls) <= 20_000
 

@@ -11,8 +11,9 @@ from test_cost import counted
 
 import sie
 from analytic import power
-from sie import normal, slope_density
-from sie.normal import ECONOMY
+from sie.contact import normal
+from sie.contact.normal import ECONOMY
+from sie.traction import of_slope
 
 EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
 EXPONENTS += (31.0, 33.0, 59.99, 60.0)
@@ -95,7 +96,7 @@ def test_the_explicit_form_and_the_panels_agree(m):
 @pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
 def test_an_upright_power_takes_no_search_and_no_panels(m, given):
     with ExitStack() as stack:
-        parts = (normal, "Search"), (normal, "refined"), (slope_density, "Panels")
+        parts = (normal, "Search"), (normal, "refined"), (of_slope, "Panels")
         calls = [stack.enter_context(counted(*part)) for part in parts]
         _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
     assert not any(calls)
@@ -145,7 +146,7 @@ def w(t, x1, x2):
 @pytest.mark.parametrize("given", [{"tilt": 0.1}, {"friction": 0.5, "sliding": -1, "dundurs": 0.3}])
 def test_the_pressure_next_to_the_axis_joins_that_of_the_panels(m, given):
     solution = sie.solve(scene(m, **given))
-    far = slope_density.BESIDE_CUSP * min(map(abs, solution.edges))
+    far = of_slope.BESIDE_CUSP * min(map(abs, solution.edges))
     x = far * np.array([-0.99, -0.5, 0.5, 0.99])
     panels = 1.0 * solution.pressure._by_pieces(x)  # E*/2 = 1
     assert np.abs(solution.pressure(x) / panels - 1.0).max() <= 1e-14
@@ -158,7 +159,9 @@ def test_a_tilted_power_next_to_a_wedge_far_from_x_0_is_answered(dx):
     assert tilted.check().force < 1e-9
 
 
-@pytest.mark.parametrize(("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)])
+@pytest.mark.parametrize(
+    ("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)]
+)
 def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
     tilted = sie.solve(sie.Scene(profile=sie.Power(m, A), modulus=1.0, half_width=b, moment=M))
     assert tilted.moment == pytest.approx(M, rel=1e-12)
@@ -169,7 +172,12 @@ def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
 def test_every_exponent_answers_all_of_a_contact(m):
     solution = sie.solve(scene(m, friction=0.4, tangential_load=0.05))
     x = np.linspace(-1.0, 1.0, 41)
-    for answer in (solution.gap, solution.shear, solution.slip, lambda x: solution.stress(x, 0.1).j2):
+    for answer in (
+        solution.gap,
+        solution.shear,
+        solution.slip,
+        lambda x: solution.stress(x, 0.1).j2,
+    ):
         assert np.isfinite(answer(x)).all()
     assert solution.check().ok
 
@@ -191,7 +199,9 @@ def test_the_potential_of_a_cusp_is_right_at_every_depth_beneath_it(m, axis):
     profile = sie.Power(m, 0.75).shifted(axis)
     solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
     peak, load = solution.pressure(axis), solution.normal_load
-    for depth in 10.0 ** np.array([-250, -100, -30, -16, -14, -12, -10, -9.1, -8.9, -7, -4, -1, 0, 3, 6]):
+    for depth in 10.0 ** np.array(
+        [-250, -100, -30, -16, -14, -12, -10, -9.1, -8.9, -7, -4, -1, 0, 3, 6]
+    ):
         for across in (0.0, -0.7, 20.0):
             z = axis + across * depth + 1j * depth
             F, dF = potentials_of_unit_width(m, DIGITS.mpc(z.real - axis, depth))
@@ -230,11 +240,15 @@ def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_seen_at_every_distance():
     m, r = (x1 + x2) / 2, (x2 - x1) / 2
 
     def slope(t):
-        return DIGITS.sign(t) * 1.3 * DIGITS.mpf(0.3) * abs(t) ** DIGITS.mpf(1.3 - 1) + t * (5 if t > 0 else 1)
+        return DIGITS.sign(t) * 1.3 * DIGITS.mpf(0.3) * abs(t) ** DIGITS.mpf(1.3 - 1) + t * (
+            5 if t > 0 else 1
+        )
 
     for x in (2.0**-31, -(2.0**-31), 2.0**-34, -(2.0**-40)):
         decades = [DIGITS.mpf(10) ** -k for k in range(1, 16)]
-        beside = [DIGITS.mpf(centre) + side * d for d in decades for centre in (0, x) for side in (-1, 1)]
+        beside = [
+            DIGITS.mpf(centre) + side * d for d in decades for centre in (0, x) for side in (-1, 1)
+        ]
         cuts = sorted({x1, DIGITS.mpf(0), DIGITS.mpf(x), x2, *beside})
         cuts = [DIGITS.asin(min(max((c - m) / r, -1), 1)) for c in cuts if x1 <= c <= x2]
 

@@ -11,7 +11,7 @@ from strategies import between, dyadic
 
 import sie
 from analytic import power
-from sie import slope
+from sie.profiles import slope
 
 INF = float("inf")
 
@@ -36,7 +36,8 @@ EVERY_KIND = (
     sie.RoundedFlat(0.5, 3.0).shifted(-0.25),
     sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))).mirrored(),
     sie.Wedge(0.25) + sie.Parabola(2.0),
-    (sie.Wedge(0.25).shifted(0.5) + sie.Parabola(2.0).tilted(0.0625)).mirrored().shifted(0.25) + (sie.Power(4, 1.0) + sie.Flat(3.0)),
+    (sie.Wedge(0.25).shifted(0.5) + sie.Parabola(2.0).tilted(0.0625)).mirrored().shifted(0.25)
+    + (sie.Power(4, 1.0) + sie.Flat(3.0)),
 )
 each = pytest.mark.parametrize("profile", EVERY_KIND, ids=repr)
 
@@ -50,7 +51,10 @@ def solved(profile):
 
 @each
 def test_a_profile_rebuilt_from_its_repr_is_equal(profile):
-    rebuilt = eval(repr(profile), vars(sie) | {"inf": INF, "sie": sie, "module_level_slope": module_level_slope})
+    rebuilt = eval(
+        repr(profile),
+        vars(sie) | {"inf": INF, "sie": sie, "module_level_slope": module_level_slope},
+    )
     assert rebuilt == profile
     assert repr(rebuilt) == repr(profile)
 
@@ -113,7 +117,12 @@ def inside(profile, n=41):
 @each
 def test_the_slope_is_the_derivative_of_the_height(profile):
     x, d = inside(profile), 1e-4
-    difference = (profile.height(x - 2 * d) - 8 * profile.height(x - d) + 8 * profile.height(x + d) - profile.height(x + 2 * d)) / (12 * d)
+    difference = (
+        profile.height(x - 2 * d)
+        - 8 * profile.height(x - d)
+        + 8 * profile.height(x + d)
+        - profile.height(x + 2 * d)
+    ) / (12 * d)
     assert profile.slope(x) == pytest.approx(difference, rel=1e-9, abs=1e-10)
 
 
@@ -121,7 +130,9 @@ def test_the_slope_is_the_derivative_of_the_height(profile):
 def test_the_slope_is_the_derivative_of_the_height_of_random_profiles(profile):
     x, d = inside(profile), 1e-5
     difference = (profile.height(x + d) - profile.height(x - d)) / (2 * d)
-    assert profile.slope(x) == pytest.approx(difference, rel=1e-6, abs=1e-6 * (1 + float(np.abs(profile.slope(x)).max())))
+    assert profile.slope(x) == pytest.approx(
+        difference, rel=1e-6, abs=1e-6 * (1 + float(np.abs(profile.slope(x)).max()))
+    )
 
 
 @each
@@ -168,21 +179,31 @@ def test_tilted_shifted_mirrored_and_sums_mean_what_they_say(profile, slope, dx)
     x = inside(profile)
     h = profile.height
     assert profile.tilted(slope).height(x) == pytest.approx(h(x) + slope * x, rel=1e-13, abs=1e-13)
-    assert profile.tilted(slope).slope(x) == pytest.approx(profile.slope(x) + slope, rel=1e-13, abs=1e-13)
+    assert profile.tilted(slope).slope(x) == pytest.approx(
+        profile.slope(x) + slope, rel=1e-13, abs=1e-13
+    )
     moved = profile.shifted(dx)
     assert moved.height(x) == pytest.approx(h(x - dx), rel=1e-12, abs=1e-12)
     assert moved.domain == tuple(e + dx for e in profile.domain)
     assert profile.mirrored().height(x) == pytest.approx(h(-x), rel=1e-13, abs=1e-13)
     assert profile.mirrored().slope(x) == pytest.approx(-profile.slope(-x), rel=1e-12, abs=1e-12)
     both = profile + sie.Parabola(2.0).shifted(dx)
-    assert both.height(x) == pytest.approx(h(x) + sie.Parabola(2.0).shifted(dx).height(x), rel=1e-12, abs=1e-12)
-    assert both.slope(x) == pytest.approx(profile.slope(x) + sie.Parabola(2.0).shifted(dx).slope(x), rel=1e-12, abs=1e-12)
+    assert both.height(x) == pytest.approx(
+        h(x) + sie.Parabola(2.0).shifted(dx).height(x), rel=1e-12, abs=1e-12
+    )
+    assert both.slope(x) == pytest.approx(
+        profile.slope(x) + sie.Parabola(2.0).shifted(dx).slope(x), rel=1e-12, abs=1e-12
+    )
 
 
 @each
 def test_doing_and_undoing_gives_the_same_shape(profile):
     x = inside(profile)
-    for same in (profile.tilted(0.5).tilted(-0.5), profile.shifted(0.5).shifted(-0.5), profile.mirrored().mirrored()):
+    for same in (
+        profile.tilted(0.5).tilted(-0.5),
+        profile.shifted(0.5).shifted(-0.5),
+        profile.mirrored().mirrored(),
+    ):
         assert same.height(x) == pytest.approx(profile.height(x), rel=1e-14, abs=1e-14)
     assert profile.tilted(0.0) == profile == profile.shifted(0.0)
 
@@ -209,7 +230,11 @@ def chain(terms):
     return total
 
 
-DEEP = {"sum": lambda: chain(1500), "sum of modified sums": lambda: nested(1500), "sum on the right": lambda: right_handed(1500)}
+DEEP = {
+    "sum": lambda: chain(1500),
+    "sum of modified sums": lambda: nested(1500),
+    "sum on the right": lambda: right_handed(1500),
+}
 
 
 def right_handed(terms):
@@ -314,17 +339,34 @@ def test_heights_are_measured_from_the_nearest_point_to_zero():
     assert sie.FromFunction("x").height(0.0) == 0.0
 
 
-@pytest.mark.parametrize("text", ["sinh(x)", "x**3 + abs(x)*x", "where(x > 0.5, 2*x - 0.5, x)", "x*exp(-x**2/2)"])
+@pytest.mark.parametrize(
+    "text", ["sinh(x)", "x**3 + abs(x)*x", "where(x > 0.5, 2*x - 0.5, x)", "x*exp(-x**2/2)"]
+)
 def test_a_text_slope_is_the_same_profile_as_the_function_it_says(text):
     profile = sie.FromFunction(text, breaks=(0.0, 0.5), domain=(-1.0, 1.0))
     x = np.linspace(-0.9, 0.9, 7)
-    expected = eval(text, {"sinh": np.sinh, "abs": np.abs, "where": np.where, "exp": np.exp, "x": x})
+    expected = eval(
+        text, {"sinh": np.sinh, "abs": np.abs, "where": np.where, "exp": np.exp, "x": x}
+    )
     assert profile.slope(x) == pytest.approx(expected, rel=1e-14)
 
 
 @pytest.mark.parametrize(
     "text",
-    ["__import__('os')", "x.real", "[x]", "lambda: x", "open('a')", "x if x else 1", "'a'", "y + x", "x +", "x; x", "sin(x", "x = 1"],
+    [
+        "__import__('os')",
+        "x.real",
+        "[x]",
+        "lambda: x",
+        "open('a')",
+        "x if x else 1",
+        "'a'",
+        "y + x",
+        "x +",
+        "x; x",
+        "sin(x",
+        "x = 1",
+    ],
 )
 def test_a_text_slope_cannot_run_code(text):
     with pytest.raises(ValueError, match="expression"):

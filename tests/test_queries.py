@@ -28,7 +28,9 @@ SOLUTIONS = {
     "many pieces": solved(sie.Sampled(TRACE, 0.5 * TRACE**2), tangential_load=0.05),
     "dissimilar": solved(sliding=1, dundurs=0.2),
     "bonded": solved(sie.Flat(1.0), friction=np.inf, dundurs=0.2, tangential_load=0.1),
-    "after a path": sie.follow(sie.Scene(profile=ROUNDED, **GIVEN), sie.Path([(0.3, 0.05), (0.3, -0.03), (0.4, 0.01)]))[-1],
+    "after a path": sie.follow(
+        sie.Scene(profile=ROUNDED, **GIVEN), sie.Path([(0.3, 0.05), (0.3, -0.03), (0.4, 0.01)])
+    )[-1],
 }
 PAIR = sie.CauchyEquation([(-2.0, -1.0), (1.0, 2.0)], lambda x: x, total=[1.0, 2.0]).solve()
 
@@ -39,7 +41,10 @@ def of_density(density):
         "hilbert": density.hilbert,
         **{
             f"{name}, side {side}": lambda x, query=query, side=side: query(x, side)
-            for name, query in (("cauchy", density.cauchy), ("cauchy_derivative", density.cauchy_derivative))
+            for name, query in (
+                ("cauchy", density.cauchy),
+                ("cauchy_derivative", density.cauchy_derivative),
+            )
             for side in (1, 0, -1)
         },
         "F of both potentials": lambda x: density.potentials(x)[0],
@@ -118,14 +123,24 @@ def test_at_edges_and_breaks_nothing_is_nan(name):
 @pytest.mark.parametrize("name", SOLUTIONS)
 def test_an_imaginary_part_is_never_dropped(name):
     solution = SOLUTIONS[name]
-    for query in (solution.pressure, solution.shear, solution.gap, solution.pressure.hilbert, solution.scene.profile.height):
+    for query in (
+        solution.pressure,
+        solution.shear,
+        solution.gap,
+        solution.pressure.hilbert,
+        solution.scene.profile.height,
+    ):
         with pytest.raises(ValueError, match="x is not an array of real numbers"):
             query(np.array([0.1 + 0.2j]))
 
 
 @pytest.mark.parametrize("name", SOLUTIONS)
 def test_a_stress_names_the_point_that_is_none(name):
-    for x, y, words in ((np.nan, 0.1, "x = nan"), (0.1, np.nan, "y = nan"), (np.inf, 0.0, "x = inf")):
+    for x, y, words in (
+        (np.nan, 0.1, "x = nan"),
+        (0.1, np.nan, "y = nan"),
+        (np.inf, 0.0, "x = inf"),
+    ):
         with pytest.raises(ValueError, match=words):
             SOLUTIONS[name].stress([0.2, x], y)
 
@@ -138,7 +153,10 @@ def test_stresses_far_and_near_are_numbers(name):
     far = solution.stress([-1e300, 0.0, 1e300], 1e300)
     for component in (*stress, stress.mises, *stress.principal):
         assert not np.isnan(component).any()
-    assert far.xx == pytest.approx(solution.scene.bulk_stress, abs=1e-290) and (np.abs(far.yy) <= 1e-290).all()
+    assert (
+        far.xx == pytest.approx(solution.scene.bulk_stress, abs=1e-290)
+        and (np.abs(far.yy) <= 1e-290).all()
+    )
 
 
 PROFILES = {
@@ -156,6 +174,10 @@ PROFILES = {
 def test_the_height_and_the_slope_of_nan_are_nan_and_no_height_overflows_aloud(profile):
     for query in (profile.height, profile.slope):
         alone, mixed = query(ORDINARY), query(np.insert(ORDINARY, 3, np.nan))
-        assert np.isnan(mixed[3]) and np.array_equal(np.delete(mixed, 3), alone) and np.isnan(query(np.nan))
+        assert (
+            np.isnan(mixed[3])
+            and np.array_equal(np.delete(mixed, 3), alone)
+            and np.isnan(query(np.nan))
+        )
         assert not np.isnan(query([-np.inf, -1e300, -1e160, 1e160, 1e300, np.inf])).any()
     assert (profile.height([-np.inf, np.inf]) == np.inf).all()

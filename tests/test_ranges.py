@@ -10,7 +10,22 @@ import pytest
 
 import sie
 
-MAGNITUDES = [1e-300, 1e-200, 1e-150, 1e-110, 1e-17, 1e-6, 1e6, 1e12, 1e17, 1e60, 1e110, 1e150, 1e200, 1e300]
+MAGNITUDES = [
+    1e-300,
+    1e-200,
+    1e-150,
+    1e-110,
+    1e-17,
+    1e-6,
+    1e6,
+    1e12,
+    1e17,
+    1e60,
+    1e110,
+    1e150,
+    1e200,
+    1e300,
+]
 EXTREME = [5e-324, 1e-320, 9e307]
 POINTS = np.array([-0.9, -0.2, 0.4, 0.99])
 PARABOLA = sie.Parabola(1.0)
@@ -26,7 +41,12 @@ def steel(young, **given):
     return scene(body=sie.Elastic(young, 0.3), **given)
 
 
-FLAT, PUNCH, WEDGE, POWER = sie.Flat(1.0), sie.RoundedFlat(1.0, 1.0), sie.Wedge(1.0), sie.Power(2.5, 1.0)
+FLAT, PUNCH, WEDGE, POWER = (
+    sie.Flat(1.0),
+    sie.RoundedFlat(1.0, 1.0),
+    sie.Wedge(1.0),
+    sie.Power(2.5, 1.0),
+)
 INPUTS = {
     "modulus": lambda v: scene(modulus=v),
     "young": steel,
@@ -36,7 +56,9 @@ INPUTS = {
     "dundurs": lambda v: scene(friction=0.3, sliding=1, dundurs=v),
     "dundurs of a bonded punch": lambda v: scene(FLAT, friction=math.inf, dundurs=v),
     "normal_load": lambda v: scene(normal_load=v),
-    "normal_load of a bonded punch": lambda v: scene(FLAT, friction=math.inf, dundurs=0.2, normal_load=v),
+    "normal_load of a bonded punch": lambda v: scene(
+        FLAT, friction=math.inf, dundurs=0.2, normal_load=v
+    ),
     "half_width": lambda v: scene(half_width=v),
     "half_width of a rounded punch": lambda v: scene(PUNCH, half_width=v),
     "tilt": lambda v: scene(tilt=v),
@@ -83,7 +105,12 @@ def answered(build):
         solution = sie.solve(build())
         asked = [*solution.edges, solution.normal_load, solution.moment, solution.tilt]
         x = solution.centre + solution.half_width * POINTS
-        asked += [*solution.pressure(x), *solution.shear(x), *np.ravel(solution.stick), float(str(solution.check()) == "")]
+        asked += [
+            *solution.pressure(x),
+            *solution.shear(x),
+            *np.ravel(solution.stick),
+            float(str(solution.check()) == ""),
+        ]
     except (ValueError, sie.ContactError) as refusal:
         return str(refusal)
     assert np.isfinite(asked).all()
@@ -96,7 +123,19 @@ def test_every_magnitude_of_every_input_is_refused_in_words_or_answered(name, va
     found = answered(lambda: INPUTS[name](value))
     if isinstance(found, str):
         assert ": " in found or ";" in found  # what and how much; what to do
-        assert not any(word in found for word in ("NaN", "nan", "domain error", "zero-size", "division", "overflow", "broadcast", "cannot"))
+        assert not any(
+            word in found
+            for word in (
+                "NaN",
+                "nan",
+                "domain error",
+                "zero-size",
+                "division",
+                "overflow",
+                "broadcast",
+                "cannot",
+            )
+        )
     else:
         assert found.check().error >= 0.0
 
@@ -117,7 +156,13 @@ SCALED = {
 @pytest.mark.parametrize("stress", [1e-200, 1e-100, 1.0, 1e100, 1e200])
 def test_a_contact_in_any_units_is_refused_or_the_same(name, length, stress):
     def of(L, E):
-        return sie.Scene(profile=SCALED[name](L), modulus=E, normal_load=0.3 * L * E, friction=0.4, tangential_load=0.05 * L * E)
+        return sie.Scene(
+            profile=SCALED[name](L),
+            modulus=E,
+            normal_load=0.3 * L * E,
+            friction=0.4,
+            tangential_load=0.05 * L * E,
+        )
 
     one, other = answered(lambda: of(1.0, 1.0)), answered(lambda: of(length, stress))
     inside = 1e-101 < length < 1e101 and 1e-101 < stress < 1e101
@@ -127,12 +172,18 @@ def test_a_contact_in_any_units_is_refused_or_the_same(name, length, stress):
     assert np.array(other.edges) / length == pytest.approx(np.array(one.edges), rel=1e-13)
     assert np.array(other.stick) / length == pytest.approx(np.array(one.stick), rel=1e-11)
     x = one.centre + one.half_width * POINTS
-    assert other.pressure(length * x) / stress == pytest.approx(one.pressure(x), rel=1e-12, abs=1e-13)
+    assert other.pressure(length * x) / stress == pytest.approx(
+        one.pressure(x), rel=1e-12, abs=1e-13
+    )
 
 
 FAR = np.array([-1e300, -1e150, -1e-300, 0.0, 1e120, 1e300])
 SIZED = {
-    "two signs of slip": lambda L, E: {"friction": 0.3, "tangential_load": 0.01 * L * E, "bulk_stress": 0.1 * E},
+    "two signs of slip": lambda L, E: {
+        "friction": 0.3,
+        "tangential_load": 0.01 * L * E,
+        "bulk_stress": 0.1 * E,
+    },
     "sliding of dissimilar bodies": lambda L, E: {"friction": 0.3, "sliding": 1, "dundurs": 0.2},
 }
 
@@ -141,7 +192,9 @@ SIZED = {
 @pytest.mark.parametrize("length", [1e-100, 1e-60, 1.0, 1e60, 1e100])
 @pytest.mark.parametrize("modulus", [1e-100, 1.0, 1e100])
 def test_no_query_overflows_however_small_or_far_away(name, length, modulus):
-    given = {"modulus": modulus, "poisson": 0.3, "normal_load": length * modulus} | SIZED[name](length, modulus)
+    given = {"modulus": modulus, "poisson": 0.3, "normal_load": length * modulus} | SIZED[name](
+        length, modulus
+    )
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(length, length), **given))
     x = np.concatenate((length * np.linspace(-3.0, 3.0, 7), FAR))
     for query in (solution.pressure, solution.shear, solution.gap):
@@ -153,5 +206,7 @@ def test_no_query_overflows_however_small_or_far_away(name, length, modulus):
 
 @pytest.mark.parametrize("moment", [1e160, 1e200, -1e226, 1e260])
 def test_a_moment_that_moves_the_contact_beyond_doubles_is_refused(moment):
-    with pytest.raises(sie.ContactError, match=r"the moment .* lower the moment|choose other units"):
+    with pytest.raises(
+        sie.ContactError, match=r"the moment .* lower the moment|choose other units"
+    ):
         _ = sie.solve(scene(PUNCH, normal_load=1e-47, moment=moment)).edges

@@ -8,16 +8,23 @@ import numpy as np
 import pytest
 
 import sie
-from sie.scenefile import SceneFileError, parse
+from sie.io.scene_file import SceneFileError, parse
 
-PARABOLA, PUNCH, FLAT, WEDGE = sie.Parabola(1.0), sie.RoundedFlat(1.0, 2.0), sie.Flat(1.0), sie.Wedge(1.0)
+PARABOLA, PUNCH, FLAT, WEDGE = (
+    sie.Parabola(1.0),
+    sie.RoundedFlat(1.0, 2.0),
+    sie.Flat(1.0),
+    sie.Wedge(1.0),
+)
 STEEL, ALLOY = sie.Elastic(210e3, 0.3), sie.Elastic(115e3, 0.32)
 
 
 def scene(profile=PUNCH, **given):
     loads = {} if "half_width" in given else {"normal_load": 1.0}
     bodies = {} if "body" in given or "indenter" in given else {"modulus": 1.0}
-    return sie.Scene(profile=profile, **{k: v for k, v in (bodies | loads | given).items() if v is not ...})
+    return sie.Scene(
+        profile=profile, **{k: v for k, v in (bodies | loads | given).items() if v is not ...}
+    )
 
 
 def solved(scene):
@@ -105,7 +112,11 @@ def test_dissimilar_bodies_follow_each_remedy(remedy):
         "sliding": {"sliding": 1, "tangential_load": 0.0},
         "friction": {"friction": 0.0, "tangential_load": 0.0},
     }
-    assert {"dundurs": "give dundurs = 0", "sliding": "sliding = ±1", "friction": "set friction = 0"}[remedy] in str(refusal.value)
+    assert {
+        "dundurs": "give dundurs = 0",
+        "sliding": "sliding = ±1",
+        "friction": "set friction = 0",
+    }[remedy] in str(refusal.value)
     solved(replace(asked, **changes[remedy]))
 
 
@@ -128,7 +139,9 @@ def test_a_load_raised_to_what_the_refusal_prints_carries_the_tangential_load(Q)
 
 def test_poisson_s_ratio_is_given_beside_the_modulus_or_with_the_body():
     without = sie.solve(scene())
-    with pytest.raises(ValueError, match="give poisson beside modulus, or the body by young and poisson"):
+    with pytest.raises(
+        ValueError, match="give poisson beside modulus, or the body by young and poisson"
+    ):
         _ = without.stress(0.0, 1.0).zz
     body = sie.Elastic(2.0 * (1.0 - 0.09), 0.3)  # E* = 1
     given = [sie.solve(scene(poisson=0.3)), sie.solve(scene(body=body))]
@@ -172,9 +185,21 @@ def line(x):
 EQUATIONS = {
     "as many conditions": ({}, "as many of total", {"total": 0.0}),
     "bounded or singular": ({}, "make other ends bounded", {"ends": ("singular", "bounded")}),
-    "normal type": ({"a": 1j, "b": 1.0, "total": 0.0}, "not of normal type", {"a": 0.5j, "b": 1.0, "total": 0.0}),
-    "free a constant": ({"g": line, "ends": "bounded"}, "free a constant", {"g": line, "ends": "bounded", "free": (1.0,)}),
-    "a singular end": ({"g": line, "ends": "bounded"}, "let an end be singular", {"g": line, "ends": ("bounded", "singular")}),
+    "normal type": (
+        {"a": 1j, "b": 1.0, "total": 0.0},
+        "not of normal type",
+        {"a": 0.5j, "b": 1.0, "total": 0.0},
+    ),
+    "free a constant": (
+        {"g": line, "ends": "bounded"},
+        "free a constant",
+        {"g": line, "ends": "bounded", "free": (1.0,)},
+    ),
+    "a singular end": (
+        {"g": line, "ends": "bounded"},
+        "let an end be singular",
+        {"g": line, "ends": ("bounded", "singular")},
+    ),
 }
 
 

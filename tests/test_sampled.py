@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, make_smoothing_spline
 
 import sie
-from sie import scenefile
-from sie.__main__ import main
-from sie.compare import read_mesh
+from sie.cli import main
+from sie.contact import normal
+from sie.io import scene_file
+from sie.io.mesh_comparison import read_mesh
 
 X = np.linspace(-2.0, 2.2, 211)
 H = 0.5 * X**2 + 0.03 * X**3 + 0.01 * X**4
@@ -37,7 +38,10 @@ def test_the_interpolating_spline_is_not_a_knot():
 
 def test_a_cubic_slope_is_pressed_as_the_polynomial_it_is():
     h = 0.5 * X**2 + 0.03 * X**3
-    sampled, exact = pressed(sie.Sampled(X, h)), pressed(sie.Piecewise((-2.0, 2.2), ((0.0, 1.0, 0.09),)))
+    sampled, exact = (
+        pressed(sie.Sampled(X, h)),
+        pressed(sie.Piecewise((-2.0, 2.2), ((0.0, 1.0, 0.09),))),
+    )
     assert sampled.edges == pytest.approx(exact.edges, rel=1e-12)
     x = np.linspace(*exact.edges, 50)[1:-1]
     assert sampled.pressure(x) == pytest.approx(exact.pressure(x), rel=1e-11)
@@ -69,7 +73,9 @@ def test_a_smoothing_spline_tends_to_the_natural_one_through_the_points(n, lam):
     h = x**2 + 0.01 * np.sin(50.0 * x)
     between = 0.5 * (x[1:] + x[:-1])
     natural = CubicSpline(x, h, bc_type="natural")
-    assert sie.Sampled(x, h, smoothing=lam).height(between) == pytest.approx(natural(between), abs=1e-12)
+    assert sie.Sampled(x, h, smoothing=lam).height(between) == pytest.approx(
+        natural(between), abs=1e-12
+    )
 
 
 def test_cross_validation_finds_the_smallest_score():
@@ -90,7 +96,7 @@ def test_knots_that_are_left_out_change_less_than_a_thousandth_of_what_smoothing
     h = 0.5 * x * x + 1e-3 * rng.standard_normal(2001)
     few = sie.Sampled(x, h, 1e-2)
     assert len(few.pieces.breaks) < 1001
-    monkeypatch.setattr("sie.smoothing.ALL_KNOTS", 10_000)
+    monkeypatch.setattr("sie.profiles.splines.ALL_KNOTS", 10_000)
     every = sie.Sampled(x, h, 1e-2)
     assert len(every.pieces.breaks) == 2001
     assert np.abs(few.height(x) - every.height(x)).max() <= 1e-3 * np.abs(h - every.height(x)).max()
@@ -102,7 +108,9 @@ def test_a_noisy_trace_presses_as_the_smooth_one_within_a_percent():
     noisy = sie.Sampled(x, smooth + 0.01 * smooth.max() * rng.standard_normal(len(x)), "gcv")
     exact = sie.FromFunction(np.sinh, domain=(-2.0, 2.0))
     for load in (0.3, 1.0):
-        assert pressed(noisy, load).half_width == pytest.approx(pressed(exact, load).half_width, rel=1e-2)
+        assert pressed(noisy, load).half_width == pytest.approx(
+            pressed(exact, load).half_width, rel=1e-2
+        )
 
 
 # -- what is not a trace ---------------------------------------------------------------------------------------------
@@ -150,7 +158,9 @@ def test_a_contact_that_would_reach_the_end_of_the_trace_is_refused():
 
 # -- files -----------------------------------------------------------------------------------------------------------
 
-TABLE = [(x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True)]
+TABLE = [
+    (x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True)
+]
 
 
 @pytest.mark.parametrize(
@@ -163,9 +173,19 @@ TABLE = [(x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.
         "% 3 lines\nfrom\nhere on\n" + "\n".join(f'"{x}","{h:e}"' for x, h in TABLE),
         "\n".join(f"{x} {h}" for x, h in TABLE).replace("\n", "\r\n"),
         "x h\n" + "\n".join(f"{x}  {h}".replace(".", ",") for x, h in TABLE),
-        "a trace of 5 points in 2 columns\n" + "\n".join(f"{x}\t{h}".replace("\t", "  ") for x, h in TABLE),
+        "a trace of 5 points in 2 columns\n"
+        + "\n".join(f"{x}\t{h}".replace("\t", "  ") for x, h in TABLE),
     ],
-    ids=["comma", "blanks", "semicolon", "tab", "quoted", "windows", "decimal commas between blanks", "numbers in a sentence"],
+    ids=[
+        "comma",
+        "blanks",
+        "semicolon",
+        "tab",
+        "quoted",
+        "windows",
+        "decimal commas between blanks",
+        "numbers in a sentence",
+    ],
 )
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
 def test_text_is_read_as_it_comes(text, encoding, tmp_path):
@@ -178,13 +198,18 @@ def test_text_is_read_as_it_comes(text, encoding, tmp_path):
 def test_a_scale_beyond_the_range_of_doubles_is_refused(scale, tmp_path):
     file = tmp_path / "trace.csv"
     file.write_text("".join(f"{x},{x * x}\n" for x in range(-20, 21)))
-    with pytest.raises(ValueError, match=r"scale = .*beyond the range of doubles: choose other units"):
+    with pytest.raises(
+        ValueError, match=r"scale = .*beyond the range of doubles: choose other units"
+    ):
         sie.Sampled.read(file, scale=scale)
 
 
 def test_columns_scale_and_skip(tmp_path):
     file = tmp_path / "trace.txt"
-    file.write_text("1 2 3\nno, height (um), x (um)\n" + "\n".join(f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE)))
+    file.write_text(
+        "1 2 3\nno, height (um), x (um)\n"
+        + "\n".join(f"{k}, {-1000 * h}, {1000 * x}" for k, (x, h) in enumerate(TABLE))
+    )
     found = sie.Sampled.read(file, columns=("x", "height"), scale=(1e-3, -1e-3), skip=1)
     assert found.points == pytest.approx([x for x, _ in TABLE])
     assert found.heights == pytest.approx([h for _, h in TABLE])
@@ -193,16 +218,22 @@ def test_columns_scale_and_skip(tmp_path):
 
 def test_a_column_may_be_named_as_in_the_header_with_its_unit(tmp_path):
     file = tmp_path / "trace.csv"
-    file.write_text("n,X (um),Z [um]\n" + "\n".join(f"{k},{x},{h}" for k, (x, h) in enumerate(TABLE)))
+    file.write_text(
+        "n,X (um),Z [um]\n" + "\n".join(f"{k},{x},{h}" for k, (x, h) in enumerate(TABLE))
+    )
     assert (
-        sie.Sampled.read(file, columns=("X (um)", "Z [um]")) == sie.Sampled.read(file, columns=("x", "z")) == sie.Sampled.read(file, (1, 2))
+        sie.Sampled.read(file, columns=("X (um)", "Z [um]"))
+        == sie.Sampled.read(file, columns=("x", "z"))
+        == sie.Sampled.read(file, (1, 2))
     )
 
 
 def test_numbers_of_columns_and_lines_may_be_numpy_s(tmp_path):
     file = tmp_path / "trace.txt"
     file.write_text("7 7\n" + "\n".join(f"{h} {x}" for x, h in TABLE))
-    assert sie.Sampled.read(file, columns=tuple(np.array([1, 0])), skip=np.int64(1)) == sie.Sampled(*zip(*TABLE, strict=True))
+    assert sie.Sampled.read(file, columns=tuple(np.array([1, 0])), skip=np.int64(1)) == sie.Sampled(
+        *zip(*TABLE, strict=True)
+    )
 
 
 def test_what_a_file_lacks_is_named_by_its_lines(tmp_path):
@@ -245,7 +276,9 @@ def test_a_line_scan_of_surface_topography_is_taken(tmp_path, monkeypatch):
         dim = 1
 
         def positions_and_heights(self):
-            return np.arange(5.0), np.ma.masked_array([4.0, 1.0, 0.0, 1.0, 4.0], mask=[0, 0, 0, 0, 0])
+            return np.arange(5.0), np.ma.masked_array(
+                [4.0, 1.0, 0.0, 1.0, 4.0], mask=[0, 0, 0, 0, 0]
+            )
 
     class Library:
         @staticmethod
@@ -255,7 +288,9 @@ def test_a_line_scan_of_surface_topography_is_taken(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", Library)
     file = tmp_path / "trace.opd"
     file.write_bytes(b"\0\1")
-    assert sie.Sampled.read(file, scale=(1e-3, 1.0)).points == pytest.approx([0.0, 1e-3, 2e-3, 3e-3, 4e-3])
+    assert sie.Sampled.read(file, scale=(1e-3, 1.0)).points == pytest.approx(
+        [0.0, 1e-3, 2e-3, 3e-3, 4e-3]
+    )
 
 
 # -- what a trace is like --------------------------------------------------------------------------------------------
@@ -263,7 +298,9 @@ def test_a_line_scan_of_surface_topography_is_taken(tmp_path, monkeypatch):
 
 def test_levelling_takes_out_the_line_and_nothing_else():
     tilted = sie.Sampled(X, H + 0.3 * X - 2.0)
-    assert tilted.levelled().heights == pytest.approx(sie.Sampled(X, H).levelled().heights, abs=1e-13)
+    assert tilted.levelled().heights == pytest.approx(
+        sie.Sampled(X, H).levelled().heights, abs=1e-13
+    )
     flat = sie.Sampled(X, np.maximum(np.abs(X) - 1.0, 0.0) ** 2 + 0.3 * X).levelled((-0.9, 0.9))
     assert flat.heights[np.abs(X) < 0.9] == pytest.approx(0.0, abs=1e-14)
     with pytest.raises(ValueError, match="0 points of the trace"):
@@ -271,12 +308,20 @@ def test_levelling_takes_out_the_line_and_nothing_else():
 
 
 @given(
-    a=st.floats(0.1, 0.7), R=st.floats(0.5, 200.0), centre=st.floats(-0.1, 0.1), tilt=st.floats(-1e-3, 1e-3), offset=st.floats(-1.0, 1.0)
+    a=st.floats(0.1, 0.7),
+    R=st.floats(0.5, 200.0),
+    centre=st.floats(-0.1, 0.1),
+    tilt=st.floats(-1e-3, 1e-3),
+    offset=st.floats(-1.0, 1.0),
 )
 def test_the_flat_with_rounded_edges_in_a_trace_is_found(a, R, centre, tilt, offset):
     x = np.linspace(-1.0, 1.0, 301)
-    fit = sie.Sampled(x, offset + tilt * x + np.maximum(np.abs(x - centre) - a, 0.0) ** 2 / (2.0 * R)).fit_rounded_flat()
-    assert (fit.half_flat, fit.radius, fit.centre) == pytest.approx((a, R, centre), rel=1e-4, abs=1e-5)
+    fit = sie.Sampled(
+        x, offset + tilt * x + np.maximum(np.abs(x - centre) - a, 0.0) ** 2 / (2.0 * R)
+    ).fit_rounded_flat()
+    assert (fit.half_flat, fit.radius, fit.centre) == pytest.approx(
+        (a, R, centre), rel=1e-4, abs=1e-5
+    )
     assert fit.largest <= 1e-6 * max(0.01 / R, 1e-3)
 
 
@@ -299,7 +344,11 @@ def test_a_rough_trace_is_refused_with_its_intervals_and_the_call_that_helps():
 
 @pytest.mark.parametrize(
     "made",
-    [lambda t: t, lambda t: t.mirrored().shifted(3.0), lambda t: t.tilted(0.01) + sie.Parabola(50.0)],
+    [
+        lambda t: t,
+        lambda t: t.mirrored().shifted(3.0),
+        lambda t: t.tilted(0.01) + sie.Parabola(50.0),
+    ],
     ids=["trace", "mirrored and shifted", "tilted, in a sum"],
 )
 def test_the_least_smoothing_makes_one_patch_of_the_profile_that_was_asked(made):
@@ -324,10 +373,10 @@ def test_what_no_smoothing_makes_one_patch_is_refused_as_is_what_is_no_trace():
 @pytest.mark.parametrize("load", [1e-3, 0.3, 5.0])
 def test_a_refused_trace_costs_one_search(load, monkeypatch):
     searches, smoothings = [], []
-    whole = sie.normal.normal_contact
+    whole = normal.normal_contact
     counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
     monkeypatch.setattr("sie.solution.normal_contact", counted)
-    monkeypatch.setattr("sie.sampled.cross_validated", smoothings.append)
+    monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
     rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
     with pytest.raises(sie.ContactError, match=r"least_smoothing|several patches"):
         pressed(rough, load).edges  # noqa: B018 -- computes it
@@ -369,19 +418,31 @@ def test_a_refusal_names_places_of_the_trace(sign):
 
 def wavy_pad(height, waves):
     x = np.linspace(-3.0, 3.0, 601)
-    return sie.Sampled(x, np.maximum(np.abs(x) - 1.0, 0.0) ** 2 / 60.0 + height * np.cos(waves * x + 0.3) + 1e-3 * x)
+    return sie.Sampled(
+        x,
+        np.maximum(np.abs(x) - 1.0, 0.0) ** 2 / 60.0 + height * np.cos(waves * x + 0.3) + 1e-3 * x,
+    )
 
 
 @pytest.mark.parametrize("load", [3e-3, 1e-2])
 def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
-    solution = pressed(wavy_pad(1e-4, 6.0), load)  # contacts that begin at the lowest wave and grow with the load end in it
+    solution = pressed(
+        wavy_pad(1e-4, 6.0), load
+    )  # contacts that begin at the lowest wave and grow with the load end in it
     assert solution.check().ok
-    same = sie.solve(sie.Scene(profile=solution.scene.profile, modulus=1.0, half_width=solution.half_width))
-    assert (same.edges, same.normal_load) == (pytest.approx(solution.edges, rel=1e-12), pytest.approx(load, rel=1e-12))
+    same = sie.solve(
+        sie.Scene(profile=solution.scene.profile, modulus=1.0, half_width=solution.half_width)
+    )
+    assert (same.edges, same.normal_load) == (
+        pytest.approx(solution.edges, rel=1e-12),
+        pytest.approx(load, rel=1e-12),
+    )
 
 
 @given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
-@example(3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506)  # an edge within some ulp of a point of the trace
+@example(
+    3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506
+)  # an edge within some ulp of a point of the trace
 @settings(max_examples=20)
 def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
     try:
@@ -396,7 +457,13 @@ def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
 
 def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function():
     x = np.linspace(-2.0, 2.0, 401)
-    given = {"modulus": 1.0, "normal_load": 0.5, "friction": 0.5, "tangential_load": 0.1, "poisson": 0.3}
+    given = {
+        "modulus": 1.0,
+        "normal_load": 0.5,
+        "friction": 0.5,
+        "tangential_load": 0.1,
+        "poisson": 0.3,
+    }
     sampled = sie.solve(sie.Scene(profile=sie.Sampled(x, np.cosh(x) - 1.0), **given))
     exact = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-2.0, 2.0)), **given))
     assert sampled.check().ok
@@ -434,11 +501,17 @@ def mesh(tmp_path, capsys):
 
     def run(columns, *options):
         file = tmp_path / "fem.csv"
-        np.savetxt(file, np.stack([np.ravel(c) for c in columns.values()], axis=1), delimiter=",", header=",".join(columns), comments="")
+        np.savetxt(
+            file,
+            np.stack([np.ravel(c) for c in columns.values()], axis=1),
+            delimiter=",",
+            header=",".join(columns),
+            comments="",
+        )
         code = main(["compare", str(scene), str(file), *options])
         return code, *capsys.readouterr()
 
-    return sie.solve(scenefile.read(str(scene)).scene), run
+    return sie.solve(scene_file.read(str(scene)).scene), run
 
 
 def test_a_mesh_result_passes_or_fails_by_its_l2_error(mesh):
@@ -462,14 +535,18 @@ def test_nodes_that_two_elements_share_leave_the_load_as_it_is(mesh):
 def test_a_column_called_depth_is_one(mesh):
     solution, run = mesh
     x = np.linspace(*solution.edges, 21)
-    code, _, _ = run({"X-coordinate": x, "depth": np.full(21, 0.4), "S11": solution.stress(x, 0.4).xx})
+    code, _, _ = run(
+        {"X-coordinate": x, "depth": np.full(21, 0.4), "S11": solution.stress(x, 0.4).xx}
+    )
     assert code == 0
 
 
 def test_the_shift_of_a_mesh_is_found(mesh):
     solution, run = mesh
     x = np.linspace(*solution.edges, 201)
-    found = json.loads(run({"x": x + 0.01, "p": solution.pressure(x)}, "--json")[1])["differences"]["p"]
+    found = json.loads(run({"x": x + 0.01, "p": solution.pressure(x)}, "--json")[1])["differences"][
+        "p"
+    ]
     assert found["shift"] == pytest.approx(0.01, abs=1e-6)
     assert found["l2_shifted"] < 1e-6 < found["l2"]
     assert found["resultant"] == pytest.approx(0.0, abs=1e-2)
@@ -479,8 +556,24 @@ def test_stresses_in_the_body_are_compared_whichever_way_y_points(mesh, tmp_path
     solution, run = mesh
     x, y = np.meshgrid(np.linspace(-1.0, 1.2, 12), np.linspace(0.0, 1.0, 7))
     stress = solution.stress(x, y)
-    down = {"x": x, "y": y, "sxx": stress.xx, "syy": stress.yy, "sxy": stress.xy, "szz": stress.zz, "mises": stress.mises}
-    up = {"x": x, "y": -y, "S-S11": stress.xx, "S-S22": stress.yy, "S-S12": -stress.xy, "S-S33": stress.zz, "S-Mises": stress.mises}
+    down = {
+        "x": x,
+        "y": y,
+        "sxx": stress.xx,
+        "syy": stress.yy,
+        "sxy": stress.xy,
+        "szz": stress.zz,
+        "mises": stress.mises,
+    }
+    up = {
+        "x": x,
+        "y": -y,
+        "S-S11": stress.xx,
+        "S-S22": stress.yy,
+        "S-S12": -stress.xy,
+        "S-S33": stress.zz,
+        "S-Mises": stress.mises,
+    }
     picture = tmp_path / "body.png"
     for columns in (down, up):
         code, printed, _ = run(columns, "--tol", "1e-12", "--plot", str(picture))
@@ -519,7 +612,12 @@ def test_columns_that_are_not_compared_are_named(mesh, tmp_path):
 
 @pytest.mark.parametrize(
     ("factor", "asks"),
-    [(-1.0, "factor -1 fits best, and leaves l2 = 0.000e+00: are the signs"), (1e-6, "factor +1e-06"), (1e6, "units of load"), (1.3, "")],
+    [
+        (-1.0, "factor -1 fits best, and leaves l2 = 0.000e+00: are the signs"),
+        (1e-6, "factor +1e-06"),
+        (1e6, "units of load"),
+        (1.3, ""),
+    ],
 )
 def test_other_units_and_signs_are_suspected_from_the_factor_that_fits(factor, asks, mesh):
     solution, run = mesh

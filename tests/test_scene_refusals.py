@@ -70,7 +70,11 @@ FINEST = 2.0 * np.finfo(float).eps
 def test_an_accuracy_that_doubles_cannot_hold_or_that_means_nothing_is_refused(value):
     path = sie.Path([(1.0, 0.0)])
     equation = sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0)
-    for ask in (lambda: sie.solve(scene(), tol=value), lambda: sie.follow(scene(), path, tol=value), lambda: equation.solve(tol=value)):
+    for ask in (
+        lambda: sie.solve(scene(), tol=value),
+        lambda: sie.follow(scene(), path, tol=value),
+        lambda: equation.solve(tol=value),
+    ):
         with pytest.raises(ValueError, match=rf"tol = {value:g}".replace("+", r"\+")):
             ask()
 
@@ -89,7 +93,9 @@ def test_what_must_be_finite_is_refused_otherwise_with_its_value(name, value):
 
 
 @pytest.mark.parametrize("name", [*POSITIVE, *FINITE])
-@pytest.mark.parametrize("value", ["7", None, True, [1.0, 2.0], 1 + 2j, object()], ids=lambda value: type(value).__name__)
+@pytest.mark.parametrize(
+    "value", ["7", None, True, [1.0, 2.0], 1 + 2j, object()], ids=lambda value: type(value).__name__
+)
 def test_what_is_no_number_is_refused(name, value):
     if value is None and name.startswith("Scene."):
         pytest.skip("None is how a scene spells what is not given")
@@ -97,7 +103,9 @@ def test_what_is_no_number_is_refused(name, value):
         (POSITIVE | FINITE)[name](value)
 
 
-@pytest.mark.parametrize("value", [7, np.float64(7), np.float32(7), np.int64(7), np.array(7.0)], ids=repr)
+@pytest.mark.parametrize(
+    "value", [7, np.float64(7), np.float32(7), np.int64(7), np.array(7.0)], ids=repr
+)
 def test_every_real_number_becomes_a_float(value):
     assert sie.Parabola(value) == sie.Parabola(7.0)
     assert type(sie.Parabola(value).radius) is float
@@ -151,9 +159,18 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
     [
         (lambda: sie.Power(0.5, 1.0), r"0\.5"),
         (lambda: sie.Polynomial((0.0, 1.0)), r"1\.0"),
-        (lambda: sie.Polynomial([0.0] * 3001 + [1.0]), "degree of coefficients is 3001, more than 1000: give the slope as a function"),
-        (lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])), r"pieces\[1\] is 3001, more than 200"),
-        (lambda: scene(normal_load=10**400), "normal_load is a whole number beyond the range of doubles"),
+        (
+            lambda: sie.Polynomial([0.0] * 3001 + [1.0]),
+            "degree of coefficients is 3001, more than 1000: give the slope as a function",
+        ),
+        (
+            lambda: sie.Piecewise((0.0,), ([0.0, 1.0], [0.0] * 3001 + [1.0])),
+            r"pieces\[1\] is 3001, more than 200",
+        ),
+        (
+            lambda: scene(normal_load=10**400),
+            "normal_load is a whole number beyond the range of doubles",
+        ),
         (lambda: sie.Polynomial(()), "straight"),
         (lambda: sie.Piecewise((1.0, 0.0, 2.0), ((0.0,), (0.0, 1.0))), "1.*0"),
         (lambda: sie.Piecewise((0.0, 0.0), ((0.0,), (0.0,), (0.0,))), "0.*0"),
@@ -164,8 +181,14 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
         (lambda: sie.Piecewise((-INF, INF, INF), ((0.0, 1.0), (0.0, 2.0))), "inf"),
         (lambda: sie.Piecewise((-INF, 0.0, 1.0, INF, INF), ((0.0, 1.0),) * 4), "inf"),
         (lambda: sie.FromFunction(3.0), r"3\.0"),
-        (lambda: sie.FromFunction(math.sinh), "slope fails when called with an array .*NumPy's functions"),
-        (lambda: sie.FromFunction(lambda x: x if x > 0.0 else 0.0), "slope fails when called with an array .*truth value"),
+        (
+            lambda: sie.FromFunction(math.sinh),
+            "slope fails when called with an array .*NumPy's functions",
+        ),
+        (
+            lambda: sie.FromFunction(lambda x: x if x > 0.0 else 0.0),
+            "slope fails when called with an array .*truth value",
+        ),
         (lambda: sie.FromFunction("x", domain=(1.0, -1.0)), "1.*-1"),
         (lambda: sie.FromFunction("x", domain=(NAN, 1.0)), "nan"),
         (lambda: sie.FromFunction("x", domain=(1.0, 2.0, 3.0)), r"3\.0"),
@@ -185,7 +208,9 @@ def test_a_profile_or_body_that_cannot_be_is_refused_in_words(build, words):
         build()
 
 
-@pytest.mark.parametrize("function", [lambda x: np.where(x > 0.7, np.nan, x), lambda x: np.where(x > 0.7, np.inf, x)])
+@pytest.mark.parametrize(
+    "function", [lambda x: np.where(x > 0.7, np.nan, x), lambda x: np.where(x > 0.7, np.inf, x)]
+)
 def test_a_slope_that_is_not_finite_is_refused_where_it_is_met(function):
     with pytest.raises(ValueError, match=r"nan|inf"):
         asked(scene(profile=sie.FromFunction(function, domain=(-1.0, 1.0)), normal_load=5.0))
@@ -226,14 +251,20 @@ def test_a_profile_that_lifts_off_names_where():
 
 
 def test_a_profile_that_touches_elsewhere_names_where():
-    profile = sie.Piecewise((-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0)))  # h' = 0 again at ±3
+    profile = sie.Piecewise(
+        (-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0))
+    )  # h' = 0 again at ±3
     with pytest.raises(sie.ContactError, match="x = ") as caught:
         asked(scene(profile=profile, normal_load=0.5))
     assert np.isfinite(caught.value.reached["x"])
 
 
 def test_a_profile_that_never_rises_has_no_contact():
-    for profile in (sie.Wedge(0.25).tilted(0.5), sie.Polynomial((0.0, 0.0, -1.0)), sie.Piecewise((0.0,), ((1.0,), (2.0,)))):
+    for profile in (
+        sie.Wedge(0.25).tilted(0.5),
+        sie.Polynomial((0.0, 0.0, -1.0)),
+        sie.Piecewise((0.0,), ((1.0,), (2.0,))),
+    ):
         with pytest.raises(sie.ContactError, match=r"[.;:]"):
             asked(scene(profile=profile))
 
@@ -259,7 +290,16 @@ def test_a_moment_just_within_the_punch_is_carried():
 
 def test_states_that_are_not_covered_are_refused_before_work():
     with pytest.raises(sie.ContactError, match=r"dissimilar"):
-        sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.2, normal_load=1.0, friction=0.5, tangential_load=0.25))
+        sie.solve(
+            sie.Scene(
+                profile=sie.Parabola(1.0),
+                modulus=1.0,
+                dundurs=0.2,
+                normal_load=1.0,
+                friction=0.5,
+                tangential_load=0.25,
+            )
+        )
 
 
 def test_a_contact_error_survives_a_process_pool():

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sie
-from sie.normal import ECONOMY
+from sie.contact.normal import ECONOMY
 
 INF = float("inf")
 BY_PIECES = ECONOMY - {"transform"}
@@ -53,7 +53,9 @@ def test_the_series_finds_what_the_pieces_find(name, domain, size, by_load, tilt
 
 @pytest.mark.parametrize("given", [{"normal_load": 1.0}, {"half_width": 1.5}])
 def test_an_even_slope_keeps_its_contact_symmetric_to_the_last_bit(given):
-    solution = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh, parity="even"), modulus=2.0, **given))
+    solution = sie.solve(
+        sie.Scene(profile=sie.FromFunction(np.sinh, parity="even"), modulus=2.0, **given)
+    )
     assert solution.normal.symmetric
     assert solution.edges[0] == -solution.edges[1]
     assert solution.moment == 0.0
@@ -61,7 +63,9 @@ def test_an_even_slope_keeps_its_contact_symmetric_to_the_last_bit(given):
 
 def test_a_series_is_certified():
     for name, slope in SLOPES.items():
-        solution = sie.solve(sie.Scene(profile=sie.FromFunction(slope), modulus=2.0, normal_load=0.7))
+        solution = sie.solve(
+            sie.Scene(profile=sie.FromFunction(slope), modulus=2.0, normal_load=0.7)
+        )
         assert solution.normal.series is not None, name
         assert solution.check().ok, name
 
@@ -76,7 +80,9 @@ def test_a_series_is_certified():
     ],
 )
 def test_what_is_no_smooth_contact_is_left_to_the_pieces(slope, domain):
-    solution = sie.solve(sie.Scene(profile=sie.FromFunction(slope, domain=domain), modulus=2.0, normal_load=4.0))
+    solution = sie.solve(
+        sie.Scene(profile=sie.FromFunction(slope, domain=domain), modulus=2.0, normal_load=4.0)
+    )
     assert solution.normal.series is None
     assert solution.check().force < 1e-12
 
@@ -90,5 +96,7 @@ def test_the_rounding_of_a_slope_is_no_reason_to_refuse_its_series():
 
 @pytest.mark.parametrize("load", [1e-140, 1e-100, 1e-20])
 def test_a_small_load_makes_the_contact_of_a_cylinder(load):
-    solution = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh), modulus=1.0, normal_load=load))
+    solution = sie.solve(
+        sie.Scene(profile=sie.FromFunction(np.sinh), modulus=1.0, normal_load=load)
+    )
     assert solution.half_width == pytest.approx(np.sqrt(4.0 * load / np.pi), rel=1e-14)

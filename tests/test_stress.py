@@ -10,8 +10,8 @@ from hypothesis import given
 
 import sie
 from analytic import rounded_flat
-from sie.density import Density
-from sie.field import Stress, Tractions
+from sie.stress.half_plane import Stress, Tractions
+from sie.traction.base import Density
 from validation import stress_reference as reference
 from validation.cases import CASES, SMOOTH_CASES, exact, solved
 from validation.reference import mp
@@ -30,9 +30,18 @@ def sliding(scene, friction=F, **changes):
 
 
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0, poisson=0.3)
-LOPSIDED = sie.Scene(profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))), body=STEEL, normal_load=2e4)
+LOPSIDED = sie.Scene(
+    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
+    body=STEEL,
+    normal_load=2e4,
+)
 SHARP = sie.Scene(profile=sie.Flat(1.0), body=STEEL, normal_load=100.0, tilt=1e-5)
-SCENES = {"punch": PUNCH, "lopsided": LOPSIDED, "sharp": SHARP, "wedge": sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0)}
+SCENES = {
+    "punch": PUNCH,
+    "lopsided": LOPSIDED,
+    "sharp": SHARP,
+    "wedge": sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0),
+}
 EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 
@@ -48,9 +57,17 @@ def peak(solution):
 @cache
 def places(case):
     """Abscissae of a case and, for the reference, the same ones with the edges as they are beyond double precision."""
-    (x1, x2), r, m, truth = solved(case).edges, solved(case).half_width, solved(case).centre, exact(case)
+    (x1, x2), r, m, truth = (
+        solved(case).edges,
+        solved(case).half_width,
+        solved(case).centre,
+        exact(case),
+    )
     inner = [b for b in case.profile.breaks if x1 < b < x2]
-    return [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner[:2])] + [(x1, truth.x1), (x2, truth.x2)]
+    return [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner[:2])] + [
+        (x1, truth.x1),
+        (x2, truth.x2),
+    ]
 
 
 @pytest.mark.parametrize("depth", DEPTHS)
@@ -59,22 +76,36 @@ def test_every_component_agrees_with_forty_digits_under_kinks_and_edges_too(case
     solution = sliding(case.scene, bulk_stress=0.25)
     y = depth * solution.half_width
     for x, x_exact in places(case):
-        truth, found = reference.stresses(exact(case), x_exact, y, F, bulk=0.25), solution.stress(x, y)
+        truth, found = (
+            reference.stresses(exact(case), x_exact, y, F, bulk=0.25),
+            solution.stress(x, y),
+        )
         for component in ("xx", "yy", "xy"):
             error = float(mp.mpf(float(getattr(found, component))) - getattr(truth, component))
             assert abs(error) <= 1e-13 * peak(solution), (component, x)
 
 
-SHEARED = {"profile": sie.RoundedFlat(0.5, 1.0), "modulus": 1.0, "normal_load": 0.3, "friction": 0.4}
+SHEARED = {
+    "profile": sie.RoundedFlat(0.5, 1.0),
+    "modulus": 1.0,
+    "normal_load": 0.3,
+    "friction": 0.4,
+}
 TRACTIONS = {
     "pressure": sie.solve(PUNCH).pressure,
     "sharp edges": sie.solve(SHARP).pressure,
     "slip of one sign": sie.solve(sie.Scene(**SHEARED, tangential_load=0.09)).shear,
-    "slip of both signs": sie.solve(sie.Scene(**SHEARED, tangential_load=0.03, bulk_stress=0.5)).shear,
-    "slip of both signs, mirrored": sie.solve(sie.Scene(**SHEARED, tangential_load=-0.03, bulk_stress=-2.0)).shear,
+    "slip of both signs": sie.solve(
+        sie.Scene(**SHEARED, tangential_load=0.03, bulk_stress=0.5)
+    ).shear,
+    "slip of both signs, mirrored": sie.solve(
+        sie.Scene(**SHEARED, tangential_load=-0.03, bulk_stress=-2.0)
+    ).shear,
     "after a path": sie.follow(sie.Scene(**SHEARED), sie.Path([(0.3, 0.1), (0.3, -0.05)]))[1].shear,
     "dissimilar, sliding": sie.solve(sie.Scene(**SHEARED, dundurs=0.2, sliding=1)).shear,
-    "bonded": sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.3, normal_load=1.0, friction=np.inf)).shear,
+    "bonded": sie.solve(
+        sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.3, normal_load=1.0, friction=np.inf)
+    ).shear,
 }
 
 
@@ -83,11 +114,24 @@ def test_the_derivative_of_a_potential_is_its_derivative(density):
     """By Cauchy's formula on a circle that stays within the body."""
     x1, x2 = density.interval
     m, r, omega = 0.5 * (x1 + x2), 0.5 * (x2 - x1), np.exp(2j * np.pi * np.arange(32) / 32)
-    for z in (m + r * w for w in (0.3 + 0.2j, -0.9 + 0.05j, 1.01 + 0.03j, -1.3 + 0.4j, 0.1 + 2.0j, 20.0 + 9.0j, 0.6 - 0.1j)):
+    for z in (
+        m + r * w
+        for w in (
+            0.3 + 0.2j,
+            -0.9 + 0.05j,
+            1.01 + 0.03j,
+            -1.3 + 0.4j,
+            0.1 + 2.0j,
+            20.0 + 9.0j,
+            0.6 - 0.1j,
+        )
+    ):
         radius = 0.3 * z.imag
         around = density.cauchy(z + radius * omega)
         assert density.cauchy_derivative(z) == pytest.approx(
-            (around / omega).mean() / radius, rel=1e-11, abs=1e-13 * np.abs(around).max() / abs(radius)
+            (around / omega).mean() / radius,
+            rel=1e-11,
+            abs=1e-13 * np.abs(around).max() / abs(radius),
         )
 
 
@@ -95,7 +139,12 @@ def test_the_derivative_of_a_potential_is_its_derivative(density):
 def test_potentials_of_sharp_edges_agree_with_forty_digits(case):
     """F from the reference's own quadrature, F' from Cauchy's formula on it."""
     pressure, r, m = solved(case).pressure, solved(case).half_width, solved(case).centre
-    for z in (m + r * (0.3 + 0.2j), m + r * (-1.1 + 0.01j), m + r * (2.0 + 3.0j), m + r * (-30.0 + 40.0j)):
+    for z in (
+        m + r * (0.3 + 0.2j),
+        m + r * (-1.1 + 0.01j),
+        m + r * (2.0 + 3.0j),
+        m + r * (-30.0 + 40.0j),
+    ):
         exact_F, exact_dF = _by_circle(exact(case).potential, mp.mpmathify(z))
         F, dF = pressure.potentials(z)
         assert abs(complex(exact_F) - F) <= 2e-14 * abs(F)
@@ -112,13 +161,22 @@ def _by_circle(function, z, n=40):
 
 @pytest.mark.parametrize("a", [0.0, 0.3, 0.8, 1 - 1e-6])
 def test_the_potentials_of_the_rounded_punch_are_the_closed_forms_ones(a):
-    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0), modulus=1.0, half_width=1.0))
-    x, y = np.meshgrid([-3.0, -1.0, -a, 0.0, 0.47, a, 1.0, 40.0], [1e-12, 1e-6, 1e-3, 0.1, 1.0, 2.9, 3.1, 1e4])
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0), modulus=1.0, half_width=1.0
+        )
+    )
+    x, y = np.meshgrid(
+        [-3.0, -1.0, -a, 0.0, 0.47, a, 1.0, 40.0], [1e-12, 1e-6, 1e-3, 0.1, 1.0, 2.9, 3.1, 1e4]
+    )
     z = x + 1j * y
     F, dF = solution.pressure.potentials(z)
     parameters = {"half_flat": a, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
     scale = peak(solution)
-    exact_F, exact_dF = rounded_flat.potential(z, **parameters), rounded_flat.potential_derivative(z, **parameters)
+    exact_F, exact_dF = (
+        rounded_flat.potential(z, **parameters),
+        rounded_flat.potential_derivative(z, **parameters),
+    )
     assert np.abs(F - exact_F).max() <= 1e-13 * scale
     assert (y * np.abs(dF - exact_dF)).max() <= 1e-13 * scale
     far = np.abs(z) > 2.0
@@ -156,7 +214,9 @@ def test_the_stress_is_in_equilibrium_and_compatible(scene, at):
     # compatibility: σ_xx + σ_yy is harmonic, the mean over a circle is its value at the centre
     turn = 2 * np.pi * np.arange(64) / 64
     ring = stress(x + 0.5 * y * np.cos(turn), y + 0.5 * y * np.sin(turn)).in_plane_sum
-    assert ring.mean() == pytest.approx(float(stress(x, y).in_plane_sum), abs=1e-13 * peak(solution))
+    assert ring.mean() == pytest.approx(
+        float(stress(x, y).in_plane_sum), abs=1e-13 * peak(solution)
+    )
 
 
 @EVERY
@@ -168,7 +228,11 @@ def test_strains_are_those_of_the_displacement_gradients_and_rotations_are_their
     x, y = solution.centre + 0.4 * r, 0.3 * r
     g, e = solution.stress(x, y).gradients, solution.stress(x, y).strain
     scale = peak(solution) / STEEL.young
-    assert g.xx == pytest.approx(e.xx) and g.yy == pytest.approx(e.yy) and g.xy + g.yx == pytest.approx(2 * e.xy)
+    assert (
+        g.xx == pytest.approx(e.xx)
+        and g.yy == pytest.approx(e.yy)
+        and g.xy + g.yx == pytest.approx(2 * e.xy)
+    )
     # the gradients of one displacement: ∂y (u_x,x) = ∂x (u_x,y), ∂y (u_y,x) = ∂x (u_y,y)
     gradient = lambda name: lambda x, y: getattr(solution.stress(x, y).gradients, name)  # noqa: E731
     of = {name: derivatives(gradient(name), x, y, 0.2 * y) for name in ("xx", "xy", "yx", "yy")}
@@ -178,7 +242,12 @@ def test_strains_are_those_of_the_displacement_gradients_and_rotations_are_their
 
 def test_the_surface_takes_the_shape_of_a_rigid_punch():
     """In contact u_y = const - h when the indenter is rigid: u_y,x = -h'."""
-    scene = sie.Scene(profile=sie.Parabola(50.0), body=sie.Elastic(210e3, 0.5), indenter=sie.RIGID, normal_load=100.0)
+    scene = sie.Scene(
+        profile=sie.Parabola(50.0),
+        body=sie.Elastic(210e3, 0.5),
+        indenter=sie.RIGID,
+        normal_load=100.0,
+    )
     solution = sie.solve(scene)
     x = np.linspace(-0.9, 0.9, 7) * solution.half_width
     assert solution.surface_stress(x).gradients.yx == pytest.approx(-x / 50.0, abs=1e-16)
@@ -192,13 +261,17 @@ def test_the_surface_bears_the_tractions(scene, friction):
     surface = solution.surface_stress(x)
     p, q = solution.pressure(x), solution.shear(x)
     finite = np.isfinite(p)
-    assert np.abs(surface.yy[finite] + p[finite]).max() <= 1e-15 * (peak(solution) + np.abs(surface.xx[finite]).max())
+    assert np.abs(surface.yy[finite] + p[finite]).max() <= 1e-15 * (
+        peak(solution) + np.abs(surface.xx[finite]).max()
+    )
     assert (surface.xy == -q).all()
     below = solution.stress(x, 1e-14 * r)
     marks = np.array([x1, x2, *(b for b in scene.profile.breaks if np.isfinite(b))])
     near = finite & (np.abs(x[:, None] - marks).min(axis=1) > 0.01 * r)
     for name in ("xx", "yy", "xy"):
-        assert np.abs(getattr(below, name)[near] - getattr(surface, name)[near]).max() <= 1e-10 * peak(solution)
+        assert np.abs(
+            getattr(below, name)[near] - getattr(surface, name)[near]
+        ).max() <= 1e-10 * peak(solution)
 
 
 @EVERY
@@ -229,7 +302,9 @@ def test_far_away_only_the_resultant_tells(scene):
         s = solution.stress(origin + R * np.cos(angle), y)
         radial = s.xx * np.cos(angle) ** 2 + s.yy * np.sin(angle) ** 2 + s.xy * np.sin(2 * angle)
         flamant = -2.0 / (np.pi * R) * (P * np.sin(angle) + Q * np.cos(angle))
-        assert np.abs(radial - flamant).max() <= (20.0 / distance**2 + 2e-15) * np.abs(flamant).max()
+        assert (
+            np.abs(radial - flamant).max() <= (20.0 / distance**2 + 2e-15) * np.abs(flamant).max()
+        )
 
 
 @EVERY
@@ -238,7 +313,9 @@ def test_the_mirrored_scene_has_the_mirrored_stress(scene):
     mirrored = sie.Scene(profile=scene.profile.mirrored(), body=scene.body, modulus=scene.modulus if scene.body is None else None,
                          poisson=scene.poisson, normal_load=here.normal_load, tilt=-scene.tilt)  # fmt: skip
     there = sie.solve(mirrored).with_(friction=F, tangential_load=-F * here.normal_load)
-    x, y = np.meshgrid(np.linspace(-2, 2, 9) * here.half_width, np.array([0.03, 0.4, 3.0]) * here.half_width)
+    x, y = np.meshgrid(
+        np.linspace(-2, 2, 9) * here.half_width, np.array([0.03, 0.4, 3.0]) * here.half_width
+    )
     a, b = here.stress(x, y), there.stress(-x, y)
     for name, sign in (("xx", 1), ("yy", 1), ("xy", -1), ("j2", 1)):
         scale = peak(here) ** (2 if name == "j2" else 1)
@@ -251,7 +328,12 @@ def test_stresses_scale_with_the_units():
     here = solution.stress(x, y)
     for length, stress in ((1e-100, 1.0), (1e100, 1.0), (2.0**-20, 2.0**40)):
         P = solution.normal_load * stress * length
-        scene = sie.Scene(profile=sie.RoundedFlat(0.5 * length, length), modulus=stress, normal_load=P, poisson=0.3)
+        scene = sie.Scene(
+            profile=sie.RoundedFlat(0.5 * length, length),
+            modulus=stress,
+            normal_load=P,
+            poisson=0.3,
+        )
         there = sliding(scene).stress(x * length, y * length)
         assert there.xx / stress == pytest.approx(here.xx, rel=1e-13)
 
@@ -315,7 +397,11 @@ def test_displacement_gradients_next_to_an_infinite_shear_have_the_signs_of_thos
 
 def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
     body, indenter = sie.Elastic(3.0, 0.2), sie.Elastic(40.0, 0.3)
-    solution = sie.solve(sie.Scene(profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf))
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf
+        )
+    )
     s = solution.surface_stress(solution.edges)
     for values in (*s, s.mises, *s.principal, *s.strain, *s.gradients):
         assert not np.isnan(values).any()
@@ -410,7 +496,9 @@ def test_bad_points_are_refused(x, y, words):
 
 
 def test_what_needs_an_elastic_constant_says_so():
-    s = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)).stress(0.0, 0.5)
+    s = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)).stress(
+        0.0, 0.5
+    )
     assert np.isfinite(s.xx)
     with pytest.raises(ValueError, match="Poisson's ratio"):
         s.mises  # noqa: B018
@@ -425,7 +513,17 @@ def test_the_stress_in_a_rigid_body_is_refused():
 
 
 def test_partial_slip_is_not_mistaken_for_full_sliding():
-    slipping = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.4))
+    slipping = sie.solve(
+        sie.Scene(
+            profile=sie.Parabola(1.0),
+            modulus=1.0,
+            normal_load=1.0,
+            friction=0.5,
+            tangential_load=0.4,
+        )
+    )
     sliding = slipping.with_(tangential_load=0.5)
-    assert slipping.surface_stress(0.0).xy < 0.99 * sliding.surface_stress(0.0).xy < 0.0 or slipping.shear(0.0) < 0.9 * sliding.shear(0.0)
+    assert slipping.surface_stress(0.0).xy < 0.99 * sliding.surface_stress(
+        0.0
+    ).xy < 0.0 or slipping.shear(0.0) < 0.9 * sliding.shear(0.0)
     assert slipping.peak_tension().value < sliding.peak_tension().value

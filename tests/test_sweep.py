@@ -3,7 +3,13 @@
 import builtins
 import os
 import sys
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 
 import numpy as np
 import pytest
@@ -18,7 +24,11 @@ LOADS, TILTS = [0.1, 0.2, 0.4], [0.0, 0.01]
 
 def plain(found):
     """The arrays by name, whatever the kind of the result."""
-    return {name: np.asarray(found[name]) for name in found} if isinstance(found, dict) else {n: found[n].values for n in found.variables}
+    return (
+        {name: np.asarray(found[name]) for name in found}
+        if isinstance(found, dict)
+        else {n: found[n].values for n in found.variables}
+    )
 
 
 def peak(solution):
@@ -29,7 +39,9 @@ def single(**changes):
     return sie.solve(SCENE).with_(**changes)
 
 
-@pytest.fixture(params=[None, ThreadPoolExecutor, ProcessPoolExecutor], ids=["here", "threads", "processes"])
+@pytest.fixture(
+    params=[None, ThreadPoolExecutor, ProcessPoolExecutor], ids=["here", "threads", "processes"]
+)
 def executor(request):
     if request.param is None:
         yield None
@@ -39,7 +51,15 @@ def executor(request):
 
 
 def test_every_point_is_what_a_single_solution_says(executor):
-    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS, "tilt": TILTS}, want=["half_width", "edges"], executor=executor, chunk=2))
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": LOADS, "tilt": TILTS},
+            want=["half_width", "edges"],
+            executor=executor,
+            chunk=2,
+        )
+    )
     assert found["half_width"].shape == (3, 2)
     for i, P in enumerate(LOADS):
         for j, tilt in enumerate(TILTS):
@@ -57,11 +77,22 @@ def test_functions_of_the_solution_and_parameters_of_the_profile():
 
 def a_punch(a, f):
     P = 0.1 + a
-    return sie.Scene(profile=sie.RoundedFlat(a, 1.0), modulus=1.0, poisson=0.3, normal_load=P, friction=f, tangential_load=f * P)
+    return sie.Scene(
+        profile=sie.RoundedFlat(a, 1.0),
+        modulus=1.0,
+        poisson=0.3,
+        normal_load=P,
+        friction=f,
+        tangential_load=f * P,
+    )
 
 
 def test_a_function_may_build_the_scene():
-    found = plain(sie.sweep(a_punch, over={"a": [0.2, 0.4], "f": [0.1, 0.3]}, want=["elastic_limit", "peak_tension"]))
+    found = plain(
+        sie.sweep(
+            a_punch, over={"a": [0.2, 0.4], "f": [0.1, 0.3]}, want=["elastic_limit", "peak_tension"]
+        )
+    )
     alone = sie.solve(a_punch(0.4, 0.1)).elastic_limit()
     assert found["elastic_limit"][1, 0] == alone.ratio
     assert found["elastic_limit_y"][1, 0] == alone.y
@@ -70,7 +101,14 @@ def test_a_function_may_build_the_scene():
 
 def test_what_has_no_answer_keeps_its_reason(executor):
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0)
-    found = plain(sie.sweep(flat, over={"moment": [0.5, 2.0], "normal_load": [1.0, -1.0]}, want="half_width", executor=executor))
+    found = plain(
+        sie.sweep(
+            flat,
+            over={"moment": [0.5, 2.0], "normal_load": [1.0, -1.0]},
+            want="half_width",
+            executor=executor,
+        )
+    )
     assert found["half_width"][0, 0] == 1.0
     assert np.isnan(found["half_width"]).tolist() == [[False, True], [True, True]]
     assert "moment 2" in found["reason"][1, 0] and "normal_load = -1" in found["reason"][0, 1]
@@ -78,7 +116,9 @@ def test_what_has_no_answer_keeps_its_reason(executor):
 
 def test_arrays_are_kept_with_their_own_dimensions():
     x = np.linspace(-0.3, 0.3, 5)
-    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want={"p": lambda s: s.pressure(x)}))
+    found = plain(
+        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"p": lambda s: s.pressure(x)})
+    )
     assert found["p"].shape == (3, 5)
     assert (found["p"][2] == single(normal_load=0.4).pressure(x)).all()
 
@@ -86,8 +126,14 @@ def test_arrays_are_kept_with_their_own_dimensions():
 def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
     solved = []
     original = sie.solution.normal_contact
-    monkeypatch.setattr(sie.solution, "normal_contact", lambda *args: solved.append(1) or original(*args))
-    sie.sweep(SCENE, over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 20)}, want="half_width")
+    monkeypatch.setattr(
+        sie.solution, "normal_contact", lambda *args: solved.append(1) or original(*args)
+    )
+    sie.sweep(
+        SCENE,
+        over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 20)},
+        want="half_width",
+    )
     assert len(solved) == 2
 
 
@@ -114,7 +160,13 @@ def test_an_interrupt_loses_nothing(monkeypatch):
 
     monkeypatch.setattr(workers, "as_completed", completed)
     with pytest.raises(KeyboardInterrupt) as caught:
-        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=pool, chunk=1)
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
+            want="half_width",
+            executor=pool,
+            chunk=1,
+        )
     found = plain(caught.value.result)
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False, False]
     assert found["reason"].tolist() == ["", "", "interrupted", "interrupted"]
@@ -141,7 +193,13 @@ def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
 
     monkeypatch.setattr(workers, "as_completed", completed)
     with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Interrupting(), chunk=1)
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3]},
+            want="half_width",
+            executor=Interrupting(),
+            chunk=1,
+        )
     assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
 
 
@@ -153,8 +211,19 @@ def test_an_interrupt_while_chunks_are_given_to_the_workers_keeps_what_is_done()
             return super().submit(function, *args, **kwargs)
 
     with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=Impatient(), chunk=1)
-    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False, False]
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
+            want="half_width",
+            executor=Impatient(),
+            chunk=1,
+        )
+    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [
+        True,
+        True,
+        False,
+        False,
+    ]
 
 
 def one_in_three(solution):
@@ -162,7 +231,9 @@ def one_in_three(solution):
 
 
 def test_a_function_that_raises_costs_its_own_point_only(executor):
-    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want={"f": one_in_three}, executor=executor))
+    found = plain(
+        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"f": one_in_three}, executor=executor)
+    )
     assert np.isnan(found["f"]).tolist() == [False, True, False]
     assert found["reason"][1].startswith("ZeroDivisionError")
 
@@ -178,7 +249,15 @@ class Broken(Interrupting):
 
 
 def test_a_worker_that_dies_costs_its_own_chunk_only():
-    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3]}, want="half_width", executor=Broken(), chunk=1))
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3]},
+            want="half_width",
+            executor=Broken(),
+            chunk=1,
+        )
+    )
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
     assert found["reason"][2] == "RuntimeError: a worker died"
 
@@ -203,7 +282,11 @@ pools_of_processes = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarn
 def test_a_process_that_dies_costs_its_own_chunk_only(dying):
     loads = [0.1 + 0.1 * k + (10.0 if k in dying else 0.0) for k in range(8)]
     with ProcessPoolExecutor(2) as pool:
-        found = plain(sie.sweep(SCENE, over={"normal_load": loads}, want={"b": deadly}, executor=pool, chunk=1))
+        found = plain(
+            sie.sweep(
+                SCENE, over={"normal_load": loads}, want={"b": deadly}, executor=pool, chunk=1
+            )
+        )
     assert np.isnan(found["b"]).tolist() == [k in dying for k in range(8)]
     assert ["died" in reason for reason in found["reason"]] == [k in dying for k in range(8)]
 
@@ -212,7 +295,9 @@ def test_a_process_that_dies_costs_its_own_chunk_only(dying):
 def test_a_pool_that_broke_before_the_sweep_costs_nothing():
     with ProcessPoolExecutor(2) as pool:
         assert isinstance(pool.submit(os._exit, 1).exception(), BrokenExecutor)
-        found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool))
+        found = plain(
+            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool)
+        )
     assert found["half_width"].tolist() == [single(normal_load=P).half_width for P in LOADS]
 
 
@@ -221,8 +306,12 @@ def test_processes_that_cannot_start_are_not_tried_for_each_chunk(monkeypatch):
     started, original = [], workers._pool_of_one
     monkeypatch.setattr(workers, "_pool_of_one", lambda pool: started.append(1) or original(pool))
     with ProcessPoolExecutor(2, initializer=os._exit, initargs=(1,)) as pool:
-        found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1))
-    assert np.isnan(found["half_width"]).all() and all("died" in reason for reason in found["reason"])
+        found = plain(
+            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1)
+        )
+    assert np.isnan(found["half_width"]).all() and all(
+        "died" in reason for reason in found["reason"]
+    )
     assert len(started) == 1
 
 
@@ -238,7 +327,13 @@ def test_an_interrupt_after_a_death_keeps_what_was_found(monkeypatch):
 
     monkeypatch.setattr(workers, "wait", wait)
     with ProcessPoolExecutor(1) as pool, pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(SCENE, over={"normal_load": [9.0, 0.1, 0.2, 0.3]}, want={"b": deadly}, executor=pool, chunk=1)
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [9.0, 0.1, 0.2, 0.3]},
+            want={"b": deadly},
+            executor=pool,
+            chunk=1,
+        )
     found = plain(caught.value.result)
     assert np.isfinite(found["b"]).sum() >= 1 and found["reason"][-1] == "interrupted"
 
@@ -256,17 +351,30 @@ def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_agai
             future.set_result(function(*args, **kwargs))
             return future
 
-    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want="half_width", executor=Refusing(), chunk=1))
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
+            want="half_width",
+            executor=Refusing(),
+            chunk=1,
+        )
+    )
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False, works_again]
     assert "died" in found["reason"][2]
 
 
 @pytest.mark.parametrize(
-    ("odd", "usual"), [(lambda p: p[0], (3,)), (lambda p: p[None], (3,))], ids=["a number among arrays", "a matrix among arrays"]
+    ("odd", "usual"),
+    [(lambda p: p[0], (3,)), (lambda p: p[None], (3,))],
+    ids=["a number among arrays", "a matrix among arrays"],
 )
 def test_a_value_of_another_rank_costs_itself_only(odd, usual):
     x = np.linspace(-0.1, 0.1, 3)
-    want = {"p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x), "b": lambda s: s.half_width}
+    want = {
+        "p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x),
+        "b": lambda s: s.half_width,
+    }
     found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want=want))
     assert found["p"].shape == (len(LOADS), *usual)
     assert np.isnan(found["p"]).all(axis=1).tolist() == [False, True, False]
@@ -274,9 +382,17 @@ def test_a_value_of_another_rank_costs_itself_only(odd, usual):
     assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
 
 
-@pytest.mark.parametrize("value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()])
+@pytest.mark.parametrize(
+    "value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()]
+)
 def test_a_value_that_is_no_number_is_told_in_a_sentence(value):
-    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want={"v": lambda s: value if s.normal_load == 0.2 else 1.0}))
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": LOADS},
+            want={"v": lambda s: value if s.normal_load == 0.2 else 1.0},
+        )
+    )
     assert np.isnan(found["v"]).tolist() == [False, True, False]
     assert found["reason"][1].startswith("v is neither a number nor an array of numbers")
 
@@ -299,7 +415,12 @@ def test_what_a_sweep_does_itself_grows_in_proportion_to_its_points(parallel, mo
 
         for part in (module, workers):
             monkeypatch.setattr(part, "len", count, raising=False)
-        sie.sweep(SCENE, over={"normal_load": np.linspace(0.1, 0.4, points)}, executor=Here() if parallel else None, chunk=1)
+        sie.sweep(
+            SCENE,
+            over={"normal_load": np.linspace(0.1, 0.4, points)},
+            executor=Here() if parallel else None,
+            chunk=1,
+        )
         return counts
 
     assert counted(200) < 2.5 * counted(100)
@@ -308,9 +429,13 @@ def test_what_a_sweep_does_itself_grows_in_proportion_to_its_points(parallel, mo
 @pytest.mark.parametrize("want", list(sie.QUANTITIES))
 def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
     sliding = sie.solve(SCENE).with_(friction=0.3).scene
-    answered, failed = (plain(sie.sweep(sliding, over={"tangential_load": [Q]}, want=want)) for Q in (0.01, 9.0))
+    answered, failed = (
+        plain(sie.sweep(sliding, over={"tangential_load": [Q]}, want=want)) for Q in (0.01, 9.0)
+    )
     assert failed.keys() == answered.keys()
-    assert all(np.isnan(failed[name]).all() for name in failed.keys() - {"tangential_load", "reason"})
+    assert all(
+        np.isnan(failed[name]).all() for name in failed.keys() - {"tangential_load", "reason"}
+    )
 
 
 def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
@@ -331,7 +456,10 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     [
         ({"over": {}}, "nothing to sweep over"),
         ({"over": {"normal_laod": [1.0]}}, '"normal_laod" is not known: choose body'),
-        ({"over": {"profile.radiuss": [1.0]}}, '"profile.radiuss" is not known: choose half_flat, radius'),
+        (
+            {"over": {"profile.radiuss": [1.0]}},
+            '"profile.radiuss" is not known: choose half_flat, radius',
+        ),
         ({"over": {"tilt": []}}, "holds no values"),
         ({"over": {"tilt": 0.1}}, "holds no values"),
         ({"over": {"tilt": np.array(0.1)}}, "holds no values"),
@@ -356,4 +484,7 @@ def test_with_xarray_the_result_is_labelled():
     xarray = pytest.importorskip("xarray")
     found = sie.sweep(SCENE, over={"normal_load": LOADS, "tilt": TILTS}, want="half_width")
     assert isinstance(found, xarray.Dataset)
-    assert float(found["half_width"].sel(normal_load=0.2, tilt=0.01)) == single(normal_load=0.2, tilt=0.01).half_width
+    assert (
+        float(found["half_width"].sel(normal_load=0.2, tilt=0.01))
+        == single(normal_load=0.2, tilt=0.01).half_width
+    )

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import sie
-from sie import export, noise, scenefile, summary
+from sie.certificate import trace_noise
+from sie.io import export, report, scene_file
 
 X = np.linspace(-1.0, 1.0, 401)
 
@@ -31,7 +32,9 @@ def reported(profile, **given):
 def largest_error(found, exact):
     """The largest difference of the pressures over the peak, up to the outer edges."""
     lo, hi = np.array([found.edges, exact.edges]).T
-    x = 0.5 * (min(lo) + max(hi)) + 0.5 * (max(hi) - min(lo)) * np.cos(np.linspace(0.0, np.pi, 1001))
+    x = 0.5 * (min(lo) + max(hi)) + 0.5 * (max(hi) - min(lo)) * np.cos(
+        np.linspace(0.0, np.pi, 1001)
+    )
     p = exact.pressure(x)
     return np.abs(found.pressure(x) - p).max() / p.max()
 
@@ -56,7 +59,7 @@ def test_the_operator_is_the_derivative_of_pressure_and_edges(size, moment):
     slope = 0.3 - 0.4 * t + 1.5 * t * t
     ends = interval.m + interval.r * np.cos([np.pi - 1e-5, 1e-5])
     kappa = middle.pressure(ends) / 1e-5
-    regular, moved = noise._operator(angle, place, interval, kappa, middle.scene)
+    regular, moved = trace_noise._operator(angle, place, interval, kappa, middle.scene)
     turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
     difference = (upper.pressure(x) - lower.pressure(x)) / (2.0 * step)
     assert (regular + turned @ moved) @ slope == pytest.approx(difference, abs=1e-7)
@@ -69,8 +72,15 @@ PROFILES = {
     "cosh": (0.25 * np.cosh(2.0 * X), sie.FromFunction("sinh(2*x)/2", domain=(-1.0, 1.0))),
     "rounded": (np.maximum(np.abs(X) - 0.4, 0.0) ** 2 / 0.8, sie.RoundedFlat(0.4, 0.4)),
 }
-ASKED = {"load": {}, "half-width": {"normal_load": None, "half_width": 0.5}, "moment": {"moment": 2e-3}}
-CASES = [(profile, "load") for profile in PROFILES] + [("parabola", "half-width"), ("parabola", "moment")]
+ASKED = {
+    "load": {},
+    "half-width": {"normal_load": None, "half_width": 0.5},
+    "moment": {"moment": 2e-3},
+}
+CASES = [(profile, "load") for profile in PROFILES] + [
+    ("parabola", "half-width"),
+    ("parabola", "moment"),
+]
 
 
 @pytest.mark.parametrize(("profile", "asked"), CASES)
@@ -94,8 +104,12 @@ def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, 
     assert np.median(ratio_of_edges) <= 10.0
 
 
-@pytest.mark.parametrize(("points", "size", "smoothing"), [(31, 3e-4, 0.0), (15, 1e-3, "gcv"), (401, 1e-4, 1e-3)])
-def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(points, size, smoothing):
+@pytest.mark.parametrize(
+    ("points", "size", "smoothing"), [(31, 3e-4, 0.0), (15, 1e-3, "gcv"), (401, 1e-4, 1e-3)]
+)
+def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(
+    points, size, smoothing
+):
     x = np.linspace(-1.0, 1.0, points)
     exact, ratio = solved(sie.Parabola(1.0)), []
     for seed in range(20):
@@ -129,7 +143,11 @@ def test_a_trace_without_noise_is_told_from_a_noisy_one(smoothing):
 
 @pytest.mark.parametrize(
     "made",
-    [lambda p: p.mirrored(), lambda p: p.shifted(3.0).mirrored(), lambda p: p + sie.Piecewise((-9.0, 9.0), ((0.0,),))],
+    [
+        lambda p: p.mirrored(),
+        lambda p: p.shifted(3.0).mirrored(),
+        lambda p: p + sie.Piecewise((-9.0, 9.0), ((0.0,),)),
+    ],
     ids=["mirrored", "shifted and mirrored", "sum"],
 )
 def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
@@ -190,7 +208,11 @@ def test_noise_alone_and_the_kinks_of_a_pad_are_no_outliers(profile, seed):
     assert sie.Sampled(X + 1e-3 * seed, h).outliers == ()
 
 
-@pytest.mark.parametrize("h", [np.abs(X), np.abs(X - 0.0013), np.zeros(401), X], ids=["wedge", "beside a point", "flat", "line"])
+@pytest.mark.parametrize(
+    "h",
+    [np.abs(X), np.abs(X - 0.0013), np.zeros(401), X],
+    ids=["wedge", "beside a point", "flat", "line"],
+)
 def test_a_trace_without_noise_has_no_outliers_but_the_point_that_is_off(h):
     assert sie.Sampled(X, h).outliers == ()
     off = h.copy()
@@ -208,7 +230,12 @@ def test_missing_points_are_counted_where_they_are():
 
 @pytest.mark.parametrize(
     "x",
-    [X, np.sinh(3.0 * X), np.sort(np.random.default_rng(0).uniform(-1.0, 1.0, 401)), X + 1e-4 * white(0)],
+    [
+        X,
+        np.sinh(3.0 * X),
+        np.sort(np.random.default_rng(0).uniform(-1.0, 1.0, 401)),
+        X + 1e-4 * white(0),
+    ],
     ids=["even", "graded", "at random", "jittered"],
 )
 def test_uneven_points_are_no_gaps(x):
@@ -228,7 +255,9 @@ def test_what_was_mended_is_told():
 
 def test_lines_of_a_file_without_a_value_count_as_left_out(tmp_path):
     file = tmp_path / "trace.csv"
-    file.write_text("\n".join(f"{x},{0.5 * x * x if abs(x - 0.3) > 0.1 else ''}" for x in X.tolist()))
+    file.write_text(
+        "\n".join(f"{x},{0.5 * x * x if abs(x - 0.3) > 0.1 else ''}" for x in X.tolist())
+    )
     trace = sie.Sampled.read(file, mend=True)
     assert trace.mended.left_out == 401 - len(trace.points)
     assert trace.gaps[0].missing == trace.mended.left_out
@@ -256,9 +285,13 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     h[40] += 0.01
     h[200:220] = np.nan
     solution = solved(sie.Sampled(X, h, "gcv", mend=True))
-    file = scenefile.SceneFile(solution.scene, "", scenefile.Units(), ("check",), ())
-    text, parsed = summary.summary(solution, file), json.loads(export.json_text(solution, file))
-    for row in ("estimated relative error of the pressure", "noise estimate", "20 points without a value"):
+    file = scene_file.SceneFile(solution.scene, "", scene_file.Units(), ("check",), ())
+    text, parsed = report.summary(solution, file), json.loads(export.json_text(solution, file))
+    for row in (
+        "estimated relative error of the pressure",
+        "noise estimate",
+        "20 points without a value",
+    ):
         assert text.count(row) == 1
     (trace,) = parsed["traces"]
     assert trace["pressure_error"] > 1e-3 > 1e9 * parsed["check"]["error"]

@@ -10,8 +10,22 @@ import numpy as np
 import pytest
 
 import sie
-from sie import charts, files, summation
-from validation import cases, certificate, economy, measures, paper, peers, pressure, readme, speed, stability, sweeps
+from sie import charts
+from sie.io import files
+from sie.numerics import cauchy_sums
+from validation import (
+    cases,
+    certificate,
+    economy,
+    measures,
+    paper,
+    peers,
+    pressure,
+    readme,
+    speed,
+    stability,
+    sweeps,
+)
 from validation.__main__ import TOPICS, main, summary
 from validation.figures import Figure, axes, draw, drawn, heat, labelled
 from validation.measures import largest, smallest
@@ -66,7 +80,11 @@ def test_the_worst_of_answers_of_which_one_is_none_is_none():
 @pytest.mark.parametrize("place", [0, 1, 2])
 def test_no_measure_passes_over_an_answer_that_is_none(place):
     found = [1.0, 2.0, 3.0]
-    assert measures.apart(found, [1, 2, 3]) == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error == 0.0
+    assert (
+        measures.apart(found, [1, 2, 3])
+        == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error
+        == 0.0
+    )
     found[place] = math.nan
     assert math.isnan(measures.apart(found, [1, 2, 3]))
     assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
@@ -78,10 +96,18 @@ def test_a_pressure_that_is_none_fails_the_figures_of_the_paper(monkeypatch):
     class Holed(sie.Solution):
         def __getattribute__(self, name):
             right = super().__getattribute__(name)
-            return (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x))) if name == "pressure" else right
+            return (
+                (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x)))
+                if name == "pressure"
+                else right
+            )
 
     punch = charts.punch
-    monkeypatch.setattr(charts, "punch", lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio))
+    monkeypatch.setattr(
+        charts,
+        "punch",
+        lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio),
+    )
     made = next(r for r in paper.figure_2() if isinstance(r, Claim))
     assert not made.ok
 
@@ -95,7 +121,9 @@ def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
         return right(length, modulus)
 
     monkeypatch.setattr(sweeps, "scale", refused)
-    made = next(r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what)
+    made = next(
+        r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what
+    )
     assert made.verdict == "fails"
 
 
@@ -131,7 +159,10 @@ def test_a_report_that_cannot_be_written_leaves_the_last_one_whole(monkeypatch, 
         (tmp_path / name).write_text("as it was")
     assert main(["--out", str(tmp_path)]) == 2
     assert "No space left on device" in capsys.readouterr().err
-    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {"report.html": "as it was", "report.json": "as it was"}
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
+        "report.html": "as it was",
+        "report.json": "as it was",
+    }
 
 
 def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):
@@ -148,13 +179,26 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
     sections = [Section("one", "One", "", Found([claim(0.5, 2.0), claim(3.0, 2.0)]), (), 0.1)]
     assert summary(sections, 0.1, tmp_path) == 1
     assert "FAILS: one: what" in capsys.readouterr().out
-    assert summary([Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)], 0.1, tmp_path) == 0
+    assert (
+        summary([Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)], 0.1, tmp_path) == 0
+    )
 
 
 # -- topics ---------------------------------------------------------------------------------------------------------------
 
 
-UNTIMED = ("appendix", "paper", "pressure", "stress", "slip", "sliding", "sampled", "stability", "certificate", "mutation")
+UNTIMED = (
+    "appendix",
+    "paper",
+    "pressure",
+    "stress",
+    "slip",
+    "sliding",
+    "sampled",
+    "stability",
+    "certificate",
+    "mutation",
+)
 
 
 @pytest.mark.parametrize("name", UNTIMED)
@@ -209,8 +253,8 @@ def test_a_sweep_sees_an_answer_that_is_off():
 def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
     """Pieces without corners between them would never meet the sums over far ones."""
     assert sweeps.pieces(1000).error < 1e-13
-    right = summation._series
-    monkeypatch.setattr(summation, "_series", lambda *given: right(*given) * (1 + 1e-9))
+    right = cauchy_sums._series
+    monkeypatch.setattr(cauchy_sums, "_series", lambda *given: right(*given) * (1 + 1e-9))
     assert sweeps.pieces(1000).error > 1e-12
 
 
@@ -245,7 +289,9 @@ def test_the_periodic_elements_reach_westergaards_wave():
 
     p = peers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
     assert np.abs(p - exact)[np.abs(x) < 0.19].max() < 0.02 * exact.max()
-    assert _closed_load(problem) == pytest.approx(np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13)
+    assert _closed_load(problem) == pytest.approx(
+        np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13
+    )
 
 
 def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(monkeypatch):
@@ -255,8 +301,14 @@ def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(m
     def flat(gap, spacing, load):
         return np.full(len(gap), load / (len(gap) * spacing))
 
-    monkeypatch.setattr(peers, "INSTALLABLE", {"Tamaas": ("math", flat), "ContactMechanics": ("no_such_module", flat)})
-    assert [m.name for m in work_precision.methods()][len(work_precision.OURS_AND_TEXTBOOKS) :] == ["Tamaas"]
+    monkeypatch.setattr(
+        peers,
+        "INSTALLABLE",
+        {"Tamaas": ("math", flat), "ContactMechanics": ("no_such_module", flat)},
+    )
+    assert [m.name for m in work_precision.methods()][len(work_precision.OURS_AND_TEXTBOOKS) :] == [
+        "Tamaas"
+    ]
     assert work_precision._absent() == ["ContactMechanics (not installed)"]
     method = work_precision.methods()[-1]
     assert method.applies(wavy())
@@ -278,7 +330,9 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
     truth, scene = Sliding(0.3), sliding().scene
     P = sie.solve(scene).normal_load
     for x in (-0.9, -0.2, 0.3, 0.7):
-        closed = sliding_rounded_flat.pressure(x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3)
+        closed = sliding_rounded_flat.pressure(
+            x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3
+        )
         assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
 
 
@@ -299,12 +353,25 @@ def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
 
 
 def a_section(name="one"):
-    found = Found([claim(0.5, 2.0), claim(5.0, 0.5, erratum="not <b>so</b>"), Table("A table", ("x", "y"), [("a < b", 1e-9)])])
+    found = Found(
+        [
+            claim(0.5, 2.0),
+            claim(5.0, 0.5, erratum="not <b>so</b>"),
+            Table("A table", ("x", "y"), [("a < b", 1e-9)]),
+        ]
+    )
     found.append(Curve("figure", "curve", [1.0, 2.0], [1e-3, math.inf]))
     drawing, ax = axes()
     draw(ax, found.curves("figure"))
     labelled(ax, "x [mm]", "y", log="y")
-    return Section(name, "Title", "Words.\n\nMore words.", found, [drawn(Figure(name, drawing, "What is seen."))], 0.1)
+    return Section(
+        name,
+        "Title",
+        "Words.\n\nMore words.",
+        found,
+        [drawn(Figure(name, drawing, "What is seen."))],
+        0.1,
+    )
 
 
 def test_the_page_needs_no_network_and_fits_a_phone():
@@ -327,7 +394,9 @@ def test_a_map_is_vector_graphics_with_a_name_for_those_who_cannot_see_it():
 
 
 def test_no_two_elements_of_the_page_share_a_name():
-    names = re.findall(r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False))
+    names = re.findall(
+        r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False)
+    )
     assert len(names) > 20
     assert len(set(names)) == len(names)
     html = page([a_section("one")], 1.0, quick=False)
@@ -345,7 +414,13 @@ def test_text_is_escaped_and_the_verdicts_are_shown():
 
 
 def test_every_number_is_in_the_json():
-    found = Found([claim(0.5, 2.0), Curve("f", "c", np.arange(3.0), [1, math.nan, 2]), Map("m", [1], [2], np.ones((1, 1)))])
+    found = Found(
+        [
+            claim(0.5, 2.0),
+            Curve("f", "c", np.arange(3.0), [1, math.nan, 2]),
+            Map("m", [1], [2], np.ones((1, 1))),
+        ]
+    )
     text = json.dumps(found.as_json(), allow_nan=False)
     back = json.loads(text)
     assert back[0]["verdict"] == "holds"
@@ -375,7 +450,15 @@ def test_a_topic_that_breaks_off_fails_and_keeps_what_it_found(monkeypatch, caps
 
 
 def test_numbers_read_as_numbers():
-    assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == ["—", "3", "0.5", "1.0e-14", "0.0", "inf", "words"]
+    assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == [
+        "—",
+        "3",
+        "0.5",
+        "1.0e-14",
+        "0.0",
+        "inf",
+        "words",
+    ]
 
 
 def test_the_bar_moves_forward_and_never_beyond_the_end():
@@ -421,7 +504,10 @@ def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
     progress.behind("one")
     progress.behind("two")
     assert progress.share() == 0.8
-    assert max(len(line.removeprefix("\x1b[K")) for line in progress.stream.getvalue().split("\r")) < 40
+    assert (
+        max(len(line.removeprefix("\x1b[K")) for line in progress.stream.getvalue().split("\r"))
+        < 40
+    )
 
 
 def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
@@ -429,11 +515,18 @@ def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
     with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
         left = [pool.submit(time.sleep, 60.0) for _ in range(4)]
         raise KeyboardInterrupt
-    assert not [future for future in left if future.done() and not future.cancelled() and future.exception() is None]
+    assert not [
+        future
+        for future in left
+        if future.done() and not future.cancelled() and future.exception() is None
+    ]
 
 
 def test_topics_beside_each_other_find_what_they_find_alone():
-    alone, beside = run(["mutation"], quick=True)[0][0], run(["mutation", "appendix"], quick=True)[0]
+    alone, beside = (
+        run(["mutation"], quick=True)[0][0],
+        run(["mutation", "appendix"], quick=True)[0],
+    )
     assert [s.name for s in beside] == ["mutation", "appendix"]
     assert alone.found.as_json() == beside[0].found.as_json()
 
@@ -473,8 +566,24 @@ def test_what_the_readme_says_is_still_so(kept_row):
 
 
 def test_the_table_is_made_of_a_report_that_has_it():
-    errors = {"kind": "table", "title": pressure.TABLE, "rows": [[name + "-r=1", 1e-16, 0.0, 1e-16, 3] for name in readme.SHOWN]}
-    times = {"kind": "table", "title": speed.TABLE, "rows": [[name + "-r=1", 0.2, 2.0] for name in reversed(readme.SHOWN)]}
-    assert readme.rows({"topics": {"pressure": [errors], "speed": [times]}})[0] == ["parabola-r=1", 1e-16, 0.0, 1e-16, 3, 0.2, 2.0]
+    errors = {
+        "kind": "table",
+        "title": pressure.TABLE,
+        "rows": [[name + "-r=1", 1e-16, 0.0, 1e-16, 3] for name in readme.SHOWN],
+    }
+    times = {
+        "kind": "table",
+        "title": speed.TABLE,
+        "rows": [[name + "-r=1", 0.2, 2.0] for name in reversed(readme.SHOWN)],
+    }
+    assert readme.rows({"topics": {"pressure": [errors], "speed": [times]}})[0] == [
+        "parabola-r=1",
+        1e-16,
+        0.0,
+        1e-16,
+        3,
+        0.2,
+        2.0,
+    ]
     with pytest.raises(ValueError, match="no topic `speed`"):
         readme.rows({"topics": {"pressure": [errors]}})

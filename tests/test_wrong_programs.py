@@ -11,7 +11,7 @@ import strategies
 from hypothesis import given
 
 import sie
-from sie.normal import normal_contact, pressure
+from sie.contact.normal import normal_contact, pressure
 from validation.cases import BUMP, CASES, SINH, Case, solved
 
 
@@ -40,7 +40,10 @@ def certificate(scene, values=None, **claims):
     x = m + r * np.linspace(-0.95, 0.95, 2011)
     x = x[np.abs(x[:, None] - np.array([*scene.profile.breaks, 9e9])).min(axis=1) > 1e-4 * r]
     with np.errstate(all="ignore"):
-        error = float(np.abs(values(x) - right(x)).max() / laws.peak(right, solution.edges, scene.profile.breaks))
+        error = float(
+            np.abs(values(x) - right(x)).max()
+            / laws.peak(right, solution.edges, scene.profile.breaks)
+        )
         return solution.check(), error
 
 
@@ -51,7 +54,11 @@ def assert_caught(scene, values=None, share=1 / 3, **claims):
 
 
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
-SKEW = sie.Scene(profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))), modulus=1.0, half_width=1.125)
+SKEW = sie.Scene(
+    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
+    modulus=1.0,
+    half_width=1.125,
+)
 SIZES = (1e-3, 1e-6, 1e-9, 1e-12)
 
 
@@ -62,8 +69,12 @@ def closed_form(x, second=1.0, b=1.0):
     phi, phi0 = np.arcsin(np.clip(x / b, 0, 1)), np.arcsin(a / b)
     with np.errstate(all="ignore"):
         first = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
-        logs = first + second * a * np.log(np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2)))
-    return ((np.pi - 2 * phi0) * b * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (2 * np.pi)
+        logs = first + second * a * np.log(
+            np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2))
+        )
+    return ((np.pi - 2 * phi0) * b * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
+        2 * np.pi
+    )
 
 
 def root(x):
@@ -256,7 +267,9 @@ def test_the_closed_form_that_cancels_is_caught():
         with np.errstate(all="ignore"):
             logs = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
             logs += a * np.log(np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2)))
-        return ((np.pi - 2 * phi0) * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (2 * np.pi)
+        return ((np.pi - 2 * phi0) * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
+            2 * np.pi
+        )
 
     assert_caught(scene, naive, share=0.1)
 
@@ -280,6 +293,9 @@ def test_tension_is_caught():
 
 
 def test_a_certificate_prints_its_verdict():
-    good, bad = sie.solve(PUNCH).check(), certificate(PUNCH, lambda x: closed_form(x, second=0.0))[0]
+    good, bad = (
+        sie.solve(PUNCH).check(),
+        certificate(PUNCH, lambda x: closed_form(x, second=0.0))[0],
+    )
     assert "NOT" not in str(good)
     assert "NOT certified" in str(bad)

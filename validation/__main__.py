@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from sie.files import write_files
+from sie.io.files import write_files
 
 from . import readme
 from .report import Section, machine, number, page
@@ -29,11 +29,29 @@ INTERRUPTED = 130  # the exit status by which shells know it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m validation", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m validation",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("--quick", action="store_true", help="less of each topic: under 30 s")
-    parser.add_argument("--only", choices=TOPICS, metavar="NAME", action="append", help=f"one topic (may be repeated): {', '.join(TOPICS)}")
-    parser.add_argument("--out", type=Path, default=Path("build/validation"), metavar="DIR", help="where report.html and report.json go")
-    parser.add_argument("--readme", action="store_true", help="write the README's table anew from this run")
+    parser.add_argument(
+        "--only",
+        choices=TOPICS,
+        metavar="NAME",
+        action="append",
+        help=f"one topic (may be repeated): {', '.join(TOPICS)}",
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=Path("build/validation"),
+        metavar="DIR",
+        help="where report.html and report.json go",
+    )
+    parser.add_argument(
+        "--readme", action="store_true", help="write the README's table anew from this run"
+    )
     given = parser.parse_args(arguments)
     names = [name for name in TOPICS if given.only is None or name in given.only]
     try:
@@ -41,7 +59,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ImportError:
         parser.error("the report's figures need Matplotlib: pip install -e '.[plot]'")
     if given.readme and not set(readme.TOPICS) <= set(names):
-        parser.error(f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without --only, or with both")
+        parser.error(
+            f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without --only, or with both"
+        )
     if not writable(given.out):
         parser.error(f"--out {given.out} is no folder that can be written to: give another")
     try:
@@ -49,10 +69,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\ninterrupted: nothing was written", file=sys.stderr)
         return INTERRUPTED
-    numbers = {"machine": machine(), "quick": given.quick, "seconds": seconds, "topics": {s.name: s.found.as_json() for s in sections}}
+    numbers = {
+        "machine": machine(),
+        "quick": given.quick,
+        "seconds": seconds,
+        "topics": {s.name: s.found.as_json() for s in sections},
+    }
     report = {
         given.out / "report.html": page(sections, seconds, given.quick).encode(),
-        given.out / "report.json": (json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode(),
+        given.out / "report.json": (
+            json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        ).encode(),
     }
     try:
         write_files(report | (readme.files(numbers) if given.readme else {}))
@@ -76,10 +103,16 @@ def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:
     claims = [(s.name, c) for s in sections for c in s.found.claims]
     failed = [(name, c) for name, c in claims if not c.ok]
     for s in sections:
-        print(f"{s.name:<16} {sum(c.ok for c in s.found.claims):3d} of {len(s.found.claims):3d} claims, {s.seconds:6.1f} s")
+        print(
+            f"{s.name:<16} {sum(c.ok for c in s.found.claims):3d} of {len(s.found.claims):3d} claims, {s.seconds:6.1f} s"
+        )
     for name, c in failed:
-        print(f"{c.verdict.upper()}: {name}: {c.what} (measured {number(c.measured)}, bar {c.bar}; {c.wrong}: {number(c.control)})")
-    print(f"{len(claims)} claims, {len(failed)} failed, {seconds:.0f} s: {out / 'report.html'}, {out / 'report.json'}")
+        print(
+            f"{c.verdict.upper()}: {name}: {c.what} (measured {number(c.measured)}, bar {c.bar}; {c.wrong}: {number(c.control)})"
+        )
+    print(
+        f"{len(claims)} claims, {len(failed)} failed, {seconds:.0f} s: {out / 'report.html'}, {out / 'report.json'}"
+    )
     return 1 if failed else 0
 
 

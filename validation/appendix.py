@@ -34,7 +34,13 @@ WRONG = mp.mpf(10) ** -20  # relative change of φ0 that a checker of 50 digits 
 
 # (a, b, x, R): doubles, so that both packages are asked the same question
 QUICK = ((0.5, 1.25, 0.75, 2.0),)
-CASES = (*QUICK, (0.25, 1.5, 0.125, 1.0), (0.875, 1.125, 1.0, 0.5), (0.0625, 2.0, -1.5, 3.0), (0.75, 0.8125, 0.25, 100.0))
+CASES = (
+    *QUICK,
+    (0.25, 1.5, 0.125, 1.0),
+    (0.875, 1.125, 1.0, 0.5),
+    (0.0625, 2.0, -1.5, 3.0),
+    (0.75, 0.8125, 0.25, 100.0),
+)
 
 
 @dataclass(frozen=True)
@@ -73,7 +79,12 @@ class Setting:
     def over_rim(self, f: Callable[[Any], Any], side: str) -> Any:
         """PV∫ f(t) dt / (sqrt(b² - t²) (t - x)) over one rim."""
         b, x = mp.mpf(self.b), mp.mpf(self.x)
-        return principal_value(mp, lambda angle: f(b * mp.sin(angle)) / (b * mp.sin(angle) - x), self.phi, *self.angles[side])
+        return principal_value(
+            mp,
+            lambda angle: f(b * mp.sin(angle)) / (b * mp.sin(angle) - x),
+            self.phi,
+            *self.angles[side],
+        )
 
     @cached_property
     def cauchy(self) -> dict[str, Any]:
@@ -119,7 +130,11 @@ def _logarithm(s: Setting, side: str) -> Any:
 def _rational(s: Setting) -> Any:
     """(29) for the right rim: ξ1 = ξ0, ξ2 = 1."""
     xi, one = s.xi[0], s.xi[1]
-    return (1 + xi**2) / (s.b * (1 - xi**2)) * mp.log(abs((xi - 1) * (1 - xi * one) / ((xi - one) * (1 - xi))))
+    return (
+        (1 + xi**2)
+        / (s.b * (1 - xi**2))
+        * mp.log(abs((xi - 1) * (1 - xi * one) / ((xi - one) * (1 - xi))))
+    )
 
 
 def _substituted(s: Setting, kernel: Callable[[Any, Any], Any]) -> Any:
@@ -130,8 +145,14 @@ def _substituted(s: Setting, kernel: Callable[[Any, Any], Any]) -> Any:
 
 def _closed_32(s: Setting) -> Any:
     sin, cos, tan, phi, phi0 = mp.sin, mp.cos, mp.tan, s.phi, s.phi0
-    inside = (mp.pi - 2 * phi0) * cos(phi) / sin(phi0) + sin(phi) / sin(phi0) * mp.log(abs(sin(phi + phi0) / sin(phi - phi0)))
-    return (inside + mp.log(abs(tan((phi + phi0) / 2) * tan((phi - phi0) / 2)))) * s.a / (2 * mp.pi * s.R)
+    inside = (mp.pi - 2 * phi0) * cos(phi) / sin(phi0) + sin(phi) / sin(phi0) * mp.log(
+        abs(sin(phi + phi0) / sin(phi - phi0))
+    )
+    return (
+        (inside + mp.log(abs(tan((phi + phi0) / 2) * tan((phi - phi0) / 2))))
+        * s.a
+        / (2 * mp.pi * s.R)
+    )
 
 
 def _load_34(s: Setting, scale: Any) -> Any:
@@ -152,7 +173,9 @@ def _load_33(s: Setting) -> Any:
 
 def _load_35(s: Setting) -> Any:
     phi0 = s.phi0
-    return mp.mpf(s.a) ** 2 * ((mp.pi - 2 * phi0) / (2 * mp.sin(phi0) ** 2) - mp.cot(phi0)) / (2 * s.R)
+    return (
+        mp.mpf(s.a) ** 2 * ((mp.pi - 2 * phi0) / (2 * mp.sin(phi0) ** 2) - mp.cot(phi0)) / (2 * s.R)
+    )
 
 
 def _split(s: Setting) -> Any:
@@ -168,7 +191,9 @@ def _misprinted_root(s: Setting) -> Any:
     lo, hi = (few.mpf(angle) for angle in s.angles["right"])
     cut = min(max(few.mpf(s.phi), lo), hi)
     parts = [(p, q) for p, q in ((lo, cut), (cut, hi)) if q > p]
-    return mp.mpmathify(sum(few.quad(lambda f: 1 / few.sqrt(few.mpc(b * few.sin(f) - x)), [p, q]) for p, q in parts))
+    return mp.mpmathify(
+        sum(few.quad(lambda f: 1 / few.sqrt(few.mpc(b * few.sin(f) - x)), [p, q]) for p, q in parts)
+    )
 
 
 def _punch(s: Setting) -> float:
@@ -179,12 +204,20 @@ def _punch(s: Setting) -> float:
 def _step(s: Setting) -> float:
     """A slope that steps up at x = a only, upright in [-b, b]: its pressure is E*/2 w(x) times the second of (31)."""
     share = np.arccos(s.a / s.b) / np.pi
-    solution = sie.solve(sie.Scene(profile=sie.Piecewise((s.a,), ((-share,), (1.0 - share,))), modulus=2.0, half_width=s.b))
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.Piecewise((s.a,), ((-share,), (1.0 - share,))), modulus=2.0, half_width=s.b
+        )
+    )
     return float(solution.pressure(s.x)) * np.pi / np.sqrt((s.b - s.x) * (s.b + s.x))
 
 
 def _load(s: Setting) -> float:
-    return float(sie.solve(sie.Scene(profile=sie.RoundedFlat(s.a, s.R), modulus=1.0, half_width=s.b)).normal_load)
+    return float(
+        sie.solve(
+            sie.Scene(profile=sie.RoundedFlat(s.a, s.R), modulus=1.0, half_width=s.b)
+        ).normal_load
+    )
 
 
 def _of_punch(s: Setting, lib: Any) -> Any:
@@ -259,7 +292,10 @@ def agreed(equation: Equation, s: Setting) -> dict[str, float]:
     if equation.printed is not None:
         found["printed"] = digits(equation.printed(s), truth)
     if equation.closed is not None:
-        found |= {"analytic in mpmath": digits(equation.closed(s, mp), truth), "analytic in NumPy": digits(equation.closed(s, np), truth)}
+        found |= {
+            "analytic in mpmath": digits(equation.closed(s, mp), truth),
+            "analytic in NumPy": digits(equation.closed(s, np), truth),
+        }
     if equation.solver is not None:
         found["sie"] = digits(equation.solver(s), truth)
     return found
@@ -271,7 +307,10 @@ def wrong_digits(equation: Equation, s: Setting, spoiled: Setting) -> dict[str, 
     found = {"identity": digits(equation.right(spoiled), truth)}
     if equation.closed is not None:
         exactly = digits(equation.closed(replace(s, a=mp.mpf(s.a) * (1 + WRONG)), mp), truth)
-        found |= {"analytic in mpmath": exactly, "analytic in NumPy": digits(_to_ten(equation.closed(s, np)), truth)}
+        found |= {
+            "analytic in mpmath": exactly,
+            "analytic in NumPy": digits(_to_ten(equation.closed(s, np)), truth),
+        }
     if equation.solver is not None:
         found["sie"] = digits(_to_ten(equation.solver(s)), truth)
     return found
@@ -283,7 +322,9 @@ def _to_ten(value: float) -> float:
 
 def compute(quick: bool) -> Iterator[Record]:
     rows = []
-    settings = [Setting(*case) for case in (QUICK if quick else CASES)]  # each remembers its integrals
+    settings = [
+        Setting(*case) for case in (QUICK if quick else CASES)
+    ]  # each remembers its integrals
     spoiled = Setting(*QUICK[0], spoiled=WRONG)
     for equation in EQUATIONS:
         yield Doing(equation.name)
@@ -297,22 +338,55 @@ def compute(quick: bool) -> Iterator[Record]:
         "Cases (a, b, x, R): " + "; ".join(map(str, QUICK if quick else CASES)),
     )  # fmt: skip
     for name in NAMES:
-        some = [(k, row[2 + NAMES.index(name)]) for k, row in enumerate(rows) if row[2 + NAMES.index(name)] is not None]
-        yield Curve("digits", name, [k for k, _ in some], [v for _, v in some], "points", {"names": [row[0] for row in rows]})
+        some = [
+            (k, row[2 + NAMES.index(name)])
+            for k, row in enumerate(rows)
+            if row[2 + NAMES.index(name)] is not None
+        ]
+        yield Curve(
+            "digits",
+            name,
+            [k for k, _ in some],
+            [v for _, v in some],
+            "points",
+            {"names": [row[0] for row in rows]},
+        )
 
 
-def _claims(equation: Equation, least: dict[str, float], printed: float, wrong: dict[str, float]) -> Iterator[Claim]:
+def _claims(
+    equation: Equation, least: dict[str, float], printed: float, wrong: dict[str, float]
+) -> Iterator[Claim]:
     named = "φ0 changed by 1e-20 of itself"
-    yield Claim(f"{equation.name}, {equation.says}: digits", "paper, appendix", least["identity"], wrong["identity"], named, low=DIGITS - 1)
+    yield Claim(
+        f"{equation.name}, {equation.says}: digits",
+        "paper, appendix",
+        least["identity"],
+        wrong["identity"],
+        named,
+        low=DIGITS - 1,
+    )
     if "printed" in least:
         yield Claim(
             f"{equation.name} as printed: digits", "paper, appendix (our copy)", printed, least["identity"], "the corrected form",
             low=DIGITS - 1, erratum=equation.erratum,
         )  # fmt: skip
-    for name, low in (("analytic in mpmath", DIGITS - 1), ("analytic in NumPy", 14.0), ("sie", 13.0)):
+    for name, low in (
+        ("analytic in mpmath", DIGITS - 1),
+        ("analytic in NumPy", 14.0),
+        ("sie", 13.0),
+    ):
         if name in least:
-            words = "a changed by 1e-20 of itself" if low > 20 else "the answer rounded to ten digits"
-            yield Claim(f"{equation.name}, {name}: digits", "README", least[name], wrong[name], words, low=low)
+            words = (
+                "a changed by 1e-20 of itself" if low > 20 else "the answer rounded to ten digits"
+            )
+            yield Claim(
+                f"{equation.name}, {name}: digits",
+                "README",
+                least[name],
+                wrong[name],
+                words,
+                low=low,
+            )
 
 
 def figures(found: Found) -> Iterator[Figure]:

@@ -33,7 +33,13 @@ class Case:
 
     @property
     def scene(self) -> sie.Scene:
-        return sie.Scene(profile=self.profile, modulus=1.0, normal_load=self.load, half_width=self.width, tilt=self.tilt)
+        return sie.Scene(
+            profile=self.profile,
+            modulus=1.0,
+            normal_load=self.load,
+            half_width=self.width,
+            tilt=self.tilt,
+        )
 
 
 @cache
@@ -49,18 +55,30 @@ def exact(case: Case) -> reference.Contact:
         return reference.sharp_contact(pieces, 1.0, case.load)
     start = solved(case).edges
     return reference.contact(
-        pieces, 1.0, start, load=case.load, half_width=case.width, symmetric=case.symmetric and not case.tilt, sharp=case.sharp
+        pieces,
+        1.0,
+        start,
+        load=case.load,
+        half_width=case.width,
+        symmetric=case.symmetric and not case.tilt,
+        sharp=case.sharp,
     )
 
 
 def rounded_slope(half_flat: float, radius: float) -> Pieces:
     a, R = mp.mpf(half_flat), mp.mpf(radius)
-    return Pieces((-mp.inf, -a, a, mp.inf), (lambda t: (t + a) / R, lambda t: 0 * t, lambda t: (t - a) / R))
+    return Pieces(
+        (-mp.inf, -a, a, mp.inf), (lambda t: (t + a) / R, lambda t: 0 * t, lambda t: (t - a) / R)
+    )
 
 
 def power_slope(exponent: float, coefficient: float) -> Pieces:
     m, A = mp.mpf(exponent), mp.mpf(coefficient)
-    return Pieces((-mp.inf, mp.zero, mp.inf), (lambda t: -m * A * (-t) ** (m - 1), lambda t: m * A * t ** (m - 1)), kinks=(mp.zero,))
+    return Pieces(
+        (-mp.inf, mp.zero, mp.inf),
+        (lambda t: -m * A * (-t) ** (m - 1), lambda t: m * A * t ** (m - 1)),
+        kinks=(mp.zero,),
+    )
 
 
 def chain(seed: int, n: int) -> tuple[sie.Piecewise, Pieces]:
@@ -78,7 +96,9 @@ def chain(seed: int, n: int) -> tuple[sie.Piecewise, Pieces]:
 
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
-CORNERS = sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0)))  # a flat whose corners have radii 2 and 1/2
+CORNERS = sie.Piecewise(
+    (-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))
+)  # a flat whose corners have radii 2 and 1/2
 CORNERS_SLOPE = polynomials((-INF, -0.5, 1.0, INF), ((0.25, 0.5), (0.0,), (-2.0, 2.0)))
 TWO_RADII = sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 3.0)))
 TWO_RADII_SLOPE = polynomials((-INF, 0.0, INF), ((0.0, 1.0), (0.0, 3.0)))
@@ -86,7 +106,9 @@ BLUNT = sie.Wedge(0.25) + sie.Parabola(2.0)
 BLUNT_SLOPE = polynomials((-INF, 0.0, INF), ((-0.25, 0.5), (0.25, 0.5)))
 SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-3.0, 3.0))
-CUBIC = sie.Piecewise((-0.25, 0.5), ((0.0, 1.0), (0.1328125, 1.5, 0.0, 0.5), (0.0, 2.0)))  # h' continuous at -1/4, a jump up at 1/2
+CUBIC = sie.Piecewise(
+    (-0.25, 0.5), ((0.0, 1.0), (0.1328125, 1.5, 0.0, 0.5), (0.0, 2.0))
+)  # h' continuous at -1/4, a jump up at 1/2
 CUBIC_SLOPE = polynomials((-INF, -0.25, 0.5, INF), CUBIC.coefficients)
 CUT = sie.FromFunction(np.sinh, domain=(-1.0, 0.5))
 FOUR, SIX, EIGHT = (chain(seed, n) for seed, n in ((4, 4), (6, 6), (8, 8)))

@@ -16,7 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import sie
-from analytic import cattaneo_rounded, hertz, power, rounded_flat, sliding_hertz, sliding_rounded_flat, wedge
+from analytic import (
+    cattaneo_rounded,
+    hertz,
+    power,
+    rounded_flat,
+    sliding_hertz,
+    sliding_rounded_flat,
+    wedge,
+)
 
 from .figures import Figure, axes, draw, labelled, legend
 from .measures import largest, smallest
@@ -31,7 +39,10 @@ COUNTS = (100, 2000)
 SEED = 20260711
 mp = context(22)
 SHARE = 1 / 3
-REACH, AT = 0.95, 3  # of the half-width; places in each contact, one where the closed form is itself an integral or an iteration
+REACH, AT = (
+    0.95,
+    3,
+)  # of the half-width; places in each contact, one where the closed form is itself an integral or an iteration
 
 Truth = Callable[[Any], Any]
 
@@ -72,15 +83,30 @@ def _pressed(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     if kind == "rounded flat":
         a = _away(rng, b)
         profile: sie.Profile = sie.RoundedFlat(a, R)
-        form = lambda x: rounded_flat.pressure(x, half_flat=a, radius=R, modulus=E, half_width=b, lib=mp)  # noqa: E731
+        punch = {"half_flat": a, "radius": R, "modulus": E, "half_width": b}
+        form = lambda x: rounded_flat.pressure(x, **punch, lib=mp)  # noqa: E731
     elif kind == "parabola":
-        profile, form = sie.Parabola(R), lambda x: hertz.pressure(x, radius=R, modulus=E, half_width=b, lib=mp)
+        profile, form = (
+            sie.Parabola(R),
+            lambda x: hertz.pressure(x, radius=R, modulus=E, half_width=b, lib=mp),
+        )
     elif kind == "wedge":
-        profile, form = sie.Wedge(R), lambda x: wedge.pressure(x, slope=R, modulus=E, half_width=b, lib=mp)
+        profile, form = (
+            sie.Wedge(R),
+            lambda x: wedge.pressure(x, slope=R, modulus=E, half_width=b, lib=mp),
+        )
     else:
         m = int(rng.integers(3, 9))
-        profile, form = sie.Power(m, R), lambda x: power.pressure(x, exponent=m, coefficient=R, modulus=E, half_width=b, lib=mp)
-    return Contact(kind, sie.Scene(profile=profile, modulus=E, half_width=b), form, places=1 if kind == "power" else AT)
+        profile, form = (
+            sie.Power(m, R),
+            lambda x: power.pressure(x, exponent=m, coefficient=R, modulus=E, half_width=b, lib=mp),
+        )
+    return Contact(
+        kind,
+        sie.Scene(profile=profile, modulus=E, half_width=b),
+        form,
+        places=1 if kind == "power" else AT,
+    )
 
 
 def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
@@ -88,10 +114,27 @@ def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     coupling = float(rng.uniform(-0.49, 0.49))
     common = {"modulus": E, "dundurs": coupling / 2.0, "friction": 2.0, "sliding": 1}
     if kind == "sliding parabola":
-        given = {"half_width": b, "radius": R, "modulus": E, "coupling": mp.mpf(coupling), "lib": mp}
-        return Contact(kind, sie.Scene(profile=sie.Parabola(R), half_width=b, **common), lambda x: sliding_hertz.pressure(x, **given))
+        given = {
+            "half_width": b,
+            "radius": R,
+            "modulus": E,
+            "coupling": mp.mpf(coupling),
+            "lib": mp,
+        }
+        return Contact(
+            kind,
+            sie.Scene(profile=sie.Parabola(R), half_width=b, **common),
+            lambda x: sliding_hertz.pressure(x, **given),
+        )
     a, P = b * float(rng.uniform(0.1, 0.9)), E * b * b / R * float(10.0 ** rng.uniform(-2, 0))
-    given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "coupling": mp.mpf(coupling), "lib": mp}
+    given = {
+        "normal_load": P,
+        "half_flat": a,
+        "radius": R,
+        "modulus": E,
+        "coupling": mp.mpf(coupling),
+        "lib": mp,
+    }
     scene = sie.Scene(profile=sie.RoundedFlat(a, R), normal_load=P, **common)
     return Contact(kind, scene, lambda x: sliding_rounded_flat.pressure(x, **given), places=1)
 
@@ -105,9 +148,16 @@ def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     profile = sie.Sampled(x, 0.5 * x * x / R)
     t = np.concatenate([x, x[:-1] + 1e-6 * b, 0.5 * (x[1:] + x[:-1])])
     t = t[(np.abs(t) < b)]
-    rounding = 2.0 * float(np.abs(profile.slope(t) - t / R).max())  # p/peak ~ twice the change of slope, the peak being E* b/(2R)
+    rounding = 2.0 * float(
+        np.abs(profile.slope(t) - t / R).max()
+    )  # p/peak ~ twice the change of slope, the peak being E* b/(2R)
     scene = sie.Scene(profile=profile, modulus=E, half_width=b)
-    return Contact(kind, scene, lambda v: hertz.pressure(v, radius=R, modulus=E, half_width=b, lib=mp), rounding=rounding)
+    return Contact(
+        kind,
+        scene,
+        lambda v: hertz.pressure(v, radius=R, modulus=E, half_width=b, lib=mp),
+        rounding=rounding,
+    )
 
 
 def _slipping(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
@@ -115,8 +165,18 @@ def _slipping(kind: str, rng: np.random.Generator, sizes: tuple[float, float, fl
     a, P = b * float(rng.uniform(0.05, 0.9)), E * b * b / R * float(10.0 ** rng.uniform(-2, 0))
     f, share = float(rng.uniform(0.1, 1.0)), float(rng.uniform(0.05, 0.95))
     Q = share * f * P
-    given = {"normal_load": P, "half_flat": a, "radius": R, "modulus": E, "friction": f, "tangential_load": mp.mpf(Q), "lib": mp}
-    scene = sie.Scene(profile=sie.RoundedFlat(a, R), modulus=E, normal_load=P, friction=f, tangential_load=Q)
+    given = {
+        "normal_load": P,
+        "half_flat": a,
+        "radius": R,
+        "modulus": E,
+        "friction": f,
+        "tangential_load": mp.mpf(Q),
+        "lib": mp,
+    }
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(a, R), modulus=E, normal_load=P, friction=f, tangential_load=Q
+    )
     return Contact(kind, scene, lambda x: cattaneo_rounded.shear(x, **given), "shear", places=1)
 
 
@@ -153,18 +213,30 @@ def judged(rng: np.random.Generator, wrong: bool) -> Judged:
     peak = peak_of(solution) * (made.scene.friction if made.quantity == "shear" else 1.0)
     values = right
     if wrong:
-        size, shape = peak * float(10.0 ** rng.uniform(-13, -2)), SHAPES[int(rng.integers(len(SHAPES)))]
+        size, shape = (
+            peak * float(10.0 ** rng.uniform(-13, -2)),
+            SHAPES[int(rng.integers(len(SHAPES)))],
+        )
 
         def values(t: Any) -> Any:
             return right(t) + size * shape((t - m) / r)
 
         solution = (with_shear if made.quantity == "shear" else with_pressure)(made.scene, values)
     ulp = np.spacing(max(abs(x1), abs(x2)))
-    explained = np.max([np.abs(right(x + d) - right(x)) for d in (-ulp, ulp)], axis=0) + made.rounding * peak
-    errors = np.array([abs(float(mp.mpf(float(p)) - t)) for p, t in zip(values(x), true, strict=True)])
+    explained = (
+        np.max([np.abs(right(x + d) - right(x)) for d in (-ulp, ulp)], axis=0)
+        + made.rounding * peak
+    )
+    errors = np.array(
+        [abs(float(mp.mpf(float(p)) - t)) for p, t in zip(values(x), true, strict=True)]
+    )
     found = solution.check()
-    estimate = found.shear.error if made.quantity == "shear" and found.shear is not None else found.error
-    return Judged(made.kind, float((errors - explained).max(initial=0.0).clip(0.0)) / peak, estimate, wrong)
+    estimate = (
+        found.shear.error if made.quantity == "shear" and found.shear is not None else found.error
+    )
+    return Judged(
+        made.kind, float((errors - explained).max(initial=0.0).clip(0.0)) / peak, estimate, wrong
+    )
 
 
 def peak_of(solution: sie.Solution) -> float:
@@ -172,7 +244,9 @@ def peak_of(solution: sie.Solution) -> float:
     m, r = solution.centre, solution.half_width
     (x1, x2), breaks = solution.edges, np.array(solution.scene.profile.breaks)
     rims = [b + share * ((x2 if b > m else x1) - b) for b in breaks for share in (0.2, 0.4, 0.6)]
-    x = np.concatenate((m + r * np.linspace(-0.999, 0.999, 201), breaks - 1e-6 * r, breaks + 1e-6 * r, rims))
+    x = np.concatenate(
+        (m + r * np.linspace(-0.999, 0.999, 201), breaks - 1e-6 * r, breaks + 1e-6 * r, rims)
+    )
     return float(solution.pressure(x[(x > x1) & (x < x2) & ~np.isin(x, breaks)]).max())
 
 
@@ -189,12 +263,22 @@ def compute(quick: bool) -> Iterator[Record]:
         some = [j for j in found if j.wrong == wrong]
         yield Curve("judged", label, [j.true for j in some], [j.estimate for j in some], "points")
     rows = [
-        (kind, "wrong" if wrong else "right", len(some), largest(j.true for j in some), _least(some))
+        (
+            kind,
+            "wrong" if wrong else "right",
+            len(some),
+            largest(j.true for j in some),
+            _least(some),
+        )
         for kind in dict.fromkeys(j.kind for j in found)
         for wrong in (False, True)
         if (some := [j for j in found if j.kind == kind and j.wrong == wrong])
     ]
-    yield Table("By kind of contact", ("contact", "answers", "how many", "largest true error", "smallest estimate / true error"), rows)
+    yield Table(
+        "By kind of contact",
+        ("contact", "answers", "how many", "largest true error", "smallest estimate / true error"),
+        rows,
+    )
 
 
 def _least(some: list[Judged]) -> float:
@@ -224,9 +308,14 @@ def figures(found: Found) -> Iterator[Figure]:
     drawing, ax = axes()
     curves = found.curves("judged")
     for curve in curves:
-        ax.plot(np.maximum(curve.x, 1e-18), curve.y, "o", ms=2.5, label=curve.label, alpha=0.6, mew=0)
+        ax.plot(
+            np.maximum(curve.x, 1e-18), curve.y, "o", ms=2.5, label=curve.label, alpha=0.6, mew=0
+        )
     line = np.array([1e-18, 1e-1])
-    draw(ax, [Curve("", "a third of the true error", line, line / 3, "dashed", {"colour": "tab:red"})])
+    draw(
+        ax,
+        [Curve("", "a third of the true error", line, line / 3, "dashed", {"colour": "tab:red"})],
+    )
     labelled(ax, "true error of the pressure / peak", "the certificate's estimate", log="xy")
     legend(ax)
     yield Figure(

@@ -18,7 +18,7 @@ import mpmath
 import numpy as np
 
 import sie
-from sie.system import System
+from sie.cauchy.system import System
 
 from .figures import Figure, axes, draw, labelled, legend
 from .measures import largest
@@ -78,17 +78,28 @@ def willmore(a: float, b: float) -> tuple[Any, Any]:
     a, b = mp.mpf(a), mp.mpf(b)
     m = (1 - a / b) * (1 + a / b)
     ratio, root = mp.ellipe(m) / mp.ellipk(m), mp.sqrt((b - a) * (b + a))
-    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (1 - ratio) / root
+    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (
+        1 - ratio
+    ) / root
 
 
 def sliding_parabola(strength: float) -> Row:
     """β f = strength, E* = R = 1, half-width 1 (Hills, Nowell & Sackfield 1993)."""
     epsilon = np.arctan(-strength) / np.pi
     c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
-    pressure = sie.CauchyEquation((-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded").solve()
+    pressure = sie.CauchyEquation(
+        (-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded"
+    ).solve()
     x = np.linspace(-c1, c2, 1001)[1:-1]
-    closed = 0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
-    return Row(f"sliding parabola, βf = {strength}", str(pressure.n), float(np.abs(pressure(x) / closed - 1).max()), pressure.error)
+    closed = (
+        0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
+    )
+    return Row(
+        f"sliding parabola, βf = {strength}",
+        str(pressure.n),
+        float(np.abs(pressure(x) / closed - 1).max()),
+        pressure.error,
+    )
 
 
 def bonded_punch(beta: float) -> Row:
@@ -97,8 +108,15 @@ def bonded_punch(beta: float) -> Row:
     traction = sie.CauchyEquation((-1.0, 1.0), 0.0, a=1j * beta, b=-1.0, total=2.0 + 1.0j).solve()
     x = np.linspace(-1.0, 1.0, 1001)[1:-1]
     oscillation = np.exp(1j * eta * (np.log1p(x) - np.log1p(-x)))
-    closed = (2.0 + 1.0j) / np.pi * np.cosh(np.pi * eta) / np.sqrt((1.0 - x) * (1.0 + x)) * oscillation
-    return Row(f"bonded punch, β = {beta}", str(traction.n), float(np.abs(traction(x) / closed - 1).max()), traction.error)
+    closed = (
+        (2.0 + 1.0j) / np.pi * np.cosh(np.pi * eta) / np.sqrt((1.0 - x) * (1.0 + x)) * oscillation
+    )
+    return Row(
+        f"bonded punch, β = {beta}",
+        str(traction.n),
+        float(np.abs(traction(x) / closed - 1).max()),
+        traction.error,
+    )
 
 
 # -- growth -----------------------------------------------------------------------------------------------------------
@@ -107,7 +125,10 @@ def bonded_punch(beta: float) -> Row:
 def thin_layer(factor: float = 1.0, height: float = 0.02) -> sie.CauchyEquation:
     """`factor` multiplies the right-hand side."""
     return sie.CauchyEquation(
-        (-1.0, 1.0), lambda x: factor * np.exp(x), k=lambda x, t: 0.5 * height / ((t - x) ** 2 + height**2) / np.pi, total=0.0
+        (-1.0, 1.0),
+        lambda x: factor * np.exp(x),
+        k=lambda x, t: 0.5 * height / ((t - x) ** 2 + height**2) / np.pi,
+        total=0.0,
     )
 
 
@@ -122,7 +143,12 @@ def growth(sizes: tuple[int, ...]) -> Iterator[Row]:
         yield Row("thin layer, LAPACK - GMRES", str(n), apart, None, condition, *found[-1][1:])
     measured = np.log([row for row in found if FITTED * row[0] >= sizes[-1]])
     slopes = [float(np.polyfit(measured[:, 0], measured[:, column], 1)[0]) for column in (1, 2)]
-    yield Row("exponents of n", f"{max(sizes[0], sizes[-1] // FITTED)} to {sizes[-1]}", lapack=slopes[0], gmres=slopes[1])
+    yield Row(
+        "exponents of n",
+        f"{max(sizes[0], sizes[-1] // FITTED)} to {sizes[-1]}",
+        lapack=slopes[0],
+        gmres=slopes[1],
+    )
 
 
 def _seconds(run: Callable[[], Any]) -> float:
@@ -149,14 +175,36 @@ def compute(quick: bool = False) -> Iterator[Record]:
         yield Doing(f"{row.case}, {row.n}")
         found.append(row)
     yield from claims(found)
-    yield Table("Accuracy and growth", HEADER, [(r.case, r.n, r.error, r.estimated, r.condition, r.lapack, r.gmres) for r in found])
+    yield Table(
+        "Accuracy and growth",
+        HEADER,
+        [(r.case, r.n, r.error, r.estimated, r.condition, r.lapack, r.gmres) for r in found],
+    )
     cracks = [r for r in found if r.case.startswith("two cracks")]
     gaps = [float(r.case.split()[-1]) for r in cracks]
-    yield Curve("ligament", "error of the stress intensity factors", gaps, [r.error or 0.0 for r in cracks], "both")
-    yield Curve("ligament", "the density's own estimate", gaps, [r.estimated or 0.0 for r in cracks], "dashed")
+    yield Curve(
+        "ligament",
+        "error of the stress intensity factors",
+        gaps,
+        [r.error or 0.0 for r in cracks],
+        "both",
+    )
+    yield Curve(
+        "ligament",
+        "the density's own estimate",
+        gaps,
+        [r.estimated or 0.0 for r in cracks],
+        "dashed",
+    )
     layers = [r for r in found if r.case.startswith("thin layer")]
     for name in ("lapack", "gmres"):
-        yield Curve("layer", name.upper(), [int(r.n) for r in layers], [getattr(r, name) for r in layers], "both")
+        yield Curve(
+            "layer",
+            name.upper(),
+            [int(r.n) for r in layers],
+            [getattr(r, name) for r in layers],
+            "both",
+        )
 
 
 def claims(found: list[Row]) -> Iterator[Claim]:
@@ -169,20 +217,35 @@ def claims(found: list[Row]) -> Iterator[Claim]:
     conditions = [r.condition for r in found if r.condition is not None]
     dense = np.linalg.cond(erdogan_gupta_matrix(200)[0])
     yield Claim(
-        "largest condition number, thin layer", "README: 1.7", largest(conditions), dense, "the textbook's unscaled matrix", high=2.0
+        "largest condition number, thin layer",
+        "README: 1.7",
+        largest(conditions),
+        dense,
+        "the textbook's unscaled matrix",
+        high=2.0,
     )
     yield _agreement(found)
     last = found[-2]
     if int(last.n) < COMPARED_FROM:
         return
     ratio = (last.lapack or np.nan) / (last.gmres or np.nan)
-    yield Claim(f"time of LAPACK over GMRES, n = {last.n}", "README: GMRES takes over", ratio, 1 / ratio, "the two exchanged", low=1.0)
+    yield Claim(
+        f"time of LAPACK over GMRES, n = {last.n}",
+        "README: GMRES takes over",
+        ratio,
+        1 / ratio,
+        "the two exchanged",
+        low=1.0,
+    )
 
 
 def _agreement(found: list[Row]) -> Claim:
     """Of the two ways through the same matrix, one of them with a right-hand side that is off."""
     system = System(thin_layer().problem, (QUICK_SIZES[0],))
-    right, wrong = system.by_lapack(), System(thin_layer(1.0 + SPOILED).problem, (QUICK_SIZES[0],)).by_gmres()
+    right, wrong = (
+        system.by_lapack(),
+        System(thin_layer(1.0 + SPOILED).problem, (QUICK_SIZES[0],)).by_gmres(),
+    )
     apart = largest(r.error or 0.0 for r in found if r.case.startswith("thin layer"))
     return Claim("thin layer: largest difference of elimination and iteration", "this project: two ways, one answer", apart,
                  float(np.abs(right - wrong).max() / np.abs(right).max()), f"right-hand side off by {SPOILED:.0e}", high=BAR)  # fmt: skip
@@ -190,8 +253,18 @@ def _agreement(found: list[Row]) -> Claim:
 
 def figures(found: Found) -> Iterator[Figure]:
     for key, x, y, caption in (
-        ("ligament", "ligament / length of the cracks", "relative error", "Two collinear cracks that nearly touch, against 40 digits."),
-        ("layer", "unknowns n", "time [s]", "The same system solved by elimination and by iteration."),
+        (
+            "ligament",
+            "ligament / length of the cracks",
+            "relative error",
+            "Two collinear cracks that nearly touch, against 40 digits.",
+        ),
+        (
+            "layer",
+            "unknowns n",
+            "time [s]",
+            "The same system solved by elimination and by iteration.",
+        ),
     ):
         drawing, ax = axes()
         draw(ax, found.curves(key), floor=1e-17)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 import sie
-from sie.normal import ECONOMY
+from sie.contact.normal import ECONOMY
 
 from .figures import Figure, axes, labelled, legend_above
 from .measures import largest, smallest
@@ -23,7 +23,10 @@ TITLE = "Economy: what a scene does not need is not computed"
 SECONDS = (2.0, 5.0)
 TIMED = True
 SAME = 1e-13
-SAVED, NO_LOSS = 1.3, 0.7  # times; one skip alone may save little, which a busy machine hides, but must not cost
+SAVED, NO_LOSS = (
+    1.3,
+    0.7,
+)  # times; one skip alone may save little, which a busy machine hides, but must not cost
 RIM = sie.RoundedFlat(0.5, 1.0)
 SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
 SLIPPING = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
@@ -33,12 +36,16 @@ SCENES = {
     "rounded flat, tilted": sie.Scene(profile=RIM, modulus=1.0, normal_load=0.3, tilt=0.05),
     "smooth function": sie.Scene(profile=SLOPE, modulus=1.0, normal_load=1.0),
     "dissimilar, f = 0": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, normal_load=0.3),
-    "similar, sliding": sie.Scene(profile=RIM, modulus=1.0, friction=0.5, sliding=1, normal_load=0.3),
+    "similar, sliding": sie.Scene(
+        profile=RIM, modulus=1.0, friction=0.5, sliding=1, normal_load=0.3
+    ),
     "stick zone inside the flat": sie.Scene(**SLIPPING, tangential_load=0.15 * (1 - 1e-12)),
     "without a shear load": sie.Scene(**SLIPPING),
     "partial slip": sie.Scene(**SLIPPING, tangential_load=0.09),
     "bulk stress": sie.Scene(**SLIPPING, tangential_load=0.09, bulk_stress=0.002),
-    "dissimilar, sliding": sie.Scene(profile=RIM, modulus=1.0, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.3),
+    "dissimilar, sliding": sie.Scene(
+        profile=RIM, modulus=1.0, dundurs=0.2, friction=0.5, sliding=1, normal_load=0.3
+    ),
 }
 
 
@@ -55,7 +62,10 @@ def difference(pair: tuple[Any, Any]) -> float:
 
 def cost(scene: sie.Scene, x: Any, patience: float) -> list[float]:
     """Median seconds with the skips and without."""
-    return medians((lambda: answers(sie.solve(scene), x), lambda: answers(sie.solve(scene, economy=()), x)), patience)
+    return medians(
+        (lambda: answers(sie.solve(scene), x), lambda: answers(sie.solve(scene, economy=()), x)),
+        patience,
+    )
 
 
 # A skip by its name, and a scene that has no need of what it leaves out.
@@ -78,13 +88,33 @@ def one_by_one(quick: bool) -> Iterator[Record]:
         scene, rest = SCENES[name], ECONOMY - {skip}
         x = np.linspace(*sie.solve(scene).edges, 1003)[1:-1]
         seconds = medians(
-            (lambda s=scene, x=x: answers(sie.solve(s), x), lambda s=scene, x=x, rest=rest: answers(sie.solve(s, economy=rest), x)),
+            (
+                lambda s=scene, x=x: answers(sie.solve(s), x),
+                lambda s=scene, x=x, rest=rest: answers(sie.solve(s, economy=rest), x),
+            ),
             0.05 if quick else 0.2,
         )
-        apart = difference((answers(sie.solve(scene), x), answers(sie.solve(scene, economy=rest), x)))
-        spoiled = min(spoiled, difference((one := answers(sie.solve(scene), x), one * (1.0 + 1e-11))))
-        rows.append((skip, name, 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], apart))
-    yield Table("Each skip alone", ("skip", "scene", "time [ms]", "without it [ms]", "saving, times", "largest difference / peak"), rows)
+        apart = difference(
+            (answers(sie.solve(scene), x), answers(sie.solve(scene, economy=rest), x))
+        )
+        spoiled = min(
+            spoiled, difference((one := answers(sie.solve(scene), x), one * (1.0 + 1e-11)))
+        )
+        rows.append(
+            (skip, name, 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], apart)
+        )
+    yield Table(
+        "Each skip alone",
+        (
+            "skip",
+            "scene",
+            "time [ms]",
+            "without it [ms]",
+            "saving, times",
+            "largest difference / peak",
+        ),
+        rows,
+    )
     yield Claim(
         "each skip alone: largest difference of pressure and shear / peak",
         "this project: the answer is the same",
@@ -93,7 +123,9 @@ def one_by_one(quick: bool) -> Iterator[Record]:
         "answers off by 1e-11",
         high=SAME,
     )
-    yield saved("each skip alone: smallest saving, times", ((row[2], row[3]) for row in rows), NO_LOSS)
+    yield saved(
+        "each skip alone: smallest saving, times", ((row[2], row[3]) for row in rows), NO_LOSS
+    )
 
 
 def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
@@ -110,7 +142,9 @@ def stress_of(scene: sie.Scene) -> Iterator[Claim]:
     solution = sie.solve(scene)
     _ = solution.stress(0.3, 0.2).xx
     planned = sie.plan(scene, "stress").stages
-    filled = {key for key in vars(solution) if key in {s.stage for s in sie.plan(scene, "check").steps}}
+    filled = {
+        key for key in vars(solution) if key in {s.stage for s in sie.plan(scene, "check").steps}
+    }
     without = sie.plan(scene, ("pressure", "shear")).stages
     yield Claim(
         "stress asked for: stages filled that were not planned, or planned and not filled",
@@ -131,7 +165,9 @@ def compute(quick: bool) -> Iterator[Record]:
         saving, bare = sie.solve(scene), sie.solve(scene, economy=())
         x = np.linspace(*saving.edges, 1003)[1:-1]
         one, other = answers(saving, x), answers(bare, x)
-        filled = {key for key in vars(saving) if key in {s.stage for s in sie.plan(scene, "check").steps}}
+        filled = {
+            key for key in vars(saving) if key in {s.stage for s in sie.plan(scene, "check").steps}
+        }
         yield checked(
             difference,
             (one, other),
@@ -154,13 +190,31 @@ def compute(quick: bool) -> Iterator[Record]:
         without.append(1e3 * seconds[1])
         rows.append((name, *(f"{'run' if s.run else 'skip'}: {s.reason}" for s in plan.steps)))
         header = ["scene", *(s.name for s in plan.steps)]
-        stages.append((name, 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], difference((one, other))))
+        stages.append(
+            (
+                name,
+                1e3 * seconds[0],
+                1e3 * seconds[1],
+                seconds[1] / seconds[0],
+                difference((one, other)),
+            )
+        )
     yield Table("Scenes and stages", header, rows)
-    yield Table("What the skips save", ("scene", "time [ms]", "without skips [ms]", "saving, times", "largest difference / peak"), stages)
+    yield Table(
+        "What the skips save",
+        ("scene", "time [ms]", "without skips [ms]", "saving, times", "largest difference / peak"),
+        stages,
+    )
     yield from one_by_one(quick)
     yield from stress_of(SCENES["partial slip"])
-    yield saved("the skips together: smallest saving over the scenes, times", zip(with_skips, without, strict=True), SAVED)
-    yield Curve("economy", "with the skips", with_skips, list(range(len(names))), "points", {"names": names})
+    yield saved(
+        "the skips together: smallest saving over the scenes, times",
+        zip(with_skips, without, strict=True),
+        SAVED,
+    )
+    yield Curve(
+        "economy", "with the skips", with_skips, list(range(len(names))), "points", {"names": names}
+    )
     yield Curve("economy", "without", without, list(range(len(names))), "points")
 
 
@@ -174,4 +228,8 @@ def figures(found: Found) -> Iterator[Figure]:
     ax.invert_yaxis()
     labelled(ax, "solve, 1001 pressures and shears [ms]", "", log="x")
     legend_above(ax, 2)
-    yield Figure("economy", drawing, "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.")
+    yield Figure(
+        "economy",
+        drawing,
+        "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.",
+    )

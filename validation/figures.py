@@ -60,7 +60,9 @@ def drawn(figure: Figure) -> Drawn:
     return Drawn(figure.name, svg(figure), figure.caption)
 
 
-def axes(rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: float = FOOT) -> tuple[Any, Any]:
+def axes(
+    rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: float = FOOT
+) -> tuple[Any, Any]:
     """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array); head and foot for each panel."""
     import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
     from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
@@ -68,7 +70,9 @@ def axes(rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: flo
     with matplotlib.rc_context(STYLE):
         drawing = Drawing(figsize=(WIDTH, height * rows))
         whole = height * rows
-        drawing.subplots_adjust(top=1 - head / whole, bottom=foot / whole, hspace=(head + foot) / (height - head - foot))
+        drawing.subplots_adjust(
+            top=1 - head / whole, bottom=foot / whole, hspace=(head + foot) / (height - head - foot)
+        )
         return drawing, drawing.subplots(rows)
 
 
@@ -101,7 +105,11 @@ def _decades(ax: Any, name: str, axis: Any) -> None:
 
     (ax.set_xscale if name == "x" else ax.set_yscale)("log")
     low, high = axis.get_view_interval()
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,), numticks=7 if name == "x" else 9))
+    axis.set_major_locator(
+        LogLocator(
+            subs=(1.0, 2.0, 5.0) if high < 300.0 * low else (1.0,), numticks=7 if name == "x" else 9
+        )
+    )
     axis.set_major_formatter(FuncFormatter(tick))
     axis.set_minor_locator(NullLocator())
 
@@ -115,7 +123,9 @@ def tick(value: float, _: int = 0) -> str:
     return power if digits == "1" else f"{digits}·{power}"
 
 
-def draw(ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None) -> None:
+def draw(
+    ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None
+) -> None:
     """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for zero)."""
     for k, curve in enumerate(curves):
         y = np.array(curve.y, dtype=float)
@@ -135,15 +145,33 @@ def legend(ax: Any, **options: Any) -> None:
 
 def legend_above(ax: Any, columns: int) -> None:
     """Of many curves: outside, where it hides none; as many lines as it has belong to the `head` of the axes."""
-    ax.legend(fontsize=8, frameon=False, handlelength=1.6, ncols=columns, loc="lower center", bbox_to_anchor=(0.4, 1.0))
+    ax.legend(
+        fontsize=8,
+        frameon=False,
+        handlelength=1.6,
+        ncols=columns,
+        loc="lower center",
+        bbox_to_anchor=(0.4, 1.0),
+    )
 
 
 def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) -> None:
     """A map of decimal logarithms."""
     values = np.log10(np.maximum(np.array(found.values, dtype=float), 10.0**low))
-    mesh = ax.pcolormesh(found.x, found.y, values, cmap="viridis", vmin=low, vmax=high, shading="nearest", rasterized=False)
+    mesh = ax.pcolormesh(
+        found.x,
+        found.y,
+        values,
+        cmap="viridis",
+        vmin=low,
+        vmax=high,
+        shading="nearest",
+        rasterized=False,
+    )
     bar = ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
-    bar.solids.set(rasterized=False, edgecolor="face")  # else Matplotlib puts a bitmap into the page
+    bar.solids.set(
+        rasterized=False, edgecolor="face"
+    )  # else Matplotlib puts a bitmap into the page
 
 
 def svg(figure: Figure) -> str:
@@ -155,10 +183,17 @@ def svg(figure: Figure) -> str:
     with matplotlib.rc_context(STYLE):
         _margins(figure.drawing)
         canvas = FigureCanvasSVG(figure.drawing)  # `savefig` would draw it twice again
-        canvas.print_svg(text, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+        canvas.print_svg(
+            text, metadata={"Date": None, "Creator": None, "Format": None, "Type": None}
+        )
     element = text.getvalue()
     element = element[element.index("<svg") :]
     element = re.sub(r"<metadata>.*?</metadata>", "", element, flags=re.DOTALL)
     element = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{figure.name}-", element)
     element = re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", element, count=1)
-    return re.sub(r'(<svg[^>]*?) height="[^"]*"', lambda m: f'{m[1]} role="img" aria-label="{escape(figure.caption)}"', element, count=1)
+    return re.sub(
+        r'(<svg[^>]*?) height="[^"]*"',
+        lambda m: f'{m[1]} role="img" aria-label="{escape(figure.caption)}"',
+        element,
+        count=1,
+    )

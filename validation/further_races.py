@@ -41,13 +41,19 @@ def _points(make: Runner, sizes: Sequence[int], error: Callable[[Any], float]) -
 def interior(quick: bool) -> Iterator[Record]:
     """The potential F of the rounded punch at a depth of 0.01 b: closed in each panel, or by quadrature, or by the paper's series."""
     yield Doing("interior")
-    density = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)).pressure
+    density = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
+    ).pressure
     z = np.linspace(-1.2, 1.2, 1001) + 1j * DEPTH
-    truth = np.array([complex(rounded_flat.potential(mp.mpc(v), **FORM, lib=mp)) for v in z[::40].tolist()])
+    truth = np.array(
+        [complex(rounded_flat.potential(mp.mpc(v), **FORM, lib=mp)) for v in z[::40].tolist()]
+    )
 
     def quadrature(n: int) -> Callable[[], Any]:
         theta = np.arange(1, n + 1) * np.pi / (n + 1)
-        return lambda: (1 / (z[:, None] - np.cos(theta))) @ (density(np.cos(theta)) * np.sin(theta) / (n + 1))
+        return lambda: (
+            (1 / (z[:, None] - np.cos(theta))) @ (density(np.cos(theta)) * np.sin(theta) / (n + 1))
+        )
 
     def series(n: int) -> Callable[[], Any]:
         def run() -> Any:
@@ -60,10 +66,17 @@ def interior(quick: bool) -> Iterator[Record]:
     def error(values: Any) -> float:
         return float(np.abs(values[::40] - truth).max() / np.abs(truth).max())
 
-    name, says = "race: interior, depth 0.01 b", "Potential F(z) of the rounded punch at 1001 points, a/b = 0.5"
+    name, says = (
+        "race: interior, depth 0.01 b",
+        "Potential F(z) of the rounded punch at 1001 points, a/b = 0.5",
+    )
     nodes = NODES[: 4 if quick else 5]
-    yield curve(name, "this package", _points(lambda n: lambda: density.cauchy(z), (0,), error), says=says)
-    yield curve(name, "Gauss quadrature of the potential", _points(quadrature, nodes, error), says=says)
+    yield curve(
+        name, "this package", _points(lambda n: lambda: density.cauchy(z), (0,), error), says=says
+    )
+    yield curve(
+        name, "Gauss quadrature of the potential", _points(quadrature, nodes, error), says=says
+    )
     yield curve(name, "the series (22), (23)", _points(series, nodes[:4], error), says=says)
     yield checked(
         error, density.cauchy(z), quadrature(64)(), what="potential at a depth of 0.01 b: error over its largest value",
@@ -75,12 +88,22 @@ def partial_slip(quick: bool) -> Iterator[Record]:
     """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P: the zones are found and two pressures taken, by each method."""
     yield Doing("partial slip")
     P, f, Q = 0.3, 0.5, 0.09
-    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=P, friction=f, tangential_load=Q)
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=P, friction=f, tangential_load=Q
+    )
     solution = sie.solve(scene)
     b, c = solution.half_width, solution.stick[0][1]
     samples = b * np.array([-0.97, -0.8, -0.51, -0.2, 0.05, 0.33, 0.62, 0.9, 0.99])
     x = np.concatenate((samples, np.linspace(-b, b, 994)[1:-1]))
-    given = {"half_flat": 0.5, "radius": 1.0, "modulus": 1.0, "normal_load": P, "friction": f, "tangential_load": Q, "lib": mp}
+    given = {
+        "half_flat": 0.5,
+        "radius": 1.0,
+        "modulus": 1.0,
+        "normal_load": P,
+        "friction": f,
+        "tangential_load": Q,
+        "lib": mp,
+    }
     truth = np.array([float(cattaneo_rounded.shear(mp.mpf(v), **given)) for v in samples.tolist()])
     slope = scene.profile.slope
 
@@ -99,9 +122,17 @@ def partial_slip(quick: bool) -> Iterator[Record]:
     def package(n: int) -> Callable[[], Any]:
         return lambda: sie.solve(scene).shear(x)
 
-    name, says = "race: partial slip", "Shear of the rounded punch, a = 1/2, R = 1, Q = 0.6 f P, at 1001 points"
+    name, says = (
+        "race: partial slip",
+        "Shear of the rounded punch, a = 1/2, R = 1, Q = 0.6 f P, at 1001 points",
+    )
     yield curve(name, "this package", _points(package, (0,), error), says=says)
-    yield curve(name, "Gauss-Chebyshev, one series", _points(series, NODES[:3] if quick else (*NODES, 8192), error), says=says)
+    yield curve(
+        name,
+        "Gauss-Chebyshev, one series",
+        _points(series, NODES[:3] if quick else (*NODES, 8192), error),
+        says=says,
+    )
     yield checked(
         error, package(0)(), series(32)(), what="partial slip: error of the shear over its peak", by="README: to machine precision",
         named="two Chebyshev series of 32 terms", high=PROMISE,
@@ -119,12 +150,20 @@ def sampled(quick: bool) -> Iterator[Record]:
         t = 3.2 * ((np.arange(n) + 0.5) / n - 0.5)
         return t, np.cosh(t) - 1.0
 
-    exact = sie.solve(sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-20.0, 20.0), parity="even"), modulus=1.0, normal_load=load))
+    exact = sie.solve(
+        sie.Scene(
+            profile=sie.FromFunction(np.sinh, domain=(-20.0, 20.0), parity="even"),
+            modulus=1.0,
+            normal_load=load,
+        )
+    )
     x, truth = x * exact.half_width, exact.pressure(x * exact.half_width)
 
     def package(n: int) -> Callable[[], Any]:
         t, h = profile(n)
-        return lambda: sie.solve(sie.Scene(profile=sie.Sampled(t, h), modulus=1.0, normal_load=load)).pressure(x)
+        return lambda: sie.solve(
+            sie.Scene(profile=sie.Sampled(t, h), modulus=1.0, normal_load=load)
+        ).pressure(x)
 
     def elements(n: int) -> Callable[[], Any]:
         t, h = profile(n)

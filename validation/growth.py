@@ -46,7 +46,9 @@ def of_pieces(n: int) -> Callable[[], Any]:
 
 
 def of_points(n: int) -> Callable[[], Any]:
-    pressure = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)).pressure
+    pressure = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
+    ).pressure
     x = np.linspace(-1.0, 1.0, n)
     return lambda: pressure(x)
 
@@ -59,14 +61,24 @@ def of_unknowns(n: int) -> Callable[[], Any]:
 def of_patches(n: int) -> Callable[[], Any]:
     """n like flats in a row, each under 1/n, 8 unknowns a patch."""
     lo = np.arange(n, dtype=float)
-    equation = sie.CauchyEquation(tuple((float(a), float(a) + 0.5) for a in lo), g=0.0, b=-1.0, ends="singular", total=(1.0 / n,) * n)
+    equation = sie.CauchyEquation(
+        tuple((float(a), float(a) + 0.5) for a in lo),
+        g=0.0,
+        b=-1.0,
+        ends="singular",
+        total=(1.0 / n,) * n,
+    )
     return lambda: equation.solve(n=8)
 
 
 def of_steps(n: int) -> Callable[[], Any]:
     """Stick zones after each of n steps of a cycle of the rounded flat."""
-    scene = sie.Scene(profile=sie.RoundedFlat(0.7, 1.0), modulus=2.0, normal_load=0.375, friction=0.5)
-    path = sie.Path([(0.375, 0.15 * float(np.sin(t))) for t in np.linspace(0.0, 2.0 * np.pi, n + 1)[1:]])
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(0.7, 1.0), modulus=2.0, normal_load=0.375, friction=0.5
+    )
+    path = sie.Path(
+        [(0.375, 0.15 * float(np.sin(t))) for t in np.linspace(0.0, 2.0 * np.pi, n + 1)[1:]]
+    )
     return lambda: [solution.stick for solution in sie.follow(scene, path)]
 
 
@@ -115,8 +127,12 @@ def compute(quick: bool) -> Iterator[Record]:
     for name in ("pieces", "points", "unknowns", "steps"):
         what = MEASURED[name][1]
         by, wrong = "this project: close to linear", MEASURED["pairs"][1]
-        yield Claim(f"{what}: exponent of time", by, times[name], times["pairs"], wrong, high=LINEAR)
-        yield Claim(f"{what}: exponent of memory", by, memory[name], memory["pairs"], wrong, high=LINEAR)
+        yield Claim(
+            f"{what}: exponent of time", by, times[name], times["pairs"], wrong, high=LINEAR
+        )
+        yield Claim(
+            f"{what}: exponent of memory", by, memory[name], memory["pairs"], wrong, high=LINEAR
+        )
 
 
 def figures(found: Found) -> Iterator[Figure]:
@@ -125,4 +141,8 @@ def figures(found: Found) -> Iterator[Figure]:
         draw(ax, found.curves(name))
         labelled(ax, "n", label, log="xy")
         legend_above(ax, 1)
-        yield Figure("growth-" + name, drawing, f"{label.split(' [')[0].capitalize()} against size; a slope of one is linear growth.")
+        yield Figure(
+            "growth-" + name,
+            drawing,
+            f"{label.split(' [')[0].capitalize()} against size; a slope of one is linear growth.",
+        )

@@ -24,7 +24,8 @@ import mpmath
 import numpy as np
 
 import sie
-from sie.polish import MAX_POLISHING
+from sie.contact.edge_refinement import MAX_POLISHING
+from sie.numerics.interval import Interval
 
 from .measures import largest
 from .records import Claim, Doing, Record, Table
@@ -36,7 +37,9 @@ TIMED = False
 mp = mpmath.mp.clone()
 mp.dps = 100
 Number = Any
-Rows = tuple[tuple[Number, tuple[Number, ...]], ...]  # of each piece its origin and coefficients, low order first
+Rows = tuple[
+    tuple[Number, tuple[Number, ...]], ...
+]  # of each piece its origin and coefficients, low order first
 
 PROMISE = 1e-12  # of the half-width and of the peak pressure
 SPOILED = 1e-10  # an answer off by so much must be seen
@@ -87,7 +90,9 @@ class Exact:
         for lo, hi, c in self.parts():
             powers = _powers(lo, hi, len(c) + 3)
             for k, weight in enumerate(weights):
-                totals[k] += sum(a * b * powers[i + j] for i, a in enumerate(c) for j, b in enumerate(weight))
+                totals[k] += sum(
+                    a * b * powers[i + j] for i, a in enumerate(c) for j, b in enumerate(weight)
+                )
         return totals
 
     def stiffness(self) -> Number:
@@ -207,7 +212,13 @@ def mirrored(rng: np.random.Generator) -> Shape:
     pieces = [[-row[0], row[1]] for row in rows[:0:-1]] + rows
     ends = [-b for b in breaks[::-1]] + breaks
     exact = tuple((mp.zero, tuple(map(mp.mpf, row))) for row in pieces)
-    return Shape(sie.Piecewise(ends, pieces), tuple(map(mp.mpf, ends)), exact, frozenset(jumping), symmetric=True)
+    return Shape(
+        sie.Piecewise(ends, pieces),
+        tuple(map(mp.mpf, ends)),
+        exact,
+        frozenset(jumping),
+        symmetric=True,
+    )
 
 
 def _through(b: float, value: float, c: Sequence[float]) -> list[float]:
@@ -225,7 +236,10 @@ KINDS: dict[str, Callable[[np.random.Generator], Shape]] = {
     "symmetric pieces": mirrored,
 }
 GIVEN = ("load, tilt", "load, moment", "half-width, tilt")
-ASKED = (*((kind, given) for kind in KINDS for given in GIVEN if kind != "symmetric pieces"), ("symmetric pieces", "load, tilt"))
+ASKED = (
+    *((kind, given) for kind in KINDS for given in GIVEN if kind != "symmetric pieces"),
+    ("symmetric pieces", "load, tilt"),
+)
 
 
 @dataclass(frozen=True)
@@ -246,7 +260,11 @@ def trial(rng: np.random.Generator, shape: Shape, given: str) -> Trial | None:
     tilt = 0.0 if shape.symmetric else float(-bare.integral((1,))[0] / mp.pi)
     if bare.integral((0, 1))[0] <= 0.0:
         return None
-    x1 = mp.mpf(left) if shape.symmetric else _left_edge(shape, mp.mpf(left), mp.mpf(at), mp.mpf(tilt))
+    x1 = (
+        mp.mpf(left)
+        if shape.symmetric
+        else _left_edge(shape, mp.mpf(left), mp.mpf(at), mp.mpf(tilt))
+    )
     touched = shape.contact(x1, mp.mpf(at), mp.mpf(tilt))
     modulus = float(10.0 ** rng.uniform(-2, 2))
     G = mp.mpf(modulus) / 2
@@ -266,7 +284,11 @@ def trial(rng: np.random.Generator, shape: Shape, given: str) -> Trial | None:
 
 def _left_edge(shape: Shape, x1: Number, x2: Number, tilt: Number) -> Number:
     """x1 with ∫H dφ = 0, next to the given one: the tilt was rounded."""
-    return mp.findroot(lambda x: shape.contact(x, x2, tilt).integral((1,))[0], (x1, x1 + (x2 - x1) * mp.mpf(10) ** -15), tol=LEFT**2)
+    return mp.findroot(
+        lambda x: shape.contact(x, x2, tilt).integral((1,))[0],
+        (x1, x1 + (x2 - x1) * mp.mpf(10) ** -15),
+        tol=LEFT**2,
+    )
 
 
 def _presses(contact: Exact) -> bool:
@@ -294,16 +316,23 @@ def _gap(contact: Exact, x: np.ndarray) -> np.ndarray:
     k = np.searchsorted([float(b) for b in contact.breaks], x)
     scale = float(contact.integral((0, 1))[0]) / np.pi
     rows = [[float(c) for c in row] for _, row in contact.rows]
-    H = np.array([np.polynomial.polynomial.polyval(v - float(contact.rows[j][0]), rows[j]) for v, j in zip(x, k, strict=True)])
+    H = np.array(
+        [
+            np.polynomial.polynomial.polyval(v - float(contact.rows[j][0]), rows[j])
+            for v, j in zip(x, k, strict=True)
+        ]
+    )
     rises = np.append(0.0, H + R / np.pi * total)
     steps = np.diff(x, prepend=m + np.sign(x[0] - m) * r)
-    return np.cumsum(0.5 * (rises[1:] + rises[:-1]) * steps) - CLOSED * scale * r * (np.abs(x - m) > 1.5 * r)
+    return np.cumsum(0.5 * (rises[1:] + rises[:-1]) * steps) - CLOSED * scale * r * (
+        np.abs(x - m) > 1.5 * r
+    )
 
 
 # -- the truth, next to the answer ----------------------------------------------------------------------------------------
 
 
-def truth(trial: Trial, found: sie.interval.Interval) -> tuple[Exact, Number]:
+def truth(trial: Trial, found: Interval) -> tuple[Exact, Number]:
     """The contact in 100 digits, with its tilt, and G r I1 over the load."""
     scene, shape = trial.scene, trial.shape
     G = mp.mpf(scene.Estar) / 2
@@ -320,7 +349,11 @@ def truth(trial: Trial, found: sie.interval.Interval) -> tuple[Exact, Number]:
             return shape.contact(x2 - 2 * mp.mpf(scene.half_width), x2, tilt), tilt
         x2 = right(v[0])
         x1 = -x2 if shape.symmetric else v[1]
-        tilt = mp.mpf(scene.tilt) if scene.moment is None else -shape.contact(x1, x2).integral((1,))[0] / mp.pi
+        tilt = (
+            mp.mpf(scene.tilt)
+            if scene.moment is None
+            else -shape.contact(x1, x2).integral((1,))[0] / mp.pi
+        )
         return shape.contact(x1, x2, tilt), tilt
 
     def conditions(v: Sequence[Number]) -> list[Number]:
@@ -331,7 +364,11 @@ def truth(trial: Trial, found: sie.interval.Interval) -> tuple[Exact, Number]:
         P = mp.mpf(scene.normal_load)
         if shape.symmetric:
             return [G * c.r * I1 / P - 1]
-        second = I0 / I1 if scene.moment is None else (c.m * P - G * c.r**2 * C2 - mp.mpf(scene.moment)) / (P * c.r)
+        second = (
+            I0 / I1
+            if scene.moment is None
+            else (c.m * P - G * c.r**2 * C2 - mp.mpf(scene.moment)) / (P * c.r)
+        )
         return [G * c.r * I1 / P - 1, second]
 
     y = mp.mpf(found.x2) - at + mp.mpf(found.tail2)
@@ -373,7 +410,8 @@ def outcome(trial: Trial, spoiled: float = 0.0) -> Outcome:
     exact, tilt = truth(trial, found)
     r = exact.r
     off = max(
-        abs(mp.mpf(x) + mp.mpf(tail) - true) for x, tail, true in ((found.x1, found.tail1, exact.x1), (found.x2, found.tail2, exact.x2))
+        abs(mp.mpf(x) + mp.mpf(tail) - true)
+        for x, tail, true in ((found.x1, found.tail1, exact.x1), (found.x2, found.tail2, exact.x2))
     )
     x = [float(exact.m + r * mp.mpf(s)) for s in PLACES]
     x += [float(b + side * d * r) for b in exact.breaks for d in BESIDE for side in (-1, 1)]
@@ -382,11 +420,21 @@ def outcome(trial: Trial, spoiled: float = 0.0) -> Outcome:
     # What ulps of what was given change is no error: under a load more by dP the pressure is more by
     # dP/(π w), an edge moves by dP/(G r JR); a slope as large as the tilt carries π G r times itself
     w = np.array([float(mp.sqrt((v - exact.x1) * (exact.x2 - v))) for v in map(mp.mpf, x)])
-    given = solution.normal_load + abs(trial.scene.moment or 0.0) / float(r) + np.pi * float(r * abs(tilt)) * 0.5 * trial.scene.Estar
+    given = (
+        solution.normal_load
+        + abs(trial.scene.moment or 0.0) / float(r)
+        + np.pi * float(r * abs(tilt)) * 0.5 * trial.scene.Estar
+    )
     ulp = ULPS * EPS * given / (np.pi * w)
-    off_x = max(float(off - ULPS * EPS * given / (0.5 * trial.scene.Estar * exact.stiffness())), 0.0)
+    off_x = max(
+        float(off - ULPS * EPS * given / (0.5 * trial.scene.Estar * exact.stiffness())), 0.0
+    )
     off_p = np.maximum(np.abs(solution.pressure(np.array(x)) * (1.0 + spoiled) - true) - ulp, 0.0)
-    return Outcome(off_x / float(r) + spoiled, float(off_p.max() / true.max()), solution.normal.edges.evaluations)
+    return Outcome(
+        off_x / float(r) + spoiled,
+        float(off_p.max() / true.max()),
+        solution.normal.edges.evaluations,
+    )
 
 
 def drawn(seed: int, kind: str, given: str) -> Trial:
@@ -415,19 +463,53 @@ def measured(number: int) -> Iterator[Record]:
         found = [(asked, outcome(asked)) for asked in trials]
         every += found
         answers = [o for _, o in found if not o.refused]
-        worst = (largest(o.edges for o in answers), largest(o.pressure for o in answers)) if answers else ("", "")
-        rows.append((kind, given, len(found), len(found) - len(answers), *worst, max((o.evaluations for o in answers), default=0)))
+        worst = (
+            (largest(o.edges for o in answers), largest(o.pressure for o in answers))
+            if answers
+            else ("", "")
+        )
+        rows.append(
+            (
+                kind,
+                given,
+                len(found),
+                len(found) - len(answers),
+                *worst,
+                max((o.evaluations for o in answers), default=0),
+            )
+        )
     spoiled = outcome(every[0][0], SPOILED)
     by = "this project: no edge on a kink is refused or wrong"
-    yield Claim("contacts refused", by, sum(bool(o.refused) for _, o in every), len(every), "every one refused", high=0)
+    yield Claim(
+        "contacts refused",
+        by,
+        sum(bool(o.refused) for _, o in every),
+        len(every),
+        "every one refused",
+        high=0,
+    )
     for what in ("edges", "pressure"):
-        name = {"edges": "half-width", "pressure": "peak"}[what] + ", beyond what ulps of what is given explain"
+        name = {"edges": "half-width", "pressure": "peak"}[
+            what
+        ] + ", beyond what ulps of what is given explain"
         worst_of_all = largest(getattr(o, what) for _, o in every if not o.refused)
         yield Claim(
-            f"largest error of the {what} / {name}", by, worst_of_all, getattr(spoiled, what), f"answers off by {SPOILED:.0e}", high=PROMISE
+            f"largest error of the {what} / {name}",
+            by,
+            worst_of_all,
+            getattr(spoiled, what),
+            f"answers off by {SPOILED:.0e}",
+            high=PROMISE,
         )
     most = largest(o.evaluations for _, o in every)
-    yield Claim("most evaluations of the edge integrals", "this project: cost", most, MAX_POLISHING, "the bound of the method", high=MOST)
+    yield Claim(
+        "most evaluations of the edge integrals",
+        "this project: cost",
+        most,
+        MAX_POLISHING,
+        "the bound of the method",
+        high=MOST,
+    )
     yield Table(
         "Random contacts whose right edge is within 1e-15 to 1e-4 of a break's load",
         ("slope", "given", "contacts", "refused", "edges / r", "p / peak", "most evaluations"),

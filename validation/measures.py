@@ -25,7 +25,9 @@ def smallest(numbers: Iterable[float]) -> float:
     return float(np.min(np.array([*numbers], dtype=float)))
 
 
-def apart(found: Sequence[float] | np.ndarray[Any, Any], true: Sequence[Any], factor: float = 1.0) -> float:
+def apart(
+    found: Sequence[float] | np.ndarray[Any, Any], true: Sequence[Any], factor: float = 1.0
+) -> float:
     """The largest difference over the largest true value; `factor` spoils the answer, for a control."""
     values = [mp.mpmathify(complex(v) if np.iscomplexobj(v) else float(v)) for v in np.ravel(found)]
     exact = [mp.mpmathify(t) for t in true]

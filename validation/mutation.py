@@ -17,7 +17,8 @@ import numpy as np
 
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
-from sie import normal, panels, sliding
+from sie.contact import normal
+from sie.traction import panels, sliding_panels
 
 from . import peers
 from .figures import Figure, axes, labelled, legend_above
@@ -46,7 +47,9 @@ class Mutant:
 # -- formulas with a term wrong ---------------------------------------------------------------------------------------
 
 
-def stand_in(name: str, says: str, scene: sie.Scene, values: Callable[[], Any], **claims: Any) -> Mutant:
+def stand_in(
+    name: str, says: str, scene: sie.Scene, values: Callable[[], Any], **claims: Any
+) -> Mutant:
     """Another pressure behind the certificate's back."""
 
     def number(wrong: bool) -> float:
@@ -65,7 +68,9 @@ def _scaled(factor: float) -> Callable[[], Any]:
 def _half_panel() -> Any:
     """Half of the right rim is left out of the integral."""
     slope = PUNCH.profile.slope
-    return lambda x: peers.gauss_chebyshev(lambda t: np.where(t > 0.75, 0.0, slope(t)), -1.0, 1.0, 400, np.clip(x, -1.0, 1.0))
+    return lambda x: peers.gauss_chebyshev(
+        lambda t: np.where(t > 0.75, 0.0, slope(t)), -1.0, 1.0, 400, np.clip(x, -1.0, 1.0)
+    )
 
 
 def _transposed() -> Any:
@@ -121,7 +126,9 @@ def replaced(
     return Mutant(name, says, "certificate" if truth is None else "closed form", number)
 
 
-def _times(target: Any, name: str, change: Callable[[Any], Any]) -> Callable[[], AbstractContextManager[Any]]:
+def _times(
+    target: Any, name: str, change: Callable[[Any], Any]
+) -> Callable[[], AbstractContextManager[Any]]:
     """`target.name` returns something else."""
     right = getattr(target, name)
     return lambda: patch.object(target, name, lambda *args, **given: change(right(*args, **given)))
@@ -139,8 +146,17 @@ def _property(name: str, change: Callable[[Any], Any]) -> Callable[[], AbstractC
 
 HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
 GIVEN_LOAD = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.3)
-SLIDING = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, half_width=1.0)
-SLIDING_RIM = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, half_width=1.0)
+SLIDING = sie.Scene(
+    profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, half_width=1.0
+)
+SLIDING_RIM = sie.Scene(
+    profile=sie.RoundedFlat(0.5, 1.0),
+    modulus=1.0,
+    dundurs=0.15,
+    friction=2.0,
+    sliding=1,
+    half_width=1.0,
+)
 FLAT = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, tilt=0.125)
 
 
@@ -149,7 +165,12 @@ def _sliding_hertz(x: Any) -> Any:
 
 
 def _hertz(x: Any) -> Any:
-    return hertz.pressure(x, radius=1.0, modulus=1.0, half_width=float(hertz.half_width(normal_load=0.3, radius=1.0, modulus=1.0)))
+    return hertz.pressure(
+        x,
+        radius=1.0,
+        modulus=1.0,
+        half_width=float(hertz.half_width(normal_load=0.3, radius=1.0, modulus=1.0)),
+    )
 
 
 def _rounded(x: Any) -> Any:
@@ -162,7 +183,9 @@ def _off_by(share: float) -> Callable[[Any], Any]:
 
 
 def _second_coefficient_off(density: Any) -> Any:
-    return replace(density, series=density.series * (1 + 1e-10 * (np.arange(len(density.series)) == 1)))
+    return replace(
+        density, series=density.series * (1 + 1e-10 * (np.arange(len(density.series)) == 1))
+    )
 
 
 REPLACED = (
@@ -173,14 +196,19 @@ REPLACED = (
     replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
-    replaced("frictional panels off by 1e-11", "V of the sliding contact", _times(sliding.SlidingPanels, "on_contact", _off_by(1e-11)),
-             SLIDING_RIM),
+    replaced("frictional panels off by 1e-11", "V of the sliding contact",
+             _times(sliding_panels.SlidingPanels, "on_contact", _off_by(1e-11)), SLIDING_RIM),
 )  # fmt: skip
 
 
 def _shear(name: str, says: str, right: dict[str, float], wrong: dict[str, float]) -> Mutant:
     """The shear of another load in place of the right one, judged by the certificate of the shear."""
-    common: dict[str, Any] = {"profile": sie.RoundedFlat(0.5, 1.0), "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
+    common: dict[str, Any] = {
+        "profile": sie.RoundedFlat(0.5, 1.0),
+        "modulus": 1.0,
+        "normal_load": 0.3,
+        "friction": 0.5,
+    }
 
     def number(is_wrong: bool) -> float:
         solution = sie.solve(sie.Scene(**common, **right))
@@ -208,14 +236,34 @@ def compute(quick: bool) -> Iterator[Record]:
     for mutant in MUTANTS:
         yield Doing(mutant.name)
         right, wrong = mutant.number(False), mutant.number(True)
-        rows.append((mutant.name, mutant.says, mutant.checker, wrong, right, "caught" if wrong > BAR >= right else "NOT caught"))
+        rows.append(
+            (
+                mutant.name,
+                mutant.says,
+                mutant.checker,
+                wrong,
+                right,
+                "caught" if wrong > BAR >= right else "NOT caught",
+            )
+        )
         yield Claim(
             f"{mutant.name}: what the {mutant.checker} measures", "this project: each must be caught", wrong, right,
             "the right program, which must not be caught", low=float(np.nextafter(BAR, 1.0)),
         )  # fmt: skip
-    yield Table("Wrong programs", ("name", "what is wrong", "caught by", "measured", "of the right program", "verdict"), rows)
+    yield Table(
+        "Wrong programs",
+        ("name", "what is wrong", "caught by", "measured", "of the right program", "verdict"),
+        rows,
+    )
     index = list(range(len(rows)))
-    yield Curve("mutants", "wrong program", index, [r[3] for r in rows], "points", {"names": [r[0] for r in rows]})
+    yield Curve(
+        "mutants",
+        "wrong program",
+        index,
+        [r[3] for r in rows],
+        "points",
+        {"names": [r[0] for r in rows]},
+    )
     yield Curve("mutants", "right program", index, [r[4] for r in rows], "points")
 
 
@@ -223,11 +271,22 @@ def figures(found: Found) -> Iterator[Figure]:
     wrong, right = found.curves("mutants")
     drawing, ax = axes(height=0.2 * len(wrong.x) + 1.2, head=0.4)
     for curve, marker, colour in ((wrong, "x", "tab:red"), (right, "o", "tab:green")):
-        ax.plot(np.clip(np.array(curve.y, dtype=float), 1e-17, 1e3), curve.x, marker, color=colour, mfc="none", label=curve.label)
+        ax.plot(
+            np.clip(np.array(curve.y, dtype=float), 1e-17, 1e3),
+            curve.x,
+            marker,
+            color=colour,
+            mfc="none",
+            label=curve.label,
+        )
     ax.set_yticks(wrong.x, wrong.about["names"])
     ax.set_ylim(len(wrong.x) - 0.3, -0.7)
     ax.axvline(BAR, color="black", linewidth=0.8)
     labelled(ax, "what the checker measures", "", log="x")
     ax.set_xticks([1e-15, 1e-10, 1e-5, 1.0])
     legend_above(ax, 2)
-    yield Figure("mutants", drawing, "Each wrong program beside the right one, by the same checker; the line is the bar, 1e-13.")
+    yield Figure(
+        "mutants",
+        drawing,
+        "Each wrong program beside the right one, by the same checker; the line is the bar, 1e-13.",
+    )

@@ -15,9 +15,22 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 import sie
-from analytic import bonded_flat, cattaneo, cattaneo_rounded, hertz, interior, rounded_flat, sliding_rounded_flat
-from sie import field, history, ladder, sampled, sliding, slip, summation
-from sie.potential import Plane
+from analytic import (
+    bonded_flat,
+    cattaneo,
+    cattaneo_rounded,
+    hertz,
+    interior,
+    rounded_flat,
+    sliding_rounded_flat,
+)
+from sie import history
+from sie.friction import memory, partial_slip
+from sie.numerics import cauchy_sums
+from sie.profiles import sampled
+from sie.stress import half_plane
+from sie.traction import sliding_panels
+from sie.traction.potential import Plane
 
 Part = Callable[[], AbstractContextManager[Any]]
 
@@ -80,7 +93,12 @@ def _unloading() -> Any:
 
 
 def _true_unloading() -> Any:
-    loads = {"normal_load": P, "friction": F, "largest_load": 0.8 * F * P, "tangential_load": 0.2 * F * P}
+    loads = {
+        "normal_load": P,
+        "friction": F,
+        "largest_load": 0.8 * F * P,
+        "tangential_load": 0.2 * F * P,
+    }
     return cattaneo.unloading_shear(B * PLACES, half_width=B, **loads)
 
 
@@ -100,19 +118,36 @@ def _once(corners: Any) -> Any:
 
 
 def _bulk() -> Any:
-    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=P, friction=F, tangential_load=Q, bulk_stress=0.02)
+    scene = sie.Scene(
+        profile=sie.Parabola(1.0),
+        modulus=1.0,
+        normal_load=P,
+        friction=F,
+        tangential_load=Q,
+        bulk_stress=0.02,
+    )
     return sie.solve(scene).shear(B * PLACES)
 
 
 def _true_bulk() -> Any:
-    return cattaneo.bulk_shear(B * PLACES, half_width=B, normal_load=P, friction=F, tangential_load=Q, bulk_stress=0.02)
+    return cattaneo.bulk_shear(
+        B * PLACES, half_width=B, normal_load=P, friction=F, tangential_load=Q, bulk_stress=0.02
+    )
 
 
 # -- dissimilar bodies -----------------------------------------------------------------------------------------------------
 
-FRICTIONAL = sie.Scene(profile=RIM, modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, normal_load=P)
+FRICTIONAL = sie.Scene(
+    profile=RIM, modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, normal_load=P
+)
 BONDED = sie.Scene(
-    profile=sie.Flat(1.0), modulus=1.0, dundurs=0.3, friction=float("inf"), normal_load=1.0, tangential_load=-0.4, moment=0.0
+    profile=sie.Flat(1.0),
+    modulus=1.0,
+    dundurs=0.3,
+    friction=float("inf"),
+    normal_load=1.0,
+    tangential_load=-0.4,
+    moment=0.0,
 )
 
 
@@ -143,7 +178,9 @@ def _natural(x: Any, h: Any) -> Any:
 
 def _trace() -> Any:
     x = np.linspace(-1.2, 1.3, 26)
-    return sie.solve(sie.Scene(profile=sie.Sampled(x, 0.5 * x * x), modulus=1.0, half_width=1.0)).pressure(PLACES)
+    return sie.solve(
+        sie.Scene(profile=sie.Sampled(x, 0.5 * x * x), modulus=1.0, half_width=1.0)
+    ).pressure(PLACES)
 
 
 def _cut_parabola() -> Any:
@@ -187,29 +224,48 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "sign of the slip zones",
         "slip against the load",
-        partial(number, _instead(slip, "_one_way", lambda f, s, g: f(s, -g)), _shear, _true_shear),
+        partial(
+            number,
+            _instead(partial_slip, "_one_way", lambda f, s, g: f(s, -g)),
+            _shear,
+            _true_shear,
+        ),
     ),
     (
         "reduced load P - Q",
         "friction forgotten in P - Q/f",
-        partial(number, _instead(slip, "remaining", lambda _, f, P, Q: P - abs(Q)), _shear, _true_shear),
+        partial(
+            number,
+            _instead(partial_slip, "remaining", lambda _, f, P, Q: P - abs(Q)),
+            _shear,
+            _true_shear,
+        ),
     ),
     (
         "reduced load off by 1e-10",
         "P - Q/f off in the tenth digit",
-        partial(number, _instead(slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)), _shear, _true_shear),
+        partial(
+            number,
+            _instead(partial_slip, "remaining", lambda right, *a: right(*a) * (1 + 1e-10)),
+            _shear,
+            _true_shear,
+        ),
     ),
     (
         "Masing's factor",
         "1 in place of 2 after a turn of the load",
-        partial(number, _property(ladder.Ladder, "corners", _once), _unloading, _true_unloading),
+        partial(number, _property(memory.Ladder, "corners", _once), _unloading, _true_unloading),
     ),
     (
         "energy of a branch",
         "a cycle counts one branch",
         partial(
             number,
-            _instead(history.History, "_step_energies", lambda right, self, k: [W / (2 if j else 1) for j, W in zip(k, right(self, k))]),
+            _instead(
+                history.History,
+                "_step_energies",
+                lambda right, self, k: [W / (2 if j else 1) for j, W in zip(k, right(self, k))],
+            ),
             _cycle,
             _true_cycle,
         ),
@@ -222,33 +278,61 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "edge rule of similar bodies",
         "Gauss-Chebyshev weights next to frictional edges",
-        partial(number, _instead(sliding, "edge_rule", lambda right, n, power: right(n, -0.5)), _sliding, _true_sliding),
+        partial(
+            number,
+            _instead(sliding_panels, "edge_rule", lambda right, n, power: right(n, -0.5)),
+            _sliding,
+            _true_sliding,
+        ),
     ),
     (
         "sign of β f in sliding",
         "friction pulls the other way",
         partial(number, _property(sie.Scene, "slides", lambda s: -s), _sliding, _true_sliding),
     ),
-    ("sign of β when bonded", "the bodies exchanged", partial(number, _property(sie.Scene, "beta", lambda b: -b), _stuck, _true_stuck)),
+    (
+        "sign of β when bonded",
+        "the bodies exchanged",
+        partial(number, _property(sie.Scene, "beta", lambda b: -b), _stuck, _true_stuck),
+    ),
     (
         "natural spline",
         "h'' = 0 at the ends of a trace",
-        partial(number, _instead(sampled, "interpolating_spline", lambda _, x, h: _natural(x, h)), _trace, _true_parabola),
+        partial(
+            number,
+            _instead(sampled, "interpolating_spline", lambda _, x, h: _natural(x, h)),
+            _trace,
+            _true_parabola,
+        ),
     ),
     (
         "half the far-field terms",
         "moments of far pieces cut off",
-        partial(number, _instead(summation, "_series", _fewer_terms), _cut_parabola, _true_cut),
+        partial(number, _instead(cauchy_sums, "_series", _fewer_terms), _cut_parabola, _true_cut),
     ),
     (
         "far field off by 1e-9",
         "sums over far pieces",
-        partial(number, _instead(summation, "_series", lambda right, *a: right(*a) * (1 + 1e-9)), _cut_parabola, _true_cut),
+        partial(
+            number,
+            _instead(cauchy_sums, "_series", lambda right, *a: right(*a) * (1 + 1e-9)),
+            _cut_parabola,
+            _true_cut,
+        ),
     ),
-    ("dropped Φ'", "stress inside without y Φ'", partial(number, _instead(field, "potentials", _no_derivative), _stress, _true_stress)),
+    (
+        "dropped Φ'",
+        "stress inside without y Φ'",
+        partial(number, _instead(half_plane, "potentials", _no_derivative), _stress, _true_stress),
+    ),
     (
         "sign of far stress",
         "the outer series with the other sign",
-        partial(number, _instead(Plane, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))), _stress, _true_stress),
+        partial(
+            number,
+            _instead(Plane, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))),
+            _stress,
+            _true_stress,
+        ),
     ),
 )

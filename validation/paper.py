@@ -27,7 +27,10 @@ __all__ = ["SECONDS", "TIMED", "TITLE", "compute", "figures"]
 
 NU = charts.POISSON
 BAR = 1e-13
-SAME, PLACE = 1e-10, 1e-6  # of limits, and of their places, where a gradient vanishes: known to half the digits
+SAME, PLACE = (
+    1e-10,
+    1e-6,
+)  # of limits, and of their places, where a gradient vanishes: known to half the digits
 FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
 PRINTED_CROSSING = 0.55
 CROSSING = 0.540206764905  # where the strength is Hertz's again, as this project says
@@ -73,7 +76,9 @@ def figure_2() -> Iterator[Record]:
 
     def centre(rim: float) -> float:
         """b p(0)/P - 1/π, a = 1."""
-        solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, half_width=1.0 + rim))
+        solution = sie.solve(
+            sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, half_width=1.0 + rim)
+        )
         return abs(float(solution.pressure(0.0)) * (1.0 + rim) / solution.normal_load - 1 / np.pi)
 
     yield Claim("§ 3.1: b p(0)/P tends to 1/π as a/b → 1; distance at 1 - a/b = 1e-9", "paper, § 3.1", centre(1e-9), centre(0.25),
@@ -84,7 +89,15 @@ def stick_of(ratio: float, share: float) -> float:
     """c/b from Q/(fP) = share, by the partial-slip solver."""
     P = charts.punch(ratio).normal_load
     profile = sie.RoundedFlat(ratio, 1.0) if ratio else sie.Parabola(1.0)
-    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=P, friction=0.5, tangential_load=0.5 * P * share))
+    solution = sie.solve(
+        sie.Scene(
+            profile=profile,
+            modulus=1.0,
+            normal_load=P,
+            friction=0.5,
+            tangential_load=0.5 * P * share,
+        )
+    )
     return solution.stick[0][1] / solution.half_width
 
 
@@ -100,7 +113,9 @@ def equation_20(ratio: float, c: Any) -> Any:
 
 
 def figure_3() -> Iterator[Record]:
-    shares = 1.0 - (1.0 - np.linspace(0.005, 0.995, 33)) ** 2  # closer to sliding, where the curves are steep
+    shares = (
+        1.0 - (1.0 - np.linspace(0.005, 0.995, 33)) ** 2
+    )  # closer to sliding, where the curves are steep
     worst = spoiled = 0.0
     for ratio in (0.0, 0.2, 0.4, 0.6, 0.8, 0.9):
         c = np.array([stick_of(ratio, float(share)) for share in shares])
@@ -108,7 +123,9 @@ def figure_3() -> Iterator[Record]:
         marks = ratio + (1 - ratio) * np.linspace(0.05, 0.95, 8)
         yield Curve("figure 3 points", f"{ratio:g}", marks, equation_20(ratio, marks), "points")
         worst = largest((worst, float(np.abs(equation_20(ratio, c) - shares).max())))
-        spoiled = largest((spoiled, float(np.abs(equation_20(ratio, c * (1 - 1e-11)) - shares).max())))
+        spoiled = largest(
+            (spoiled, float(np.abs(equation_20(ratio, c * (1 - 1e-11)) - shares).max()))
+        )
     yield Claim("Fig. 3: (20) at the solver's stick zones against the Q/(fP) they were given, largest difference", "both packages", worst,
                 spoiled, "zones off by 1e-11", high=2e-13)  # fmt: skip
     least = smallest(stick_of(ratio, 1 - 1e-12) / ratio for ratio in (0.2, 0.5, 0.8))
@@ -120,7 +137,13 @@ def figure_3() -> Iterator[Record]:
         end, near = load(2.0), load(1.0 + 1e-6)
         return float((near - load(1.0)) / 1e-6 / (end - load(1.0)))
 
-    smooth = steepness(lambda c: float(rounded_flat.load(half_flat=1.0, half_width=max(c, 1.0 + 1e-15), radius=1.0, modulus=1.0)))
+    smooth = steepness(
+        lambda c: float(
+            rounded_flat.load(
+                half_flat=1.0, half_width=max(c, 1.0 + 1e-15), radius=1.0, modulus=1.0
+            )
+        )
+    )
     yield Claim("§ 3.2: the passage to sliding is smooth in value and slope: slope there over the mean slope", "paper, § 3.2", smooth,
                 steepness(lambda c: c), "a load linear in c, as a wedge's", high=0.02)  # fmt: skip
 
@@ -152,11 +175,20 @@ def closed_weakest(ratio: float, f: float) -> Weakest:
     inside = root_j2(ratio, f, x, y)
     i, j = np.unravel_index(int(inside.argmax()), inside.shape)
     exact = {"xatol": 1e-9, "fatol": 1e-15}
-    below = minimize(lambda v: -float(root_j2(ratio, f, v[0], abs(v[1]))), [x[j], y[i, 0]], method="Nelder-Mead", options=exact)
+    below = minimize(
+        lambda v: -float(root_j2(ratio, f, v[0], abs(v[1]))),
+        [x[j], y[i, 0]],
+        method="Nelder-Mead",
+        options=exact,
+    )
     s = np.linspace(-1.0, 1.0, 2001)[1:-1]
     surface = root_j2(ratio, f, s, 0.0)
     k = int(surface.argmax())
-    around = {"bounds": (s[max(k - 1, 0)], s[min(k + 1, len(s) - 1)]), "method": "bounded", "options": {"xatol": 1e-9}}
+    around = {
+        "bounds": (s[max(k - 1, 0)], s[min(k + 1, len(s) - 1)]),
+        "method": "bounded",
+        "options": {"xatol": 1e-9},
+    }
     top = minimize_scalar(lambda v: -float(root_j2(ratio, f, v, 0.0)), **around)
     if below.fun <= top.fun:
         return Weakest(-1.0 / float(below.fun), float(below.x[0]), abs(float(below.x[1])))
@@ -181,9 +213,13 @@ def figure_4(quick: bool) -> Iterator[Record]:
         found = charts.yield_parameter(ratio, f, x, y[:, None])
         exact = root_j2(ratio, f, x[::10], y[::10, None])
         worst = largest((worst, float(np.abs(found[::10, ::10] - exact).max() / exact.max())))
-        spoiled = largest((spoiled, float(np.abs(found[::10, ::10] * (1 + 1e-11) - exact).max() / exact.max())))
+        spoiled = largest(
+            (spoiled, float(np.abs(found[::10, ::10] * (1 + 1e-11) - exact).max() / exact.max()))
+        )
         place = charts.punch(ratio, f).elastic_limit().places[-1]
-        yield Map("figure 4", x, y, found, {"title": f"a/b = {ratio:g}, f = {f:g}", "weakest": place})
+        yield Map(
+            "figure 4", x, y, found, {"title": f"a/b = {ratio:g}, f = {f:g}", "weakest": place}
+        )
     yield Claim("Fig. 4: √J2 of the general solver against the closed form, largest difference / largest value", "both packages", worst,
                 spoiled, "stresses off by 1e-11", high=BAR)  # fmt: skip
 
@@ -200,7 +236,14 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
     yield Curve("figure 5", "depth, closed form", marks, [w.y for w in closed], "points")
     for k, ratio in enumerate(chart.ratios):
         about = {"colour": "black"} if ratio else {"colour": "tab:blue"}
-        yield Curve("figure 6", f"{ratio:g}", chart.frictions, chart.limit[k], "dashed" if ratio == 0.0 else "line", about)
+        yield Curve(
+            "figure 6",
+            f"{ratio:g}",
+            chart.frictions,
+            chart.limit[k],
+            "dashed" if ratio == 0.0 else "line",
+            about,
+        )
         below = chart.y[k] > 0.0
         yield Curve("figure 7", f"{ratio:g}", chart.x[k][below], chart.y[k][below])
     pairs = [(r, f) for r in ((0.6,) if quick else (0.0, 0.1, 0.3, 0.6, 0.9)) for f in (0.1, 0.4)]
@@ -208,14 +251,22 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
     exact = [w.limit for w in closed]
     yield Curve("figure 6 points", "closed form", [f for _, f in pairs], list(exact), "points")
     below_surface = [w for w in closed if w.y > PLACE]
-    yield Curve("figure 7 points", "closed form", [w.x for w in below_surface], [w.y for w in below_surface], "points")
+    yield Curve(
+        "figure 7 points",
+        "closed form",
+        [w.x for w in below_surface],
+        [w.y for w in below_surface],
+        "points",
+    )
     yield checked(
         lambda found: largest(np.hypot(a.x - b.x, a.y - b.y) for a, b in zip(found, closed, strict=True)),
         [weakest(*pair) for pair in pairs], [w._replace(x=w.x + 1e-5) for w in closed],
         what="Fig. 7: where the material yields first, general solver against closed form, largest distance / b", by="both packages",
         named="places off by 1e-5", high=PLACE,
     )  # fmt: skip
-    on_surface = [float(interior.hertz_limit_on_surface(friction=f, poisson=NU)) for f in (0.3, 0.4, 0.5)]
+    on_surface = [
+        float(interior.hertz_limit_on_surface(friction=f, poisson=NU)) for f in (0.3, 0.4, 0.5)
+    ]
     yield Curve("figure 6 points", "Hertz on its surface", (0.3, 0.4, 0.5), on_surface, "points")
     pairs += [(0.0, f) for f in (0.3, 0.4, 0.5)]
     exact += on_surface
@@ -250,7 +301,9 @@ def closed_tension(ratio: float, c: Any) -> Any:
     def at(c: float) -> float:
         taken = 0.0
         if c > ratio:
-            taken = complex(rounded_flat.potential(1.0, half_flat=ratio, half_width=c, radius=1.0, modulus=1.0)).real
+            taken = complex(
+                rounded_flat.potential(1.0, half_flat=ratio, half_width=c, radius=1.0, modulus=1.0)
+            ).real
         return 2 * ((1 - ratio) / 2 - taken) * np.pi / P
 
     return np.array([at(float(v)) for v in np.atleast_1d(c)])
@@ -267,13 +320,23 @@ def statements() -> Iterator[Claim]:
                 erratum=f"it is {crossing:.6f}")  # fmt: skip
     yield Claim("the strength is Hertz's again at a/b", "this project", crossing, PRINTED_CROSSING, "the paper's 0.55", low=CROSSING - 1e-9,
                 high=CROSSING + 1e-9)  # fmt: skip
-    strongest = minimize_scalar(lambda r: -limit(r), bounds=(0.1, 0.4), method="bounded", options={"xatol": 1e-6})
+    strongest = minimize_scalar(
+        lambda r: -limit(r), bounds=(0.1, 0.4), method="bounded", options={"xatol": 1e-6}
+    )
     yield Claim(f"§ 5.1: the strength first increases: its largest gain over Hertz, at a/b = {strongest.x:.4f}", "paper, § 5.1",
                 -strongest.fun / hertz - 1, limit(0.6) / hertz - 1, "a/b = 0.6", low=0.05)  # fmt: skip
     yield Claim("§ 5.1: almost halved at a/b = 0.9: strength over Hertz's", "paper, § 5.1", limit(0.9) / hertz, limit(0.8) / hertz,
                 "a/b = 0.8", low=0.5, high=0.55)  # fmt: skip
     halved = float(brentq(lambda r: limit(r) / hertz - 0.5, 0.8, 0.97, xtol=1e-9))
-    yield Claim("strength halved at a/b", "this project: 0.91", halved, crossing, "where it is Hertz's", low=0.905, high=0.915)
+    yield Claim(
+        "strength halved at a/b",
+        "this project: 0.91",
+        halved,
+        crossing,
+        "where it is Hertz's",
+        low=0.905,
+        high=0.915,
+    )
     tension = closed_tension(0.0, 0.0)[0]
     yield Claim("§ 5.2: the tension at a/b = 0.8 is only double Hertz's: ratio", "paper, § 5.2",
                 float(charts.surface_tension(0.8, [0.0])[0] / tension), float(charts.surface_tension(0.9, [0.0])[0] / tension), "a/b = 0.9",
@@ -292,7 +355,11 @@ def _jump() -> Claim:
         low, high = 0.1, 0.6
         while high - low > 1e-4:
             middle = 0.5 * (low + high)
-            low, high = (low, middle) if charts.punch(ratio, middle).elastic_limit().on_surface else (middle, high)
+            low, high = (
+                (low, middle)
+                if charts.punch(ratio, middle).elastic_limit().on_surface
+                else (middle, high)
+            )
         return high
 
     return Claim("§ 5.1, Fig. 7: Hertz's weakest point jumps to the surface at about f = 0.3", "paper, § 5.1", surfaces(0.0), surfaces(0.8),

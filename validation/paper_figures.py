@@ -11,20 +11,54 @@ from .records import Found
 
 
 def figures(found: Found) -> Iterator[Figure]:
-    yield _lines(found, "figure 2", "x/b", "b p/P", "Fig. 2. Pressure for a/b = 0, 0.1, …, 0.9 (outermost peaks: largest a/b).", top=1.45)
-    yield _lines(found, "figure 3", "Q/(fP)", "c/b", "Fig. 3. Stick zone c/b against Q/(fP), for the a/b on the curves.", swap=True)
+    yield _lines(
+        found,
+        "figure 2",
+        "x/b",
+        "b p/P",
+        "Fig. 2. Pressure for a/b = 0, 0.1, …, 0.9 (outermost peaks: largest a/b).",
+        top=1.45,
+    )
+    yield _lines(
+        found,
+        "figure 3",
+        "Q/(fP)",
+        "c/b",
+        "Fig. 3. Stick zone c/b against Q/(fP), for the a/b on the curves.",
+        swap=True,
+    )
     yield _contours(found)
     yield _limits(found)
     yield _lines(
-        found, "figure 6", "f", "P/(bk)", "Fig. 6. Elastic limit in sliding, a/b on the right; dashed: Hertz. ν = 0.3.", names="right"
+        found,
+        "figure 6",
+        "f",
+        "P/(bk)",
+        "Fig. 6. Elastic limit in sliding, a/b on the right; dashed: Hertz. ν = 0.3.",
+        names="right",
     )
     yield _places(found)
     yield _lines(
-        found, "figure 8", "c/b", "π b σ_xx/(f P)", "Fig. 8. Largest surface tension against the stick zone, a/b on the left.", names="left"
+        found,
+        "figure 8",
+        "c/b",
+        "π b σ_xx/(f P)",
+        "Fig. 8. Largest surface tension against the stick zone, a/b on the left.",
+        names="left",
     )
 
 
-def _lines(found: Found, key: str, x: str, y: str, caption: str, *, swap: bool = False, names: str = "middle", top: float = 0.0) -> Figure:
+def _lines(
+    found: Found,
+    key: str,
+    x: str,
+    y: str,
+    caption: str,
+    *,
+    swap: bool = False,
+    names: str = "middle",
+    top: float = 0.0,
+) -> Figure:
     drawing, ax = axes()
     for curve in found.curves(key):
         u, v = (curve.y, curve.x) if swap else (curve.x, curve.y)
@@ -32,13 +66,23 @@ def _lines(found: Found, key: str, x: str, y: str, caption: str, *, swap: bool =
         ax.plot(u, v, "--" if dashed else "-", color="black", linewidth=1.1 if dashed else 0.8)
         k = {"right": -1, "left": 0, "middle": len(u) // 2}[names]
         if key != "figure 2":
-            ax.annotate(curve.label, (u[k], v[k]), fontsize=7, va="center", ha="left", xytext=(2, 0), textcoords="offset points")
+            ax.annotate(
+                curve.label,
+                (u[k], v[k]),
+                fontsize=7,
+                va="center",
+                ha="left",
+                xytext=(2, 0),
+                textcoords="offset points",
+            )
     for curve in found.curves(key + " points"):
         u, v = (curve.y, curve.x) if swap else (curve.x, curve.y)
         ax.plot(u, v, ".", color="tab:red", markersize=3.5)
     labelled(ax, x, y)
     ax.set_ylim(0.0, top or None)
-    return Figure(key.replace(" ", "-"), drawing, caption + " Lines: general solver; red: closed form.")
+    return Figure(
+        key.replace(" ", "-"), drawing, caption + " Lines: general solver; red: closed form."
+    )
 
 
 def _contours(found: Found) -> Figure:
@@ -51,7 +95,9 @@ def _contours(found: Found) -> Figure:
         labelled(ax, "x/b", "y/b", f"{chart.about['title']}: largest {np.max(chart.values):.3f}")
         ax.set(aspect="equal", ylim=(2.0, -0.05))
     return Figure(
-        "figure-4", drawing, "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the weakest point."
+        "figure-4",
+        drawing,
+        "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the weakest point.",
     )
 
 
@@ -69,10 +115,19 @@ def _limits(found: Found) -> Figure:
     other.set(ylabel="depth y/b", ylim=(0.0, 1.0))
     other.spines[["top"]].set_visible(False)
     ax.legend(
-        *(a + b for a, b in zip(ax.get_legend_handles_labels(), other.get_legend_handles_labels(), strict=True)), fontsize=8, frameon=False
+        *(
+            a + b
+            for a, b in zip(
+                ax.get_legend_handles_labels(), other.get_legend_handles_labels(), strict=True
+            )
+        ),
+        fontsize=8,
+        frameon=False,
     )
     return Figure(
-        "figure-5", drawing, "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; dotted: Hertz. ν = 0.3."
+        "figure-5",
+        drawing,
+        "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; dotted: Hertz. ν = 0.3.",
     )
 
 
@@ -81,7 +136,16 @@ def _places(found: Found) -> Figure:
     for curve in found.curves("figure 7"):
         ax.plot(curve.x, curve.y, "+-", markersize=4, linewidth=0.5, label=curve.label)
     for curve in found.curves("figure 7 points"):
-        ax.plot(curve.x, curve.y, "o", color="tab:red", markersize=6, mfc="none", zorder=4, label=curve.label)
+        ax.plot(
+            curve.x,
+            curve.y,
+            "o",
+            color="tab:red",
+            markersize=6,
+            mfc="none",
+            zorder=4,
+            label=curve.label,
+        )
     labelled(ax, "x/b", "y/b")
     ax.set_ylim(0.9, 0.0)
     legend(ax, title="a/b", ncols=3, loc="upper left")

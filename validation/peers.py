@@ -19,7 +19,9 @@ MOST_ITERATIONS = 2000
 CONVERGED = 1e-14
 
 
-def gauss_chebyshev(slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0) -> Array:
+def gauss_chebyshev(
+    slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0
+) -> Array:
     """One series for the whole contact: H = Σ c_k T_k from n samples by one transform, p = E*/2 sqrt(1 - s²) Σ c_k U_{k-1}."""
     theta = (np.arange(n) + 0.5) * np.pi / n
     c = dct(slope(0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(theta)), type=2) / n
@@ -30,7 +32,9 @@ def gauss_chebyshev(slope: Slope, lo: float, hi: float, n: int, x: Array, *, mod
     return 0.5 * modulus * np.sqrt((1.0 - s) * (1.0 + s)) * old
 
 
-def erdogan_gupta(slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0) -> Array:
+def erdogan_gupta(
+    slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0
+) -> Array:
     """The quadrature of Erdogan & Gupta (1972), both ends bounded: n nodes, n + 1 collocation points, the middle one left out (n even).
 
     Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i),   t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2)),  by elimination;
@@ -53,12 +57,16 @@ def erdogan_gupta_matrix(n: int) -> tuple[Array, Array, Array]:
     return np.sin(j) ** 2 / (n + 1) / (at[:, None] - t), t, at
 
 
-def boundary_elements(gap: Array, spacing: float, load: float, *, periodic: bool = False, modulus: float = 1.0) -> Array:
+def boundary_elements(
+    gap: Array, spacing: float, load: float, *, periodic: bool = False, modulus: float = 1.0
+) -> Array:
     """Constant pressures on equal elements under a load, by conjugate gradients with FFT products (Polonsky & Keer 1999).
 
     `gap` at the elements' centres. The surface sinks by -2/(πE*) ∫ p ln|x - t| dt, or, periodic, by 2/(E* |k|) for each wave number k.
     """
-    convolved = _periodic(len(gap), spacing, modulus) if periodic else _free(len(gap), spacing, modulus)
+    convolved = (
+        _periodic(len(gap), spacing, modulus) if periodic else _free(len(gap), spacing, modulus)
+    )
     p = np.full(len(gap), load / (len(gap) * spacing))
     direction, before, keep = np.zeros_like(p), 1.0, 0.0
     for _ in range(MOST_ITERATIONS):
@@ -123,10 +131,16 @@ def contact_mechanics(gap: Array, spacing: float, load: float) -> Array:
 
     n = len(gap)
     system = NonSmoothContactSystem(
-        PeriodicFFTElasticHalfSpace((n,), 1.0, (n * spacing,)), UniformLineScan(-gap, n * spacing, periodic=True)
+        PeriodicFFTElasticHalfSpace((n,), 1.0, (n * spacing,)),
+        UniformLineScan(-gap, n * spacing, periodic=True),
     )
-    found = system.minimize_proxy(external_force=load, pentol=1e-12 * float(np.ptp(gap)), maxiter=MOST_ITERATIONS)
+    found = system.minimize_proxy(
+        external_force=load, pentol=1e-12 * float(np.ptp(gap)), maxiter=MOST_ITERATIONS
+    )
     return np.abs(np.asarray(found.jac).ravel()) / spacing
 
 
-INSTALLABLE = {"Tamaas": ("tamaas", tamaas), "ContactMechanics": ("ContactMechanics", contact_mechanics)}
+INSTALLABLE = {
+    "Tamaas": ("tamaas", tamaas),
+    "ContactMechanics": ("ContactMechanics", contact_mechanics),
+}

@@ -25,7 +25,13 @@ PROMISE = 1e-13
 EPS = float(np.finfo(float).eps)
 SPOILED = 1e-12  # relative change that every checker must see
 TABLE = "Each case, E* = 1"
-HEADER = ("case (E* = 1)", "error of p / peak", "error of load or width", "certificate", "evaluations")
+HEADER = (
+    "case (E* = 1)",
+    "error of p / peak",
+    "error of load or width",
+    "certificate",
+    "evaluations",
+)
 
 
 @dataclass(frozen=True)
@@ -53,7 +59,9 @@ def compute(quick: bool) -> Iterator[Record]:
     )  # fmt: skip
     index = list(range(1, len(rows) + 1))
     yield Curve("certificate", "true error, 40 digits", index, [r.error for r in rows], "points")
-    yield Curve("certificate", "the certificate's estimate", index, [r.estimated for r in rows], "points")
+    yield Curve(
+        "certificate", "the certificate's estimate", index, [r.estimated for r in rows], "points"
+    )
 
 
 def claims(rows: list[Row]) -> Iterator[Claim]:
@@ -87,9 +95,14 @@ def row(case: Case) -> Row:
     x = points(case)
     reference = np.array([float(truth.pressure(v)) for v in x])
 
-    astray = max(abs(float(found - true)) for found, true in zip(solution.edges, (truth.x1, truth.x2), strict=True))
+    astray = max(
+        abs(float(found - true))
+        for found, true in zip(solution.edges, (truth.x1, truth.x2), strict=True)
+    )
     peak, step = np.abs(reference).max(), astray + np.spacing(max(map(abs, solution.edges)))
-    explained = np.max([np.abs(solution.pressure(x + d) - solution.pressure(x)) for d in (-step, step)], axis=0)
+    explained = np.max(
+        [np.abs(solution.pressure(x + d) - solution.pressure(x)) for d in (-step, step)], axis=0
+    )
 
     def errors(factor: float) -> np.ndarray:
         return np.abs(factor * solution.pressure(x) - reference)
@@ -101,7 +114,9 @@ def row(case: Case) -> Row:
         return float((errors(factor) - explained).max().clip(0.0) / peak)
 
     def load(factor: float) -> float:
-        found, true = (solution.normal_load, truth.P) if case.load is None else (solution.half_width, truth.r)
+        found, true = (
+            (solution.normal_load, truth.P) if case.load is None else (solution.half_width, truth.r)
+        )
         return abs(float(factor * found / true - 1))
 
     return Row(

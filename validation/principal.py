@@ -27,7 +27,9 @@ def integral(mp: Any, f: Callable[[Number], Number], lo: Number, hi: Number) -> 
     return mp.quad(f, mp.linspace(lo, hi, 5), method="gauss-legendre", maxdegree=8)
 
 
-def principal_value(mp: Any, f: Callable[[Number], Number], pole: Number, lo: Number, hi: Number) -> Number:
+def principal_value(
+    mp: Any, f: Callable[[Number], Number], pole: Number, lo: Number, hi: Number
+) -> Number:
     """PV∫_lo^hi f(θ) dθ for f with a simple pole at `pole`, inside or outside; graded towards it."""
     if not lo < pole < hi:
         near = lo if pole <= lo else hi
@@ -37,10 +39,18 @@ def principal_value(mp: Any, f: Callable[[Number], Number], pole: Number, lo: Nu
     folded = integral(mp, lambda s: f(pole + s) + f(pole - s), mp.zero, reach)
     if pole - lo > reach:
         return folded + _graded(mp, f, (lo, pole - reach), pole - reach, reach)
-    return folded + (_graded(mp, f, (pole + reach, hi), pole + reach, reach) if hi - pole > reach else mp.zero)
+    return folded + (
+        _graded(mp, f, (pole + reach, hi), pole + reach, reach) if hi - pole > reach else mp.zero
+    )
 
 
-def _graded(mp: Any, f: Callable[[Number], Number], ends: tuple[Number, Number], near: Number, distance: Number) -> Number:
+def _graded(
+    mp: Any,
+    f: Callable[[Number], Number],
+    ends: tuple[Number, Number],
+    near: Number,
+    distance: Number,
+) -> Number:
     """Panels that double in length away from the end `near`, a `distance` from the pole."""
     lo, hi = ends
     total, start, length = mp.zero, mp.zero, distance

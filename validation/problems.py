@@ -35,9 +35,13 @@ class Problem:
     scene: sie.Scene
     truth: Callable[[float], Any]
     slope: Callable[[Array], Array]
-    gap: Callable[[Array], Array] | None = None  # for boundary elements, with `closed` at many points
+    gap: Callable[[Array], Array] | None = (
+        None  # for boundary elements, with `closed` at many points
+    )
     closed: Callable[[Array], Array] | None = None
-    series: bool = True  # whether Gauss-Chebyshev and Erdogan-Gupta apply: not where the exponents leave 1/2
+    series: bool = (
+        True  # whether Gauss-Chebyshev and Erdogan-Gupta apply: not where the exponents leave 1/2
+    )
     epsilon: float = 0.0
     period: float = 0.0
     places: tuple[float, ...] = field(default=())  # further samples, in s
@@ -75,7 +79,12 @@ def kinked(ratio: float) -> Problem:
     """The rounded punch, a/b = ratio, R = b = 1."""
     punch = {"half_flat": ratio, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
     profile = sie.RoundedFlat(ratio, 1.0)
-    near = (ratio, ratio + 0.1 * (1 - ratio), ratio + 0.6 * (1 - ratio), -ratio + 1e-3 * (1 - ratio))
+    near = (
+        ratio,
+        ratio + 0.1 * (1 - ratio),
+        ratio + 0.6 * (1 - ratio),
+        -ratio + 1e-3 * (1 - ratio),
+    )
     return Problem(
         f"kinked, a/b = {ratio:g}", "Flat punch with rounded edges, b = R", sie.Scene(profile=profile, modulus=1.0, half_width=1.0),
         truth=lambda x: rounded_flat.pressure(x, **punch, lib=mp), slope=profile.slope, gap=profile.height,
@@ -107,7 +116,14 @@ def _of_case(name: str, case: cases.Case, says: str) -> Problem:
 def sliding(coupling: float = 0.3) -> Problem:
     """A rounded flat that slides on a dissimilar body: βf = coupling, a = 1/2, R = 1, half-width 1."""
     profile = sie.RoundedFlat(0.5, 1.0)
-    scene = sie.Scene(profile=profile, modulus=1.0, dundurs=0.5 * coupling, friction=2.0, sliding=1, half_width=1.0)
+    scene = sie.Scene(
+        profile=profile,
+        modulus=1.0,
+        dundurs=0.5 * coupling,
+        friction=2.0,
+        sliding=1,
+        half_width=1.0,
+    )
     return Problem(
         f"sliding, βf = {coupling:g}", "Rounded flat on a dissimilar body, a = 1/2, r = R = 1", scene, Sliding(coupling).pressure,
         profile.slope, series=False, epsilon=-math.atan(coupling) / math.pi,
@@ -120,14 +136,22 @@ class Sliding:
     With w = (t - x1)^(1/2+ε) (x2 - t)^(1/2-ε); the centre from ∫ H/w dt = 0. (Muskhelishvili 1953, §§ 107-113.)
     """
 
-    def __init__(self, coupling: float, half_flat: float = 0.5, radius: float = 1.0, half_width: float = 1.0) -> None:
+    def __init__(
+        self, coupling: float, half_flat: float = 0.5, radius: float = 1.0, half_width: float = 1.0
+    ) -> None:
         self.epsilon = -mp.atan(mp.mpf(coupling)) / mp.pi
         self.a, self.R, self.r = mp.mpf(half_flat), mp.mpf(radius), mp.mpf(half_width)
         self._kept: dict[Any, tuple[Any, Any]] = {}
-        self.m = mp.findroot(self._condition, (mp.mpf(-0.1) * coupling, mp.mpf(0.1) * coupling), tol=1e-40)
+        self.m = mp.findroot(
+            self._condition, (mp.mpf(-0.1) * coupling, mp.mpf(0.1) * coupling), tol=1e-40
+        )
 
     def _pieces(self) -> tuple[Callable[[Any], Any], ...]:
-        return (lambda t: (t + self.a) / self.R), (lambda t: 0 * t), (lambda t: (t - self.a) / self.R)
+        return (
+            (lambda t: (t + self.a) / self.R),
+            (lambda t: 0 * t),
+            (lambda t: (t - self.a) / self.R),
+        )
 
     def _integral(self, f: Callable[[int, Any], Any], m: Any) -> Any:
         """∫ f(piece, t)/w dt in the variable u, s = tanh u, where the ends are exponentially far; s from the nearer end."""
@@ -138,7 +162,11 @@ class Sliding:
             lo, hi = (max(c, -REACH) if k == 0 else c for c in (cuts[k], min(cuts[k + 1], REACH)))
             steps = max(int(mp.ceil((hi - lo) / 2)), 2)
             nodes = mp.linspace(lo, hi, min(steps, 40) + 1)
-            total += mp.quad(lambda u, k=k: self._weighted(lambda s: f(k, m + self.r * s), u), nodes, method="gauss-legendre")
+            total += mp.quad(
+                lambda u, k=k: self._weighted(lambda s: f(k, m + self.r * s), u),
+                nodes,
+                method="gauss-legendre",
+            )
         return total
 
     def _weighted(self, f: Callable[[Any], Any], u: Any) -> Any:
@@ -198,6 +226,8 @@ def problems(quick: bool) -> Iterator[Problem]:
     for ratio in (0.9, 0.99, 0.999999):
         yield kinked(ratio)
     yield _wedge()
-    yield _of_case("asymmetric", named["corners-P=0.2"], "A flat with corners of radii 2 and 1/2, P = 0.2")
+    yield _of_case(
+        "asymmetric", named["corners-P=0.2"], "A flat with corners of radii 2 and 1/2, P = 0.2"
+    )
     yield sliding()
     yield wavy()

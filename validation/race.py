@@ -35,5 +35,10 @@ def closed_form() -> Any:
 
 def curve(figure: str, name: str, points: list[Point], **about: Any) -> Curve:
     n, errors, seconds, ratios = map(list, zip(*points, strict=True))
-    about |= {"colour": COLOURS[name], "strong": name == "this package", "sizes": n, "ratio to the closed form": ratios}
+    about |= {
+        "colour": COLOURS[name],
+        "strong": name == "this package",
+        "sizes": n,
+        "ratio to the closed form": ratios,
+    }
     return Curve(figure, name, [1e3 * s for s in seconds], errors, "both", about)

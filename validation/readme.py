@@ -15,7 +15,10 @@ from . import cases, pressure, speed
 
 ROOT = Path(__file__).parent.parent
 README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"
-BEGIN, END = "<!-- from validation/readme.json by `python -m validation --readme` -->\n", "<!-- end -->\n"
+BEGIN, END = (
+    "<!-- from validation/readme.json by `python -m validation --readme` -->\n",
+    "<!-- end -->\n",
+)
 FORMATS = ("{}", "{:.1e}", "{:.1e}", "{:.1e}", "{}", "{:.2f} ms", "{:.1f}")
 HEADER = (*pressure.HEADER, "solve + 1001 p", "ratio")
 SHOWN = cases.QUICK
@@ -24,7 +27,10 @@ TOPICS = ("pressure", "speed")  # that the table is made of
 
 def rows(report: Mapping[str, Any]) -> list[list[Any]]:
     """From the JSON of a report: the cases that the README shows, the first of each kind; errors and counts, then times."""
-    errors, times = (first_of_each_kind(report, *of) for of in zip(TOPICS, (pressure.TABLE, speed.TABLE), strict=True))
+    errors, times = (
+        first_of_each_kind(report, *of)
+        for of in zip(TOPICS, (pressure.TABLE, speed.TABLE), strict=True)
+    )
     return [[*errors[name], *times[name][1:]] for name in SHOWN]
 
 
@@ -32,7 +38,9 @@ def first_of_each_kind(report: Mapping[str, Any], name: str, title: str) -> dict
     """Rows of a topic's table, by the kind of case."""
     topic = report["topics"].get(name)
     if topic is None:
-        raise ValueError(f"the report has no topic `{name}`, of which the README's table is made: run it without --only, or with it")
+        raise ValueError(
+            f"the report has no topic `{name}`, of which the README's table is made: run it without --only, or with it"
+        )
     table = next(r for r in topic if r["kind"] == "table" and r["title"] == title)
     first: dict[str, list[Any]] = {}
     for row in table["rows"]:
@@ -44,7 +52,10 @@ def markdown(rows: list[list[Any]]) -> str:
     lines = [
         HEADER,
         ("---",) * len(HEADER),
-        *([f.format(v).replace("|", r"\|") for f, v in zip(FORMATS, row, strict=True)] for row in rows),
+        *(
+            [f.format(v).replace("|", r"\|") for f, v in zip(FORMATS, row, strict=True)]
+            for row in rows
+        ),
     ]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
@@ -58,5 +69,11 @@ def with_table(text: str, table: str) -> str:
 def files(report: Mapping[str, Any]) -> dict[Path, bytes]:
     """What is to be written: the README, and what its table is made of."""
     found = rows(report)
-    kept = json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False) + "\n"
-    return {KEPT: kept.encode(), README: with_table(README.read_text(encoding="utf-8"), markdown(found)).encode()}
+    kept = (
+        json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False)
+        + "\n"
+    )
+    return {
+        KEPT: kept.encode(),
+        README: with_table(README.read_text(encoding="utf-8"), markdown(found)).encode(),
+    }

@@ -61,7 +61,16 @@ class Claim:
         return f"{self.low:.6g} … {self.high:.6g}"
 
 
-def checked(measure: Callable[[Any], float], right: Any, wrong: Any, *, what: str, by: str, named: str, **bar: Any) -> Claim:
+def checked(
+    measure: Callable[[Any], float],
+    right: Any,
+    wrong: Any,
+    *,
+    what: str,
+    by: str,
+    named: str,
+    **bar: Any,
+) -> Claim:
     """A claim whose number and whose control are one function of a right and of a wrong input; `named` says what is wrong with it."""
     return Claim(what, by, float(measure(right)), float(measure(wrong)), named, **bar)
 
@@ -132,7 +141,11 @@ class Found(list[Record]):
 
     def keys(self, beginning: str = "") -> list[str]:
         """The names of the figures that there are curves for, in the order they came."""
-        return list(dict.fromkeys(r.figure for r in self if isinstance(r, Curve) and r.figure.startswith(beginning)))
+        return list(
+            dict.fromkeys(
+                r.figure for r in self if isinstance(r, Curve) and r.figure.startswith(beginning)
+            )
+        )
 
     def maps(self, figure: str) -> list[Map]:
         return [r for r in self if isinstance(r, Map) and r.figure == figure]
@@ -172,5 +185,14 @@ def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
                 found.append(record)
     except Exception as error:  # the other topics have their say all the same
         traceback.print_exc()
-        found.append(Claim(f"{BROKEN} {type(error).__name__}: {error}", "this page", 1, math.inf, "without end", high=0))
+        found.append(
+            Claim(
+                f"{BROKEN} {type(error).__name__}: {error}",
+                "this page",
+                1,
+                math.inf,
+                "without end",
+                high=0,
+            )
+        )
     return found

@@ -25,7 +25,9 @@ mp = mpmath.mp.clone()
 mp.dps = 40
 NODES = 32
 LONGEST = 0.6  # of a panel in φ, where only the slope's own analyticity counts
-KINK = mpmath.mpf(10) ** -14  # panels are halved down to this towards a break where the slope is not analytic from either side
+KINK = (
+    mpmath.mpf(10) ** -14
+)  # panels are halved down to this towards a break where the slope is not analytic from either side
 
 KNOT = mpmath.mpf(10) ** -38  # the same towards a pole that is a break itself
 
@@ -55,10 +57,16 @@ class Pieces:
 
     breaks: tuple[Number, ...]
     functions: tuple[Callable[[Number], Number], ...]
-    kinks: tuple[Number, ...] = ()  # breaks where a function itself is not analytic, like |x|^1.5 at 0
+    kinks: tuple[
+        Number, ...
+    ] = ()  # breaks where a function itself is not analytic, like |x|^1.5 at 0
 
     def tilted(self, tilt: float) -> "Pieces":
-        return Pieces(self.breaks, tuple((lambda t, f=f: f(t) + mp.mpf(tilt)) for f in self.functions), self.kinks)
+        return Pieces(
+            self.breaks,
+            tuple((lambda t, f=f: f(t) + mp.mpf(tilt)) for f in self.functions),
+            self.kinks,
+        )
 
     def __call__(self, x: Number) -> Number:
         return self.functions[self.index(x)](x)
@@ -107,7 +115,12 @@ class Contact:
         s = (x - self.m) / self.r
         return mp.asin(s) if mp.im(s) else mp.asin(min(max(s, -mp.one), mp.one))
 
-    def integral(self, f: Callable[[Number, Number, Number], Number], pole: Number | None = None, free: int = -1) -> Number:
+    def integral(
+        self,
+        f: Callable[[Number, Number, Number], Number],
+        pole: Number | None = None,
+        free: int = -1,
+    ) -> Number:
         """∫ f(t, w, H(t)) dφ over the contact."""
         return sum((weight * f(t, w, H) for t, w, H, weight in self.nodes(pole, free)), mp.zero)
 
@@ -119,7 +132,9 @@ class Contact:
         for k, (start, end) in enumerate(pairwise(self.pieces.breaks)):
             lo, hi = max(start, self.x1), min(end, self.x2)
             if lo < hi:
-                for a, b in _panels(self.angle(lo), self.angle(hi), () if k == free else poles, kinks):
+                for a, b in _panels(
+                    self.angle(lo), self.angle(hi), () if k == free else poles, kinks
+                ):
                     yield from self._nodes(k, a, b)
 
     @cached_property
@@ -154,15 +169,25 @@ class Contact:
         """F(z) = 1/π ∫ p(t)/(z - t) dt off the contact (real z beside it included)."""
         z = mp.mpmathify(z)
         nearest = min(max(mp.re(z), self.x1), self.x2)
-        e = self.pieces.index(nearest - self.r * mp.mpf("1e-30") if nearest == self.x2 else nearest + self.r * mp.mpf("1e-30"))
+        e = self.pieces.index(
+            nearest - self.r * mp.mpf("1e-30")
+            if nearest == self.x2
+            else nearest + self.r * mp.mpf("1e-30")
+        )
         H = self.pieces.functions[e](z)
-        if abs(z - nearest) > self.r:  # far away nothing is to be taken out, and a continued polynomial would grow
+        if (
+            abs(z - nearest) > self.r
+        ):  # far away nothing is to be taken out, and a continued polynomial would grow
             H, e = mp.zero, -1
         root = mp.sqrt(z - self.x1) * mp.sqrt(z - self.x2)
         if not self.sharp:
-            return self.G * H - self.G / mp.pi * root * self.integral(lambda t, w, Ht: (Ht - H) / (t - z), z, e)
+            return self.G * H - self.G / mp.pi * root * self.integral(
+                lambda t, w, Ht: (Ht - H) / (t - z), z, e
+            )
         integral = self.integral(lambda t, w, Ht: (Ht - H) * w * w / (t - z), z, e)
-        return self.G * H + (self.P - mp.pi * self.G * H * (z - self.m) + self.G * integral) / (mp.pi * root)
+        return self.G * H + (self.P - mp.pi * self.G * H * (z - self.m) + self.G * integral) / (
+            mp.pi * root
+        )
 
     def gap(self, x: float) -> Number:
         """∫ (H - F/G) from the nearer edge to x, in θ with x = edge ± 2 r sinh²(θ/2), where the root disappears."""
@@ -189,7 +214,9 @@ class Contact:
             if b - a > LONGEST:
                 stack += [(a, (a + b) / 2), ((a + b) / 2, b)]
             else:
-                total += (b - a) * sum(weight * at(a + (b - a) * node) for node, weight in zip(g, w, strict=True))
+                total += (b - a) * sum(
+                    weight * at(a + (b - a) * node) for node, weight in zip(g, w, strict=True)
+                )
         return total
 
 
@@ -200,14 +227,20 @@ def _horner(c: Sequence[Number], t: Number) -> Number:
     return total
 
 
-def _panels(lo: Number, hi: Number, poles: Sequence[Number], kinks: Sequence[Number]) -> list[tuple[Number, Number]]:
+def _panels(
+    lo: Number, hi: Number, poles: Sequence[Number], kinks: Sequence[Number]
+) -> list[tuple[Number, Number]]:
     done, stack = [], [(lo, hi)]
     while stack:
         a, b = stack.pop()
         length = b - a
         near = min((_distance(p, a, b) for p in poles), default=mp.inf)
         kink = min((_distance(p, a, b) for p in kinks), default=mp.inf)
-        if length > LONGEST or (length > 2 * near and length > KNOT) or (length > 2 * kink and length > KINK):
+        if (
+            length > LONGEST
+            or (length > 2 * near and length > KNOT)
+            or (length > 2 * kink and length > KINK)
+        ):
             stack += [(a, (a + b) / 2), ((a + b) / 2, b)]
         else:
             done.append((a, b))
@@ -220,7 +253,9 @@ def _distance(p: Number, a: Number, b: Number) -> Number:
 
 def sharp_contact(pieces: Pieces, modulus: float, load: float) -> Contact:
     """The whole of an indenter with two ends."""
-    return Contact(pieces, mp.mpf(modulus) / 2, pieces.breaks[0], pieces.breaks[-1], mp.mpf(load), sharp=True)
+    return Contact(
+        pieces, mp.mpf(modulus) / 2, pieces.breaks[0], pieces.breaks[-1], mp.mpf(load), sharp=True
+    )
 
 
 def contact(
@@ -263,12 +298,18 @@ def contact(
         return built(c.x1, c.x2, P)
     if symmetric:
         if r_given is None:
-            (r,) = _root(lambda v: [G * v[0] * moments(built(-v[0], v[0]))[1] / P - 1], [(x2 - x1) / 2])
+            (r,) = _root(
+                lambda v: [G * v[0] * moments(built(-v[0], v[0]))[1] / P - 1], [(x2 - x1) / 2]
+            )
         else:
             r = r_given
         c = built(-r, r)
     elif r_given is not None:
-        (m,) = _root(lambda v: [moments(built(v[0] - r_given, v[0] + r_given))[0]], [(x1 + x2) / 2], scale=r_given)
+        (m,) = _root(
+            lambda v: [moments(built(v[0] - r_given, v[0] + r_given))[0]],
+            [(x1 + x2) / 2],
+            scale=r_given,
+        )
         c = built(m - r_given, m + r_given)
     else:
         slope = max(abs(pieces(x1)), abs(pieces(x2)))
@@ -282,7 +323,9 @@ def contact(
     return built(c.x1, c.x2, G * c.r * moments(c)[1] if P is None else P)
 
 
-def _root(function: Callable[[Sequence[Number]], list[Number]], start: list[Number], scale: Number = 0) -> list[Number]:
+def _root(
+    function: Callable[[Sequence[Number]], list[Number]], start: list[Number], scale: Number = 0
+) -> list[Number]:
     """Newton with finite differences in 40 digits; the last step must be below 1e-28 of the scale."""
     v = list(start)
     scale = scale or max(abs(x) for x in v)
@@ -300,6 +343,8 @@ def _root(function: Callable[[Sequence[Number]], list[Number]], start: list[Numb
                 J[i, j] = value
         step = mp.lu_solve(J, -mp.matrix(f))
         v = [x + s for x, s in zip(v, step, strict=True)]
-        if max(abs(s) for s in step) < scale * mp.mpf(10) ** -20:  # quadratic, slope known to 1e-16: what is left is below 1e-33
+        if (
+            max(abs(s) for s in step) < scale * mp.mpf(10) ** -20
+        ):  # quadratic, slope known to 1e-16: what is left is below 1e-33
             return v
     raise AssertionError(f"the reference did not converge from {start}")

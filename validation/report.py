@@ -55,7 +55,9 @@ class Section:
 
 def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
     claims = [c for s in sections for c in s.found.claims]
-    counts = ", ".join(f"{sum(c.verdict == v for c in claims)} {v}" for v in ("holds", "refuted", "fails", "blind"))
+    counts = ", ".join(
+        f"{sum(c.verdict == v for c in claims)} {v}" for v in ("holds", "refuted", "fails", "blind")
+    )
     links = "".join(f'<a href="#{s.name}">{escape(s.title)}</a> ' for s in sections)
     kind = "quick run" if quick else "whole run"
     body = [
@@ -95,7 +97,9 @@ def _prose(text: str) -> str:
     """A docstring as paragraphs; indented lines keep their breaks."""
     paragraphs = re.split(r"\n\s*\n", text.strip())
     return "".join(
-        f"<p class=intro>{escape(p)}</p>" if re.search(r"^ {4}", p, flags=re.MULTILINE) else f"<p>{escape(' '.join(p.split()))}</p>"
+        f"<p class=intro>{escape(p)}</p>"
+        if re.search(r"^ {4}", p, flags=re.MULTILINE)
+        else f"<p>{escape(' '.join(p.split()))}</p>"
         for p in paragraphs
     )
 
@@ -103,10 +107,20 @@ def _prose(text: str) -> str:
 def _claims(claims: Sequence[Claim]) -> str:
     rows = []
     for c in claims:
-        what = escape(c.what) + (f"<br><span class=note>{escape(c.erratum)}</span>" if c.erratum else "")
+        what = escape(c.what) + (
+            f"<br><span class=note>{escape(c.erratum)}</span>" if c.erratum else ""
+        )
         control = f"{number(c.control)} <span class=note>{escape(c.wrong)}</span>"
-        cells = (f'<td><span class="badge {c.verdict}">{c.verdict}</span></td>', f"<td>{what}</td>", _cell("by", escape(c.by)))
-        cells += (_cell("measured", number(c.measured), "number"), _cell("bar", escape(c.bar), "number"), _cell(HEADER[-1], control))
+        cells = (
+            f'<td><span class="badge {c.verdict}">{c.verdict}</span></td>',
+            f"<td>{what}</td>",
+            _cell("by", escape(c.by)),
+        )
+        cells += (
+            _cell("measured", number(c.measured), "number"),
+            _cell("bar", escape(c.bar), "number"),
+            _cell(HEADER[-1], control),
+        )
         rows.append(f"<tr>{''.join(cells)}</tr>")
     head = "".join(f"<th>{h}</th>" for h in HEADER)
     return f'<table class="claims"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
@@ -124,13 +138,16 @@ def _table(table: Table) -> str:
     head = "".join(f"<th>{escape(h)}</th>" for h in table.header)
     rows = "".join("<tr>" + "".join(_data(v) for v in row) + "</tr>" for row in table.rows)
     note = f"<p class=note>{escape(table.note)}</p>" if table.note else ""
-    return (
-        f'<h3>{escape(table.title)}</h3>{note}<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
-    )
+    inside = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+    return f'<h3>{escape(table.title)}</h3>{note}<div class="scroll">{inside}</div>'
 
 
 def _data(value: Any) -> str:
-    return f"<td>{escape(value)}</td>" if isinstance(value, str) else f"<td class=number>{number(value)}</td>"
+    return (
+        f"<td>{escape(value)}</td>"
+        if isinstance(value, str)
+        else f"<td class=number>{number(value)}</td>"
+    )
 
 
 def number(value: Any) -> str:

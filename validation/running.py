@@ -30,7 +30,10 @@ def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
     with workers(len(names)) as pool:
         topics = {name: _topic(name) for name in names}
         progress = Progress({name: topic.SECONDS[not quick] for name, topic in topics.items()})
-        longest = sorted((name for name in names if not topics[name].TIMED), key=lambda name: -topics[name].SECONDS[not quick])
+        longest = sorted(
+            (name for name in names if not topics[name].TIMED),
+            key=lambda name: -topics[name].SECONDS[not quick],
+        )
         beside = {pool.submit(computed, name, quick): name for name in longest}
         progress.beside(longest, at_once=os.cpu_count() or 1)
         while waiting := [future for future in beside if beside[future] not in found]:
@@ -48,11 +51,17 @@ def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
         sections = []
         for name, topic in topics.items():
             (records, computing), (drawings, drawing) = found[name], figures[name].result()
-            sections.append(Section(name, topic.TITLE, topic.__doc__ or "", records, drawings, computing + drawing))
+            sections.append(
+                Section(
+                    name, topic.TITLE, topic.__doc__ or "", records, drawings, computing + drawing
+                )
+            )
     return sections, progress.done()
 
 
-def computed(name: str, quick: bool, tell: Callable[[str], None] = lambda what: None) -> tuple[Found, float]:
+def computed(
+    name: str, quick: bool, tell: Callable[[str], None] = lambda what: None
+) -> tuple[Found, float]:
     """What a topic finds, and the seconds it took."""
     start = time.perf_counter()
     return kept(_topic(name).compute(quick), tell), time.perf_counter() - start
@@ -75,9 +84,13 @@ def workers(topics: int) -> Iterator[Executor]:
         return
     others = set(multiprocessing.active_children())
     before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # only what is started from here on reads them
+    os.environ.update(
+        dict.fromkeys(ONE_THREAD, "1")
+    )  # only what is started from here on reads them
     try:
-        with ProcessPoolExecutor(min(topics, cores), mp_context=multiprocessing.get_context("spawn")) as pool:
+        with ProcessPoolExecutor(
+            min(topics, cores), mp_context=multiprocessing.get_context("spawn")
+        ) as pool:
             try:
                 for _ in range(cores):
                     pool.submit(awake)  # they import while this process does

@@ -32,7 +32,9 @@ SECONDS = (3.0, 9.0)
 TIMED = False
 BAR = 1e-11
 SPOILED = 1e-9
-NODES = 12  # of Gauss-Legendre on each piece of a spline: exact to degree 23, and the pieces are short
+NODES = (
+    12  # of Gauss-Legendre on each piece of a spline: exact to degree 23, and the pieces are short
+)
 SAMPLES = (150, 1000)
 SIZES = ((100, 1000, 3000), (100, 1000, 10_000))
 GROWTH = 3.0  # times what is linear: 300 from 100 to 10^4 of pieces and of points
@@ -69,12 +71,17 @@ def exact_slope(x: Any, h: Any) -> Pieces:
         return (c[0] * u + c[1]) * u + c[2]
 
     rows = zip(x.tolist(), spline.derivative().c.T.tolist(), strict=False)
-    return Pieces(tuple(map(mp.mpf, x.tolist())), tuple(partial(parabola, mp.mpf(o), [mp.mpf(v) for v in c]) for o, c in rows))
+    return Pieces(
+        tuple(map(mp.mpf, x.tolist())),
+        tuple(partial(parabola, mp.mpf(o), [mp.mpf(v) for v in c]) for o, c in rows),
+    )
 
 
 def spline(n: int) -> Iterator[Record]:
     x = np.linspace(-1.5, 1.6, n)
-    solution = sie.solve(sie.Scene(profile=sie.Sampled(x, heights(x)), modulus=1.0, normal_load=0.5))
+    solution = sie.solve(
+        sie.Scene(profile=sie.Sampled(x, heights(x)), modulus=1.0, normal_load=0.5)
+    )
     x1, x2 = solution.edges
     at = np.array([x1 + 1e-3, -0.3, float(x[n // 2]) + 1e-9, 0.123456, x2 - 1e-3])
     with patch.object(reference, "gauss_legendre", partial(reference.gauss_legendre, NODES)):
@@ -123,8 +130,21 @@ def dense(n: int) -> Callable[[], Any]:
 def growth(sizes: Sequence[int], patience: float) -> Iterator[Record]:
     times = fastest([program(n) for n in sizes], patience)
     few, many = fastest([dense(sizes[0]), dense(DENSE)], patience=0.2)
-    yield Curve("growth", "this package", sizes, [1e3 * t for t in times], "both", {"colour": "black", "strong": True})
-    yield Curve("growth", "a logarithm for each piece and point", (sizes[0], DENSE), [1e3 * few, 1e3 * many], "both")
+    yield Curve(
+        "growth",
+        "this package",
+        sizes,
+        [1e3 * t for t in times],
+        "both",
+        {"colour": "black", "strong": True},
+    )
+    yield Curve(
+        "growth",
+        "a logarithm for each piece and point",
+        (sizes[0], DENSE),
+        [1e3 * few, 1e3 * many],
+        "both",
+    )
     yield Claim(
         f"time of {sizes[-1]} samples and {sizes[-1]} pressures over that of {sizes[0]} and {sizes[0]}",
         "this project: close to linear",
@@ -141,7 +161,9 @@ def growth(sizes: Sequence[int], patience: float) -> Iterator[Record]:
 def noisy(n: int, smoothing: Any) -> sie.Scene:
     x = np.linspace(-2.0, 2.0, n)
     h = 0.5 * x * x + NOISE * np.random.default_rng(SEED).standard_normal(n)
-    return sie.Scene(profile=sie.Sampled(x, h, smoothing=smoothing), modulus=1.0, normal_load=np.pi / 4)
+    return sie.Scene(
+        profile=sie.Sampled(x, h, smoothing=smoothing), modulus=1.0, normal_load=np.pi / 4
+    )
 
 
 def noise(n: int) -> Iterator[Record]:
@@ -170,15 +192,39 @@ def noise(n: int) -> Iterator[Record]:
     )
     x, h = scene.profile.points, scene.profile.heights  # type: ignore[attr-defined]
     yield Curve("noise", f"{n} points, smoothed by cross validation", s, p)
-    yield Curve("noise", "Hertz", s, 0.5 * np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)), "dashed")
+    yield Curve(
+        "noise", "Hertz", s, 0.5 * np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)), "dashed"
+    )
     some = slice(None, None, n // 200)
     yield Curve("trace", "less the parabola", x[some], (h - 0.5 * x * x)[some], "points")
-    yield Curve("trace", "the spline's", x[some], scene.profile.height(x[some]) - 0.5 * x[some] ** 2)
-    rms = float(np.sqrt(np.mean((p - hertz.pressure(s, radius=1.0, modulus=1.0, half_width=b)) ** 2)))
+    yield Curve(
+        "trace", "the spline's", x[some], scene.profile.height(x[some]) - 0.5 * x[some] ** 2
+    )
+    rms = float(
+        np.sqrt(np.mean((p - hertz.pressure(s, radius=1.0, modulus=1.0, half_width=b)) ** 2))
+    )
     yield Table(
         "A trace with noise",
-        ("points", "noise / R", "λ of the smoothing", "misfit / R", "half-width / Hertz - 1", "rms of p / peak", "time [s]"),
-        [(n, NOISE, scene.profile.lam, scene.profile.misfit, solution.half_width / b - 1.0, 2.0 * rms, seconds)],  # type: ignore[attr-defined]
+        (
+            "points",
+            "noise / R",
+            "λ of the smoothing",
+            "misfit / R",
+            "half-width / Hertz - 1",
+            "rms of p / peak",
+            "time [s]",
+        ),
+        [
+            (
+                n,
+                NOISE,
+                scene.profile.lam,
+                scene.profile.misfit,
+                solution.half_width / b - 1.0,
+                2.0 * rms,
+                seconds,
+            )
+        ],  # type: ignore[attr-defined]
         "The time is that of smoothing, solving and 401 pressures, once.",
     )
 
@@ -188,8 +234,20 @@ def noise(n: int) -> Iterator[Record]:
 
 def figures(found: Found) -> Iterator[Figure]:
     for key, x, y, log, caption in (
-        ("spline", "x", "p/E*", "", "Pressure under a profile known by samples, against 40 digits on the same spline."),
-        ("growth", "samples and points", "time [ms]", "xy", "Solving a trace and asking for as many pressures as it has samples."),
+        (
+            "spline",
+            "x",
+            "p/E*",
+            "",
+            "Pressure under a profile known by samples, against 40 digits on the same spline.",
+        ),
+        (
+            "growth",
+            "samples and points",
+            "time [ms]",
+            "xy",
+            "Solving a trace and asking for as many pressures as it has samples.",
+        ),
         (
             "trace",
             "x/R",

@@ -92,13 +92,22 @@ def compute(quick: bool) -> Iterator[Record]:
         rows += [(slider.name, k, *row) for k, row in zip(couplings, found, strict=True)]
         for k in SHOWN:
             yield from _drawn(slider, k)
-    header = ("profile", "βf", "error of p / peak", "of the moment / P r", "of the potential", "certificate")
+    header = (
+        "profile",
+        "βf",
+        "error of p / peak",
+        "of the moment / P r",
+        "of the potential",
+        "certificate",
+    )
     yield Table("Full sliding, E* = 1", header, rows)
     yield Doing("full stick")
     yield from full_stick(quick)
 
 
-def judged(slider: Slider, coupling: float, factor: float = 1.0, truth: float | None = None) -> tuple[float, float, float | None, float]:
+def judged(
+    slider: Slider, coupling: float, factor: float = 1.0, truth: float | None = None
+) -> tuple[float, float, float | None, float]:
     """Errors of pressure, moment and potential, and what the certificate says; `truth` is the βf of the closed form."""
     solution, k = slider.solve(coupling), mp.mpf(coupling if truth is None else truth)
     x = solution.centre + solution.half_width * PLACES
@@ -114,14 +123,32 @@ def _of_potential(slider: Slider, solution: sie.Solution, k: Any, factor: float)
     assert slider.potential is not None
     z = np.array([x + 1j * y for x in (-0.6, 0.3, 1.4) for y in DEPTHS])
     found = factor * solution.pressure.cauchy(z)
-    return largest(apart([f], [slider.potential(mp.mpc(v), k)]) for f, v in zip(found, z.tolist(), strict=True))
+    return largest(
+        apart([f], [slider.potential(mp.mpc(v), k)]) for f, v in zip(found, z.tolist(), strict=True)
+    )
 
 
-def _claims(slider: Slider, found: list[tuple[float, float, float | None, float]]) -> Iterator[Claim]:
+def _claims(
+    slider: Slider, found: list[tuple[float, float, float | None, float]]
+) -> Iterator[Claim]:
     right, by = slider.name, "both packages"
     wrong, named = judged(slider, 0.3, truth=-0.3), "the closed form with β of the other sign"
-    yield Claim(f"sliding {right}: largest error of the pressure / peak", by, largest(f[0] for f in found), wrong[0], named, high=BAR)
-    yield Claim(f"sliding {right}: largest error of the moment / P r", by, largest(f[1] for f in found), wrong[1], named, high=BAR)
+    yield Claim(
+        f"sliding {right}: largest error of the pressure / peak",
+        by,
+        largest(f[0] for f in found),
+        wrong[0],
+        named,
+        high=BAR,
+    )
+    yield Claim(
+        f"sliding {right}: largest error of the moment / P r",
+        by,
+        largest(f[1] for f in found),
+        wrong[1],
+        named,
+        high=BAR,
+    )
     if found[0][2] is not None:
         spoiled = judged(slider, 0.3, 1.0 + SPOILED)[2] or 0.0
         yield Claim(
@@ -136,11 +163,16 @@ def _claims(slider: Slider, found: list[tuple[float, float, float | None, float]
 
 def _drawn(slider: Slider, k: float) -> Iterator[Curve]:
     solution = slider.solve(k)
-    s, scale = np.cos(np.linspace(np.pi, 0.0, 161)[1:-1]), solution.half_width / solution.normal_load
+    s, scale = (
+        np.cos(np.linspace(np.pi, 0.0, 161)[1:-1]),
+        solution.half_width / solution.normal_load,
+    )
     x = solution.centre + solution.half_width * s
     yield Curve(f"p: {slider.name}", f"βf = {k:g}", x, scale * solution.pressure(x))
     marks = solution.centre + solution.half_width * PLACES[1:-1]
-    yield Curve(f"p: {slider.name} points", "", marks, scale * slider.pressure(marks, k, np), "points")
+    yield Curve(
+        f"p: {slider.name} points", "", marks, scale * slider.pressure(marks, k, np), "points"
+    )
 
 
 # -- full stick ------------------------------------------------------------------------------------------------------------
@@ -153,7 +185,14 @@ def full_stick(quick: bool) -> Iterator[Record]:
         worst.append(_bonded(beta, P, Q, beta))
         moment = 0.2
         solution = sie.solve(_bonded_scene(beta, P, Q, moment=moment))
-        given = {"half_width": 1.0, "dundurs": mp.mpf(beta), "shear_load": Q, "moment": mp.mpf(moment), "modulus": 1.0, "lib": mp}
+        given = {
+            "half_width": 1.0,
+            "dundurs": mp.mpf(beta),
+            "shear_load": Q,
+            "moment": mp.mpf(moment),
+            "modulus": 1.0,
+            "lib": mp,
+        }
         tilts.append(relative(solution.tilt, bonded_flat.tilt(**given)))
     by = "both packages"
     yield Claim(
@@ -179,7 +218,11 @@ def full_stick(quick: bool) -> Iterator[Record]:
     yield Curve("bonded", "q b/P", x, solution.shear(x) / P, "dashed")
     exact = [_exact_traction(v, 0.3, P, Q) for v in PLACES[1:-1].tolist()]
     yield Curve(
-        "bonded points", "", [*PLACES[1:-1], *PLACES[1:-1]], [float(v.real) for v in exact] + [float(v.imag) for v in exact], "points"
+        "bonded points",
+        "",
+        [*PLACES[1:-1], *PLACES[1:-1]],
+        [float(v.real) for v in exact] + [float(v.imag) for v in exact],
+        "points",
     )
 
 
@@ -190,7 +233,13 @@ def _bonded_scene(beta: float, P: float, Q: float, moment: float = 0.0) -> sie.S
 
 
 def _exact_traction(x: float, beta: float, P: float, Q: float) -> Any:
-    given = {"half_width": 1.0, "normal_load": P, "dundurs": mp.mpf(beta), "shear_load": mp.mpf(Q), "lib": mp}
+    given = {
+        "half_width": 1.0,
+        "normal_load": P,
+        "dundurs": mp.mpf(beta),
+        "shear_load": mp.mpf(Q),
+        "lib": mp,
+    }
     return mp.mpc(bonded_flat.pressure(mp.mpf(x), **given), bonded_flat.shear(mp.mpf(x), **given))
 
 
@@ -207,7 +256,13 @@ def figures(found: Found) -> Iterator[Figure]:
     for slider in SLIDERS:
         caption = f"Pressure under a sliding {slider.name}, βf from 0 to 0.49, friction on the half-plane towards +x."
         yield _pressures(found, f"p: {slider.name}", "x / length unit", "r p/P", caption)
-    yield _pressures(found, "bonded", "x/b", "traction · b/P", "Bonded flat punch, β = 0.3, Q = -0.4 P, free to tilt.")
+    yield _pressures(
+        found,
+        "bonded",
+        "x/b",
+        "traction · b/P",
+        "Bonded flat punch, β = 0.3, Q = -0.4 P, free to tilt.",
+    )
 
 
 def _pressures(found: Found, key: str, x: str, y: str, caption: str) -> Figure:

@@ -56,14 +56,27 @@ class Contact:
         turned = ("largest_load", "least_load")[: len(loads) - 1]
         named = {k: mp.mpf(Q) for k, Q in zip((*turned, "tangential_load"), loads, strict=True)}
         function = getattr(self.module, name)
-        return [function(mp.mpf(v), **self.given, normal_load=P, friction=F, **named, lib=mp) for v in map(float, x)]
+        return [
+            function(mp.mpf(v), **self.given, normal_load=P, friction=F, **named, lib=mp)
+            for v in map(float, x)
+        ]
 
     def scene(self, **loads: float) -> sie.Scene:
         return sie.Scene(profile=self.profile, modulus=E, normal_load=P, friction=F, **loads)
 
 
-HERTZ = Contact("Hertz", sie.Parabola(1.0), cattaneo, {"half_width": hertz.half_width(normal_load=P, radius=1.0, modulus=E, lib=mp)})
-PUNCH = Contact("rounded flat", sie.RoundedFlat(0.7, 1.0), cattaneo_rounded, {"half_flat": 0.7, "radius": 1.0, "modulus": E})
+HERTZ = Contact(
+    "Hertz",
+    sie.Parabola(1.0),
+    cattaneo,
+    {"half_width": hertz.half_width(normal_load=P, radius=1.0, modulus=E, lib=mp)},
+)
+PUNCH = Contact(
+    "rounded flat",
+    sie.RoundedFlat(0.7, 1.0),
+    cattaneo_rounded,
+    {"half_flat": 0.7, "radius": 1.0, "modulus": E},
+)
 CONTACTS = (HERTZ, PUNCH)
 
 
@@ -73,12 +86,19 @@ def compute(quick: bool) -> Iterator[Record]:
         yield Doing(f"{contact.name}: first loading")
         fractions = (FRACTIONS, QUICK)[quick]
         found = [loaded(contact, fraction) for fraction in fractions]
-        rows += [(contact.name, f"{fraction:.12g}", *row) for fraction, row in zip(fractions, found, strict=True)]
+        rows += [
+            (contact.name, f"{fraction:.12g}", *row)
+            for fraction, row in zip(fractions, found, strict=True)
+        ]
         yield from _loading(contact, fractions, found)
         yield Doing(f"{contact.name}: unloading and reloading")
         yield from turned(contact)
         yield from cycled(contact)
-    yield Table("First loading: errors over the largest value", ("contact", "Q/fP", "shear", "slip", "half-width of the stick zone"), rows)
+    yield Table(
+        "First loading: errors over the largest value",
+        ("contact", "Q/fP", "shear", "slip", "half-width of the stick zone"),
+        rows,
+    )
     yield Doing("bulk stress")
     yield from bulk()
     yield Doing("cycles")
@@ -98,29 +118,48 @@ def loaded(contact: Contact, fraction: float, factor: float = 1.0) -> tuple[floa
     x = b * PLACES
     shear = apart(solution.shear(x), contact.exact("shear", x, Q), factor)
     outside = np.array([s * (c + (b - c) * u) for s in (-1, 1) for u in (0.35, 0.6, 0.95)])
-    slip = apart(factor * solution.slip(outside), slip_of(contact, outside, Q)) - _of_ulps(solution, outside)
+    slip = apart(factor * solution.slip(outside), slip_of(contact, outside, Q)) - _of_ulps(
+        solution, outside
+    )
     return shear, largest((slip, 0.0)), relative(c, stick_of(contact, Q), factor)
 
 
 def _of_ulps(solution: sie.Solution, x: Any) -> float:
     """What one ulp of x and one of an end of its zone, which is a double too, do to the slip: much in a zone that is short."""
     here, ulp = solution.slip(x), 2.0 * float(np.spacing(solution.half_width))
-    return float(max(np.abs(solution.slip(x + d) - here).max() for d in (-ulp, ulp)) / np.abs(here).max())
+    return float(
+        max(np.abs(solution.slip(x + d) - here).max() for d in (-ulp, ulp)) / np.abs(here).max()
+    )
 
 
 def slip_of(contact: Contact, x: Any, Q: float) -> list[Any]:
     more = {} if contact is PUNCH else {"modulus": E}
-    given = contact.given | more | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
+    given = (
+        contact.given
+        | more
+        | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
+    )
     return [contact.module.slip(mp.mpf(float(v)), **given) for v in x]
 
 
 def stick_of(contact: Contact, Q: float) -> Any:
     """c: P(c) = P - Q/f."""
-    given = contact.given | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
-    return cattaneo.stick_half_width(**given) if contact is HERTZ else mp.mpf(0.7) + cattaneo_rounded.stick_rim(**given)
+    given = contact.given | {
+        "normal_load": P,
+        "friction": F,
+        "tangential_load": mp.mpf(Q),
+        "lib": mp,
+    }
+    return (
+        cattaneo.stick_half_width(**given)
+        if contact is HERTZ
+        else mp.mpf(0.7) + cattaneo_rounded.stick_rim(**given)
+    )
 
 
-def _loading(contact: Contact, fractions: Sequence[float], found: Sequence[tuple[float, float, float]]) -> Iterator[Record]:
+def _loading(
+    contact: Contact, fractions: Sequence[float], found: Sequence[tuple[float, float, float]]
+) -> Iterator[Record]:
     spoiled = loaded(contact, 0.3, 1.0 + SPOILED)
     words = ("shear", "slip", "half-width of the stick zone")
     for k, (name, bar) in enumerate(zip(words, (BAR, BAR_OF_SLIP, BAR_OF_SLIP), strict=True)):
@@ -148,8 +187,12 @@ def turned(contact: Contact) -> Iterator[Record]:
     lines = history[0].half_width * np.linspace(-1.0, 1.0, 201)
     for k, name in enumerate(("shear", "unloading_shear", "reloading_shear")):
         exact = contact.exact(name, x, *loads[: k + 1])
-        yield Curve(f"turns: {contact.name}", f"Q = {TURNS[k]:g} fP", lines, history[k].shear(lines) / FP)
-        yield Curve(f"turns: {contact.name} points", "", x, [float(q) / FP for q in exact], "points")
+        yield Curve(
+            f"turns: {contact.name}", f"Q = {TURNS[k]:g} fP", lines, history[k].shear(lines) / FP
+        )
+        yield Curve(
+            f"turns: {contact.name} points", "", x, [float(q) / FP for q in exact], "points"
+        )
         if k:
             first = history[0].shear(x)
             yield checked(
@@ -167,8 +210,15 @@ def cycled(contact: Contact) -> Iterator[Claim]:
     """Q to and fro between ± 0.8 fP: what is lost in it, and that it closes."""
     Q = TURNS[0] * FP
     cycle = sie.follow(contact.scene(), sie.Path([(P, Q), (P, -Q), (P, Q)]))
-    given = contact.given | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "lib": mp}
-    exact_energy = contact.module.dissipation(**(given | {"modulus": E} if contact is PUNCH else _without_width(given)))
+    given = contact.given | {
+        "normal_load": P,
+        "friction": F,
+        "tangential_load": mp.mpf(Q),
+        "lib": mp,
+    }
+    exact_energy = contact.module.dissipation(
+        **(given | {"modulus": E} if contact is PUNCH else _without_width(given))
+    )
     lost = cycle[2].energy_lost - cycle[0].energy_lost
     yield checked(
         lambda W: relative(W, exact_energy),
@@ -207,18 +257,41 @@ def bulk() -> Iterator[Record]:
     worst: list[tuple[float, float, float]] = []
     for sigma in sigmas:
         solution, x = sie.solve(HERTZ.scene(tangential_load=Q, bulk_stress=sigma)), b * PLACES
-        given = HERTZ.given | {"normal_load": P, "friction": F, "tangential_load": mp.mpf(Q), "bulk_stress": mp.mpf(sigma), "lib": mp}
+        given = HERTZ.given | {
+            "normal_load": P,
+            "friction": F,
+            "tangential_load": mp.mpf(Q),
+            "bulk_stress": mp.mpf(sigma),
+            "lib": mp,
+        }
         exact = [cattaneo.bulk_shear(mp.mpf(v), **given) for v in x.tolist()]
         zone = cattaneo.bulk_stick(**given)
         other = sie.solve(HERTZ.scene(tangential_load=Q, bulk_stress=-sigma))
-        worst.append((apart(solution.shear(x), exact), apart(solution.stick[0], zone), apart(other.shear(x), exact)))
+        worst.append(
+            (
+                apart(solution.shear(x), exact),
+                apart(solution.stick[0], zone),
+                apart(other.shear(x), exact),
+            )
+        )
         lines = b * np.linspace(-1.0, 1.0, 201)
-        yield Curve("bulk", f"σ b/(fP) = {sigma * b / FP:.3g}", lines / b, solution.shear(lines) / FP)
+        yield Curve(
+            "bulk", f"σ b/(fP) = {sigma * b / FP:.3g}", lines / b, solution.shear(lines) / FP
+        )
         yield Curve("bulk points", "", PLACES, [float(q) / FP for q in exact], "points")
     by, wrong = "Nowell & Hills 1987", "the bulk stress with the other sign"
     control = max(w[2] for w in worst)
-    yield Claim("Hertz with bulk stress: largest error of the shear", by, largest(w[0] for w in worst), control, wrong, high=BAR)
-    spoiled = apart(sie.solve(HERTZ.scene(tangential_load=Q)).stick[0], cattaneo.bulk_stick(**given))
+    yield Claim(
+        "Hertz with bulk stress: largest error of the shear",
+        by,
+        largest(w[0] for w in worst),
+        control,
+        wrong,
+        high=BAR,
+    )
+    spoiled = apart(
+        sie.solve(HERTZ.scene(tangential_load=Q)).stick[0], cattaneo.bulk_stick(**given)
+    )
     yield Claim(
         "Hertz with bulk stress: error of the ends of the stick zone / half-width",
         by,
@@ -236,8 +309,15 @@ def loops(quick: bool) -> Iterator[Record]:
     """Loops of Q over the shift between the bodies, which enclose the energy lost."""
     for amplitude in (0.4, 0.7, 0.95):
         angles = np.linspace(0.0, 2.0 * np.pi, LOOP[not quick] + 1)
-        history = sie.follow(PUNCH.scene(), sie.Path([(P, amplitude * FP * np.cos(t)) for t in angles]))
-        yield Curve("loops", f"Q = ±{amplitude:g} fP", [s.shift for s in history], amplitude * np.cos(angles))
+        history = sie.follow(
+            PUNCH.scene(), sie.Path([(P, amplitude * FP * np.cos(t)) for t in angles])
+        )
+        yield Curve(
+            "loops",
+            f"Q = ±{amplitude:g} fP",
+            [s.shift for s in history],
+            amplitude * np.cos(angles),
+        )
     lost, area = enclosed(0.8, SIMPSON[not quick])
     yield checked(
         lambda a: abs(a / lost - 1.0),
@@ -273,7 +353,9 @@ def cost(steps: int) -> Claim:
         for t in angles[: steps // 10]:
             _ = sie.solve(PUNCH.scene(tangential_load=0.8 * FP * np.sin(t))).stick
 
-    together, tenth = fastest((followed, a_tenth), patience=0.002 * steps)  # other topics run beside this one
+    together, tenth = fastest(
+        (followed, a_tenth), patience=0.002 * steps
+    )  # other topics run beside this one
     return checked(
         lambda times: times[0] / times[1],
         (together, 10.0 * tenth),
@@ -307,14 +389,22 @@ def figures(found: Found) -> Iterator[Figure]:
             "q / (f P) [1/R]",
             f"Shear of the {contact.name} contact in loading, unloading and reloading.",
         )
-    yield _shears(found, "bulk", "x/b", "q / (f P) [1/R]", "Hertz under Q = 0.6 fP and a bulk stress that rises with it.")
+    yield _shears(
+        found,
+        "bulk",
+        "x/b",
+        "q / (f P) [1/R]",
+        "Hertz under Q = 0.6 fP and a bulk stress that rises with it.",
+    )
     drawing, ax = axes()
     draw(ax, found.curves("loops"))
     labelled(ax, "shift between the bodies [R]", "Q/(fP)")
     ax.locator_params(axis="x", nbins=5)
     legend(ax)
     yield Figure(
-        "slip-loops", drawing, "Rounded flat: Q over the shift beyond the elastic one, first loading left out; the area is the energy lost."
+        "slip-loops",
+        drawing,
+        "Rounded flat: Q over the shift beyond the elastic one, first loading left out; the area is the energy lost.",
     )
 
 

@@ -35,7 +35,14 @@ def compute(quick: bool) -> Iterator[Record]:
         rows.append((str(case), 1e3 * seconds, ratio))
     yield claim()
     yield Table(TABLE, HEADER, rows, "Profile and scene stand; each call solves anew. Medians.")
-    yield Curve("ratio", "solve + 1001 pressures", [r[2] for r in rows], list(range(len(rows))), "points", {"names": [r[0] for r in rows]})
+    yield Curve(
+        "ratio",
+        "solve + 1001 pressures",
+        [r[2] for r in rows],
+        list(range(len(rows))),
+        "points",
+        {"names": [r[0] for r in rows]},
+    )
 
 
 def claim() -> Claim:
@@ -79,4 +86,8 @@ def figures(found: Found) -> Iterator[Figure]:
     ax.set_yticks(list(ratios.y), ratios.about["names"])
     ax.invert_yaxis()
     labelled(ax, "time over that of the closed form (32)", "", log="x")
-    yield Figure("ratio", drawing, "Solving a case and 1001 pressures, as a multiple of 1001 values of the rounded punch's formula.")
+    yield Figure(
+        "ratio",
+        drawing,
+        "Solving a case and 1001 pressures, as a multiple of 1001 values of the rounded punch's formula.",
+    )

@@ -53,8 +53,21 @@ def all_sweeps(quick: bool) -> tuple[Sweep, ...]:
         ),
     ]  # fmt: skip
     if hasattr(sie.Solution, "stick"):
-        ends = (*(10.0**-k for k in range(14, 0, -step)), 0.5, *(-(10.0**-k) for k in range(1, 15, step)))
-        found.append(Sweep("Q/fP", "decades of (Q/fP)/(1 - Q/fP)", sweeps.partial_slip, ends, (-14.2, 14.2), decades=logit))
+        ends = (
+            *(10.0**-k for k in range(14, 0, -step)),
+            0.5,
+            *(-(10.0**-k) for k in range(1, 15, step)),
+        )
+        found.append(
+            Sweep(
+                "Q/fP",
+                "decades of (Q/fP)/(1 - Q/fP)",
+                sweeps.partial_slip,
+                ends,
+                (-14.2, 14.2),
+                decades=logit,
+            )
+        )
     return tuple(found)
 
 
@@ -74,25 +87,45 @@ def compute(quick: bool) -> Iterator[Record]:
         yield Doing(sweep.name)
         outcomes = [sweep.run(v) for v in sweep.values]
         x = [sweep.decades(v) for v in sweep.values]
-        inside = [o for o, d in zip(outcomes, x, strict=True) if sweep.promised[0] <= d <= sweep.promised[1]]
+        inside = [
+            o
+            for o, d in zip(outcomes, x, strict=True)
+            if sweep.promised[0] <= d <= sweep.promised[1]
+        ]
         yield from _promise(sweep, inside)
         every += outcomes if sweep.certified else []
         states = [o.state(sweep.bar) for o in outcomes]
         about = {"axis": sweep.axis, "states": states, "promised": sweep.promised}
         yield Curve("sweep: " + sweep.name, "error", x, [o.error for o in outcomes], "both", about)
         if any(math.isfinite(o.estimate) for o in outcomes):
-            yield Curve("sweep: " + sweep.name, "certificate's estimate", x, [o.estimate for o in outcomes], "dashed")
+            yield Curve(
+                "sweep: " + sweep.name,
+                "certificate's estimate",
+                x,
+                [o.estimate for o in outcomes],
+                "dashed",
+            )
         full = [d for d, s in zip(x, states, strict=True) if s == "full"]
-        beyond = sorted({o.refused.split(":")[0][:90] for o in outcomes if o.refused}) or [_beyond(states)]
+        beyond = sorted({o.refused.split(":")[0][:90] for o in outcomes if o.refused}) or [
+            _beyond(states)
+        ]
         rows.append(
-            (sweep.name, sweep.axis, f"{sweep.promised[0]:g} … {sweep.promised[1]:g}", f"{min(full):.1f} … {max(full):.1f}", *beyond[:1])
+            (
+                sweep.name,
+                sweep.axis,
+                f"{sweep.promised[0]:g} … {sweep.promised[1]:g}",
+                f"{min(full):.1f} … {max(full):.1f}",
+                *beyond[:1],
+            )
         )
     yield checked(
         in_silence, every, [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
         what="answers of contacts that lost digits in silence", by="this project: stability",
         named=f"answers off by {sweeps.SPOILED:.0e} with the certificates of right ones", high=0,
     )  # fmt: skip
-    yield Table("The frontier", ("number", "axis", "promised", "full accuracy found", "beyond"), rows)
+    yield Table(
+        "The frontier", ("number", "axis", "promised", "full accuracy found", "beyond"), rows
+    )
     yield from maps(quick)
     yield from conditions(quick)
 
@@ -138,7 +171,11 @@ def maps(quick: bool) -> Iterator[Record]:
 
 def _at_kink(distance: float, share: float) -> float:
     ratio = share if share > 0 else 1.0 + share
-    return _error(lambda: sweeps.at_kink(min(distance, 0.9 * (1 - ratio)) if share > 0 else distance * (1 - ratio), ratio))
+    return _error(
+        lambda: sweeps.at_kink(
+            min(distance, 0.9 * (1 - ratio)) if share > 0 else distance * (1 - ratio), ratio
+        )
+    )
 
 
 def _error(outcome: Any) -> float:
@@ -152,8 +189,14 @@ def conditions(quick: bool) -> Iterator[Record]:
     """Of the square systems, against the number of unknowns: this package's Cauchy equations, and the textbook's unscaled matrix."""
     yield Doing("condition numbers")
     sizes = (8, 16, 32, 64, 128) if quick else (8, 16, 32, 64, 128, 256, 512)
-    singular = [np.linalg.cond(sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0).system(n)[0]) for n in sizes]
-    coupled = [np.linalg.cond(sie.CauchyEquation((-1.0, 1.0), g=1.0, a=0.3, total=0.0).system(n)[0]) for n in sizes]
+    singular = [
+        np.linalg.cond(sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0).system(n)[0])
+        for n in sizes
+    ]
+    coupled = [
+        np.linalg.cond(sie.CauchyEquation((-1.0, 1.0), g=1.0, a=0.3, total=0.0).system(n)[0])
+        for n in sizes
+    ]
     textbook = [np.linalg.cond(erdogan_gupta_matrix(n)[0]) for n in sizes]
     yield Curve("condition", "sie.CauchyEquation, singular ends", sizes, singular, "both")
     yield Curve("condition", "sie.CauchyEquation, a = 0.3", sizes, coupled, "both")
@@ -163,7 +206,14 @@ def conditions(quick: bool) -> Iterator[Record]:
         "condition number of the scaled system: largest, any number of unknowns", "this project: bounded, once scaled",
         max(*singular, *coupled), textbook[-1], "the textbook's unscaled matrix", high=10.0,
     )  # fmt: skip
-    yield Claim("growth of the condition number: its exponent in n", "this project", growth[0], growth[1], "the unscaled matrix", high=0.1)
+    yield Claim(
+        "growth of the condition number: its exponent in n",
+        "this project",
+        growth[0],
+        growth[1],
+        "the unscaled matrix",
+        high=0.1,
+    )
 
 
 def figures(found: Found) -> Iterator[Figure]:
@@ -174,13 +224,29 @@ def figures(found: Found) -> Iterator[Figure]:
         draw(ax, curves, floor=1e-18)
         ax.axhline(BAR, color="tab:red", linewidth=0.8)
         ax.axvspan(*curves[0].about["promised"], color="tab:green", alpha=0.07, linewidth=0)
-        labelled(ax, curves[0].about["axis"], "relative error", key.removeprefix("sweep: "), log="y")
+        labelled(
+            ax, curves[0].about["axis"], "relative error", key.removeprefix("sweep: "), log="y"
+        )
         legend(ax)
         name = "".join(c if c.isalnum() else "-" for c in key)
-        yield Figure(name, drawing, "Shaded: the promised range. Line: the bar, 1e-13. A gap in a curve is a refusal.")
+        yield Figure(
+            name,
+            drawing,
+            "Shaded: the promised range. Line: the bar, 1e-13. A gap in a curve is a refusal.",
+        )
     for key, x, y, caption in (
-        ("map: kink", FLATNESS, "decades of the distance to the kink", "Pressure next to the end of the flat, / peak."),
-        ("map: scale", "decades of the length", "decades of the modulus", "The same contact at any scale: error of p / peak."),
+        (
+            "map: kink",
+            FLATNESS,
+            "decades of the distance to the kink",
+            "Pressure next to the end of the flat, / peak.",
+        ),
+        (
+            "map: scale",
+            "decades of the length",
+            "decades of the modulus",
+            "The same contact at any scale: error of p / peak.",
+        ),
     ):
         drawing, ax = axes()
         heat(ax, found.maps(key)[0], label="log10 of the error", high=-12)
@@ -190,7 +256,11 @@ def figures(found: Found) -> Iterator[Figure]:
     draw(ax, found.curves("condition"))
     labelled(ax, "unknowns n", "condition number (2-norm)", log="xy")
     legend(ax)
-    yield Figure("condition", drawing, "Condition numbers of the square systems; the transform that β = 0 allows needs none.")
+    yield Figure(
+        "condition",
+        drawing,
+        "Condition numbers of the square systems; the transform that β = 0 allows needs none.",
+    )
 
 
 def _frontier(found: Found) -> Figure:
@@ -201,8 +271,21 @@ def _frontier(found: Found) -> Figure:
         x, states = np.array(curve.x), np.array(curve.about["states"])
         for state, colour in STATES.items():
             some = states == state
-            ax.plot(_compressed(x[some]), np.full(some.sum(), row), "s", color=colour, ms=5, label=state if row == 0 else None)
-        ax.plot(_compressed(np.array(curve.about["promised"])), [row - 0.32] * 2, color="black", lw=1.2, label=None if row else "promised")
+            ax.plot(
+                _compressed(x[some]),
+                np.full(some.sum(), row),
+                "s",
+                color=colour,
+                ms=5,
+                label=state if row == 0 else None,
+            )
+        ax.plot(
+            _compressed(np.array(curve.about["promised"])),
+            [row - 0.32] * 2,
+            color="black",
+            lw=1.2,
+            label=None if row else "promised",
+        )
     ax.set_yticks(range(len(keys)), [key.removeprefix("sweep: ") for key in keys])
     ticks = np.array([-300, -100, -15, 0, 15, 100, 300])
     ax.set_xticks(_compressed(ticks), [str(t) for t in ticks])

@@ -81,12 +81,26 @@ def error(case: Case, depth: float, spoiled: float = 0.0) -> float:
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     p = solution.pressure(np.linspace(x1, x2, 2003)[1:-1])
     inner = [b for b in case.profile.breaks if x1 < b < x2]
-    places = [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner)] + [(x1, truth.x1), (x2, truth.x2)]
+    places = [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner)] + [
+        (x1, truth.x1),
+        (x2, truth.x2),
+    ]
     worst = 0.0
     for x, x_exact in places:
-        found, reference = solution.stress(x, depth * r), stresses(truth, x_exact, depth * r, FRICTION)
+        found, reference = (
+            solution.stress(x, depth * r),
+            stresses(truth, x_exact, depth * r, FRICTION),
+        )
         for name in ("xx", "yy", "xy"):
-            worst = largest((worst, abs(mp.mpf(float(getattr(found, name)) * (1 + spoiled)) - getattr(reference, name))))
+            worst = largest(
+                (
+                    worst,
+                    abs(
+                        mp.mpf(float(getattr(found, name)) * (1 + spoiled))
+                        - getattr(reference, name)
+                    ),
+                )
+            )
     return worst / float(p[np.isfinite(p)].max())
 
 
@@ -98,7 +112,12 @@ def compute(quick: bool = False) -> Iterator[Record]:
     worst = largest(e for r in found for e in r.errors)
     spoiled = min(error(case, 1e-2, SPOILED) for case in SMOOTH_CASES[:1])
     yield Claim(
-        "largest error of the stress over the peak pressure", "README: 1e-13 at any depth", worst, spoiled, "off by 1e-11", high=BAR
+        "largest error of the stress over the peak pressure",
+        "README: 1e-13 at any depth",
+        worst,
+        spoiled,
+        "off by 1e-11",
+        high=BAR,
     )
     punch = next(case for case in SMOOTH_CASES if case.name == "rounded" and case.width is not None)
     yield Claim(
@@ -118,4 +137,8 @@ def figures(found: Found) -> Iterator[Figure]:
     labelled(ax, "depth / b", "error of the stress / peak pressure", log="xy")
     if len(found.curves("depth")) < 6:
         legend(ax)
-    yield Figure("stress-depth", drawing, "Each case of the table, from next to the surface to far away. The line is the bar, 1e-13.")
+    yield Figure(
+        "stress-depth",
+        drawing,
+        "Each case of the table, from next to the surface to far away. The line is the bar, 1e-13.",
+    )

@@ -12,7 +12,9 @@ FEWEST, SHORT = 3, 0.05  # repeats of what takes less than SHORT seconds, so tha
 PATIENCE = 0.25  # seconds for one measurement, about
 
 
-def compared(run: Callable[[], Any], other: Callable[[], Any], patience: float = PATIENCE) -> tuple[float, float]:
+def compared(
+    run: Callable[[], Any], other: Callable[[], Any], patience: float = PATIENCE
+) -> tuple[float, float]:
     """(median seconds of `run`, median of its ratio to `other`)."""
     (seconds, _), ratio = _in_turns((run, other), patience)
     return seconds, ratio
@@ -29,14 +31,18 @@ def fastest(runs: Sequence[Callable[[], Any]], patience: float = PATIENCE) -> li
 
 
 def _in_turns(
-    runs: Sequence[Callable[[], Any]], patience: float, of: Callable[[Iterable[float]], float] = median
+    runs: Sequence[Callable[[], Any]],
+    patience: float,
+    of: Callable[[Iterable[float]], float] = median,
 ) -> tuple[list[float], float]:
     once = sum(_timed(run, 1) for run in runs)  # the first call fills caches and is not kept
     once = min(once, sum(_timed(run, 1) for run in runs)) if once < patience else once
     repeats = max(min(REPEATS, int(patience / once)), FEWEST if once < SHORT else 1)
     loops = max(min(MOST_LOOPS, int(patience / (once * repeats))), 1)
     turns = [[_timed(run, loops) for run in runs] for _ in range(repeats)]
-    return [of(column) for column in zip(*turns, strict=True)], median(turn[0] / turn[-1] for turn in turns)
+    return [of(column) for column in zip(*turns, strict=True)], median(
+        turn[0] / turn[-1] for turn in turns
+    )
 
 
 def _timed(run: Callable[[], Any], loops: int) -> float:

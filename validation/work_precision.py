@@ -86,7 +86,9 @@ def _elements(solver: Callable[..., Any]) -> Callable[[Problem, int], Callable[[
 
 def _own_elements(problem: Problem, n: int) -> Callable[[], Any]:
     x, gap, load = _grid(problem, n)
-    return lambda: peers.boundary_elements(gap, float(x[1] - x[0]), load, periodic=bool(problem.period))
+    return lambda: peers.boundary_elements(
+        gap, float(x[1] - x[0]), load, periodic=bool(problem.period)
+    )
 
 
 def _grid(problem: Problem, n: int) -> tuple[Any, Any, float]:
@@ -111,7 +113,12 @@ def _closed_load(problem: Problem) -> float:
     """∫p dx over a period, by Gauss-Chebyshev quadrature in x/a: p is sqrt(a² - x²) times an analytic function."""
     a = math.atan(problem.edges[1]) / math.pi
     theta = (np.arange(1, 200)) * np.pi / 200
-    return float((_closed_on(problem, np.tan(np.pi * a * np.cos(theta))) * np.sin(theta)).sum() * np.pi / 200 * a)
+    return float(
+        (_closed_on(problem, np.tan(np.pi * a * np.cos(theta))) * np.sin(theta)).sum()
+        * np.pi
+        / 200
+        * a
+    )
 
 
 def installed(name: str) -> bool:
@@ -153,7 +160,9 @@ def error(problem: Problem, method: Method, n: int, answer: Any) -> float:
     return float(np.abs(answer - exact).max() / exact.max())
 
 
-def race(problem: Problem, method: Method, quick: bool) -> Iterator[tuple[int, float, float, float]]:
+def race(
+    problem: Problem, method: Method, quick: bool
+) -> Iterator[tuple[int, float, float, float]]:
     """(size, error, seconds, ratio to the closed form) at growing sizes."""
     polynomial = method.name == "this package" and not problem.scene.profile.pieces.functions
     sizes = method.sizes[-1:] if polynomial else method.sizes[:: 2 if quick else 1]
@@ -178,7 +187,16 @@ def compute(quick: bool) -> Iterator[Record]:
             yield curve("race: " + problem.name, method.name, points, says=problem.says)
             n, least, seconds, ratio = min(points, key=lambda point: point[1])
             best[method.name] = least, seconds
-            rows.append((problem.name, method.name, least, n if method.name != "this package" else None, 1e3 * seconds, ratio))
+            rows.append(
+                (
+                    problem.name,
+                    method.name,
+                    least,
+                    n if method.name != "this package" else None,
+                    1e3 * seconds,
+                    ratio,
+                )
+            )
         yield from _claims(problem, best)
     yield from further(quick)
     yield Table(
@@ -191,7 +209,11 @@ def compute(quick: bool) -> Iterator[Record]:
 
 
 def _absent() -> list[str]:
-    return [f"{name} (not installed)" for name, (module, _) in peers.INSTALLABLE.items() if not installed(module)]
+    return [
+        f"{name} (not installed)"
+        for name, (module, _) in peers.INSTALLABLE.items()
+        if not installed(module)
+    ]
 
 
 def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[Claim]:
@@ -220,4 +242,8 @@ def figures(found: Found) -> Iterator[Figure]:
         ax.set_ylim(1e-17, 10)
         legend(ax)
         name = "".join(c if c.isalnum() else "-" for c in key)
-        yield Figure(name, drawing, f"{curves[0].about['says']}. Each mark is one size; lower and further left is better.")
+        yield Figure(
+            name,
+            drawing,
+            f"{curves[0].about['says']}. Each mark is one size; lower and further left is better.",
+        )

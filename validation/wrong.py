@@ -60,8 +60,16 @@ def with_shear(scene: sie.Scene, values: Values) -> sie.Solution:
 
 
 PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
-SKEW = sie.Scene(profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))), modulus=1.0, half_width=1.125)
-SMOOTH = sie.Scene(profile=sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"), modulus=1.0, half_width=1.5)
+SKEW = sie.Scene(
+    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
+    modulus=1.0,
+    half_width=1.125,
+)
+SMOOTH = sie.Scene(
+    profile=sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even"),
+    modulus=1.0,
+    half_width=1.5,
+)
 
 
 def closed_form(x: Any, second: float = 1.0, b: float = 1.0) -> Array:
@@ -71,15 +79,21 @@ def closed_form(x: Any, second: float = 1.0, b: float = 1.0) -> Array:
     phi, phi0 = np.arcsin(np.clip(x / b, 0, 1)), np.arcsin(a / b)
     with np.errstate(all="ignore"):
         first = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
-        logs = first + second * a * np.log(np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2)))
-    return ((np.pi - 2 * phi0) * b * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (2 * np.pi)
+        logs = first + second * a * np.log(
+            np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2))
+        )
+    return ((np.pi - 2 * phi0) * b * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
+        2 * np.pi
+    )
 
 
 def root(x: Any) -> Array:
     return np.sqrt(np.maximum((1 - x) * (1 + x), 1e-30))
 
 
-def gauss_chebyshev(scene: sie.Scene, n: int = 40, shift: float = 0.0, at: int = 7, half: float = 0.0) -> Values:
+def gauss_chebyshev(
+    scene: sie.Scene, n: int = 40, shift: float = 0.0, at: int = 7, half: float = 0.0
+) -> Values:
     """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by `half` a spacing."""
     solution = sie.solve(scene)
     m, r = solution.centre, solution.half_width

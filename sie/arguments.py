@@ -1,0 +1,151 @@
+"""Refusals of values that mean nothing: one sentence with the value and the remedy, before any work is done."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .numerics.interval import EPS
+
+# A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
+FINEST = 2.0 * EPS
+# Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are such
+# products, loads and moments, may be larger, and so may coefficients of powers of a length.
+LARGEST, LARGEST_LOAD, LARGEST_COEFFICIENT = 1e150, 1e250, 1e300
+REMEDY = "choose other units"
+
+
+def real(name: str, value: Any) -> float:
+    """`value` as a float; ValueError unless it is one number (nan is not a number)."""
+    if isinstance(value, (bool, str, bytes)):
+        raise ValueError(f"{name} = {value!r} is not a number: give a float")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise ValueError(
+            f"{name} is a whole number beyond the range of doubles: {REMEDY}"
+        ) from None
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {value!r} is not a number: give a float") from None
+    if math.isnan(number):
+        raise ValueError(f"{name} is nan: give a number")
+    return number
+
+
+def finite(name: str, value: Any) -> float:
+    number = real(name, value)
+    if math.isinf(number):
+        raise ValueError(f"{name} = {number} is infinite: give a finite number")
+    return number
+
+
+def measure(name: str, value: Any, largest: float = LARGEST) -> float:
+    """A finite number that may be multiplied with others."""
+    number = finite(name, value)
+    if abs(number) > largest:
+        raise ValueError(
+            f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}"
+        )
+    return number
+
+
+def positive(name: str, value: Any, largest: float = LARGEST) -> float:
+    number = measure(name, value, largest)
+    if number <= 0.0:
+        raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
+    if number < 1.0 / largest:
+        raise ValueError(
+            f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}"
+        )
+    return number
+
+
+def not_negative(name: str, value: Any) -> float:
+    number = finite(name, value)
+    if number < 0.0:
+        raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
+    return number
+
+
+def tolerance(value: Any) -> float:
+    """A relative accuracy that doubles can hold: below 1, and not below FINEST."""
+    tol = positive("tol", value)
+    if tol < FINEST:
+        raise ValueError(
+            f"tol = {tol:g} is below {FINEST:.2g}, the rounding of doubles: give at least that"
+        )
+    if tol >= 1.0:
+        raise ValueError(f"tol = {tol:g} lets any answer pass: give a relative accuracy below 1")
+    return tol
+
+
+def reals(name: str, values: Any) -> NDArray[np.float64]:
+    """`values` as an array of floats, infinite or nan where they are; ValueError unless they are real numbers."""
+    array = np.asarray(values)
+    if array.dtype == np.float64:
+        return array
+    try:
+        if array.dtype.kind in "fiu":
+            return array.astype(float)
+        if array.dtype.kind == "O":  # numbers of other libraries; None would become nan
+            return np.array([float(value) for value in array.flat]).reshape(array.shape)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name} is not an array of real numbers: give positions as floats")
+
+
+def complexes(name: str, values: Any) -> NDArray[np.complex128]:
+    """`values` as an array of complex numbers, infinite or nan where they are; ValueError unless they are numbers."""
+    array = np.asarray(values)
+    try:
+        if array.dtype.kind in "cfiu":
+            return array.astype(complex, copy=False)
+        if array.dtype.kind == "O":
+            return np.array([complex(value) for value in array.flat]).reshape(array.shape)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
+
+
+def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
+    """What a user's function returns; ValueError, with the remedy, if it fails as functions of single numbers do."""
+    try:
+        return function(*arrays)
+    except Exception as problem:  # whatever a user's function may raise
+        count = "an array" if len(arrays) == 1 else f"{len(arrays)} arrays"
+        remedy = f"make it a function of {count} by NumPy's functions, or by np.vectorize"
+        raise ValueError(
+            f"{name} fails when called with {count} ({problem}): {remedy}"
+        ) from problem
+
+
+def real_values(
+    name: str, function: Callable[..., Any], x: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """What a user's function of an array returns, as floats of x's shape.
+
+    ValueError unless it returns real numbers of that shape, or one.
+    """
+    returned = of_arrays(name, function, x)
+    if type(returned) is np.ndarray and returned.dtype == x.dtype and returned.shape == x.shape:
+        return returned
+    try:
+        values = np.asarray(returned)
+    except ValueError:
+        values = np.asarray(None)  # rows of unequal length
+    if values.dtype.kind == "c":
+        one = complex(values.flat[np.argmax(np.abs(values.imag))]) if values.size else 0j
+        raise ValueError(
+            f"{name} returned complex numbers, like {one:.6g}: it must be real; return the real part if that is what is meant"
+        )
+    if values.dtype.kind not in "fiu" or values.shape not in (x.shape, ()):
+        kind = "one value" if values.shape == () else f"an array of shape {values.shape}"
+        raise ValueError(
+            f"{name} returned {kind} of type {values.dtype} for floats of shape {x.shape}: "
+            "make it a function of an array of any shape, by NumPy's functions or by np.vectorize"
+        )
+    return np.broadcast_to(values.astype(float, copy=False), x.shape)

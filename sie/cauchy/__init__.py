@@ -1,0 +1,1 @@
+"""Cauchy singular integral equations of any index."""

@@ -1,0 +1,277 @@
+"""Cauchy singular integral equations as values: `CauchyEquation`, refused unless it is well posed; `collocation` solves it.
+
+Muskhelishvili, Singular Integral Equations (1953), §§ 107-115, for exponents and index.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie import arguments
+from sie.numerics import jacobi
+from sie.numerics.interval import EPS
+from sie.numerics.jacobi import Weight
+
+from .density import JacobiDensity
+from .formulation import Condition, Function, Problem
+from .interval_map import maps
+from .solver import attempt, consistent, solve
+from .system import System
+
+Array = NDArray[Any]
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class CauchyEquation:
+    """a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j free_j(x).
+
+    interval   (x1, x2), or several of them, ascending and apart
+    g          the right-hand side: a function of an array x, or a number; real or complex
+    a, b       constants, real or complex, b ≠ 0 and a² + b² ≠ 0
+    k          regular kernel k(x, t), called with arrays of one shape; None for none
+    ends       "singular" or "bounded"; or a pair for the left and right end; or such a pair for each interval
+    total      given ∫φ dx: a number (of all intervals together), or one for each interval, None where it is not given
+    moment     given ∫φ x dx about x = 0, in the same way
+    free       functions (or numbers) whose multiples d_j are unknown too; as many more side conditions are needed
+
+    The side conditions must be as many as the index (the sum over the intervals of +1, 0, -1 for two, one, no singular ends) plus the
+    number of free functions. Without any and with index -1 the right-hand side must be consistent, and it is checked.
+
+    Raises ValueError, with what the index asks for, when the question is not well posed. The half-plane's conventions, with
+    1/(x - t) in place of 1/(t - x), are b = -1.
+
+    A slit |x| < 1 under unit pressure, by its dislocation density: φ = x / sqrt(1 - x²), stress intensity 1/sqrt(2) at each end.
+
+    >>> import sie
+    >>> crack = sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0)
+    >>> solution = crack.solve()
+    >>> round(float(solution(0.6)), 12), solution.n
+    (0.75, (4,))
+    """
+
+    interval: Any
+    g: Function
+    _: KW_ONLY
+    a: complex = 0.0
+    b: complex = 1.0
+    k: Callable[[Array, Array], Any] | None = None
+    ends: Any = "singular"
+    total: Any = None
+    moment: Any = None
+    free: Sequence[Function] = ()
+
+    def __post_init__(self) -> None:
+        for name, value in (
+            ("interval", self._intervals()),
+            ("a", _constant("a", self.a)),
+            ("b", _constant("b", self.b)),
+        ):
+            object.__setattr__(self, name, value)
+        if not isinstance(self.free, (Sequence, np.ndarray)) or isinstance(self.free, str):
+            raise ValueError(
+                f"free = {self.free!r}: give a sequence of functions or numbers, such as (1.0,)"
+            )
+        object.__setattr__(self, "free", tuple(self.free))
+        for function, name in ((self.g, "g"), *((f, "free") for f in self.free)):
+            if not callable(function):
+                if np.ndim(function):
+                    raise ValueError(
+                        f"{name} = {function!r} is an array: give a function of an array x, or a number"
+                    )
+                _constant(name, function)
+        if self.k is not None and not callable(self.k):
+            raise ValueError(
+                f"k = {self.k!r} is not a function: give k(x, t), or None for no kernel"
+            )
+        self._refuse_degenerate()
+        object.__setattr__(self, "ends", self._ends())
+        for name in ("total", "moment"):
+            object.__setattr__(self, name, self._given(name))
+        self._refuse_miscounted()
+
+    # -- what is asked ------------------------------------------------------------------------------------------------
+
+    def _intervals(self) -> tuple[Interval, ...]:
+        try:
+            ends = np.array(self.interval, dtype=float)
+            ends = (
+                ends.reshape(-1, 2)
+                if ends.ndim in (1, 2) and ends.shape[-1] == 2
+                else np.zeros((0, 2))
+            )
+        except (TypeError, ValueError):
+            ends = np.zeros((0, 2))
+        if not len(ends):
+            raise ValueError(
+                f"interval = {self.interval!r}: give a pair (x1, x2), or several such pairs"
+            )
+        out = tuple((float(x1), float(x2)) for x1, x2 in ends)
+        for x1, x2 in out:
+            if not (np.isfinite(x1) and np.isfinite(x2) and x1 < x2):
+                raise ValueError(f"interval ({x1:g}, {x2:g}): give finite ends with x1 < x2")
+            if not np.isfinite(x2 - x1):
+                raise ValueError(
+                    f"interval ({x1:g}, {x2:g}): its length is more than the largest double; measure x in larger units"
+                )
+        for before, after in pairwise(out):
+            if not before[1] < after[0]:
+                raise ValueError(
+                    f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right"
+                )
+        return out
+
+    def _refuse_degenerate(self) -> None:
+        if self.b == 0.0:
+            raise ValueError(
+                "b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do"
+            )
+        ratio = self.a / self.b  # a² or b² may be more, or less, than the largest double
+        if not np.isfinite(ratio):
+            raise ValueError(
+                f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm equation; give a larger b"
+            )
+        if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
+            raise ValueError(
+                f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type"
+            )
+
+    def _ends(self) -> tuple[tuple[str, str], ...]:
+        ends, n = (
+            self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends,
+            len(self.interval),
+        )
+        if isinstance(ends, str) or (
+            isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)
+        ):
+            ends = (ends,) * n
+        if not isinstance(ends, Sequence) or len(ends) != n:
+            given = (
+                f"given for {len(ends)} intervals, but there are {n}"
+                if isinstance(ends, Sequence)
+                else f"{ends!r}"
+            )
+            raise ValueError(
+                f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval"
+            )
+        pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
+        for pair in pairs:
+            if (
+                not isinstance(pair, Sequence)
+                or len(pair) != 2
+                or any(end not in ("singular", "bounded") for end in pair)
+            ):
+                raise ValueError(f"ends = {pair!r}: each end is 'singular' or 'bounded'")
+        return tuple((left, right) for left, right in pairs)
+
+    def _given(self, name: str) -> tuple[Any, ...] | complex | None:
+        value = getattr(self, name)
+        if value is None or np.ndim(value) == 0:
+            return None if value is None else _constant(name, value)
+        values = tuple(None if v is None else _constant(name, v) for v in value)
+        if len(values) != len(self.interval):
+            raise ValueError(
+                f"{name} is given for {len(values)} intervals, but there are {len(self.interval)}: None where it is not given"
+            )
+        return values
+
+    def _refuse_miscounted(self) -> None:
+        needed, given = self.index + len(self.free), len(self._conditions)
+        if given == needed or (needed < 0 and given == 0):
+            return
+        free = f" and {len(self.free)} free function(s)" if self.free else ""
+        raise ValueError(
+            f"index {self.index}{free} asks for {max(needed, 0)} side condition(s), but {given} given: give as many of total and "
+            "moment, or make other ends bounded or singular, or free a constant of g"
+        )
+
+    @cached_property
+    def weights(self) -> tuple[Weight, ...]:
+        """The weight (1-s)^alpha (1+s)^beta of each interval, with its index."""
+        found = [
+            jacobi.weight_of(
+                complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded")
+            )
+            for e in self.ends
+        ]
+        for weight, pair in zip(found, self.ends, strict=True):
+            if weight is None:
+                raise ValueError(
+                    f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are imaginary: make both ends bounded"
+                )
+        return tuple(w for w in found if w is not None)
+
+    @property
+    def index(self) -> int:
+        """How many side conditions the solution needs before constants are freed: the sum over the intervals."""
+        return sum(weight.kappa for weight in self.weights)
+
+    @property
+    def exponents(self) -> tuple[tuple[Any, Any], ...]:
+        """Of the distance from the left and the right end of each interval."""
+        return tuple((weight.beta, weight.alpha) for weight in self.weights)
+
+    @cached_property
+    def _conditions(self) -> tuple[Condition, ...]:
+        found = []
+        for power, name in enumerate(("total", "moment")):
+            value = getattr(self, name)
+            if isinstance(value, tuple):
+                found += [Condition(power, (i,), v) for i, v in enumerate(value) if v is not None]
+            elif value is not None:
+                found.append(Condition(power, tuple(range(len(self.interval))), value))
+        return tuple(found)
+
+    # -- answers ------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def problem(self) -> Problem:
+        return Problem(
+            maps(self.interval, self.weights),
+            self.weights,
+            self.a,
+            self.b,
+            self.g,
+            self.k,
+            self._conditions,
+            tuple(self.free),
+        )
+
+    def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
+        """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.
+
+        k is called once, on a grid that resolves a smooth kernel whatever g asks for; once more where it is narrower, up to 1000 points;
+        and size by size, growing by half, where it is rougher than that. Raises ContactError, with the best `reached["density"]`, when
+        tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
+        """
+        tol = arguments.tolerance(tol)
+        if n is not None:
+            return consistent(attempt(self.problem, (_size(n),) * len(self.interval)))
+        return solve(self.problem, tol)
+
+    def system(self, n: int) -> tuple[Array, Array]:
+        """The square system for n nodes on each interval, (matrix, right-hand side), as it is solved where no transform serves."""
+        system = System(self.problem, (_size(n),) * len(self.interval))
+        return system.matrix(), system.rhs
+
+
+def _constant(name: str, value: Any) -> complex:
+    """A finite number: a float where it is real."""
+    if isinstance(value, (complex, np.complexfloating)):
+        arguments.finite(f"{name}.real", value.real)
+        arguments.finite(f"{name}.imag", value.imag)
+        return complex(value) if value.imag else float(value.real)
+    return arguments.finite(name, value)
+
+
+def _size(n: Any) -> int:
+    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 2:
+        raise ValueError(f"n = {n!r} is not a number of nodes: give an integer >= 2")
+    return int(n)

@@ -1,0 +1,160 @@
+"""Gauss-Chebyshev and Gauss-Jacobi collocation for Cauchy singular integral equations.
+
+    a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j u_j(x),       with side conditions  ∫ φ x^power dx = value
+
+On [-1, 1] the density is sought as φ = w Σ c_n p_n, w = (1-s)^α (1+s)^β with the exponents that a and b ask for and p_n orthonormal for w.
+The singular part maps p_n to one constant times p̃_{n-κ}, orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the matrix for c is
+the identity, moved by κ places, plus the coefficients of what is smooth; side conditions fill the places that κ = 1 leaves open, and
+free constants u_j answer the equation too many that κ = -1 brings.
+
+Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`). Otherwise the matrix is square, and
+about as well conditioned as the identity plus k (`system`). The sizes grow until coefficients have decayed, the residual is small at
+points that were not used, and the kernel's own coefficients show that its integrals are resolved. k itself is called once (`kernel`).
+
+Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J. Numer. Anal. 19 (1982), for the weighted
+spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. Comput. 17 (1996), for GMRES on equations of the second kind.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+
+from .density import JacobiDensity
+from .formulation import DECAYED, Attempt, Problem
+from .kernel import Series, series
+from .system import System
+from .transform import by_transform
+
+ENLARGED = 1.45  # from one attempt to the next: what is spent is not twice what is needed
+LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a DCT, gives up; ...
+LARGEST_RULE, LARGEST_COMPLEX_RULE = (
+    4000,
+    1500,
+)  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
+NEAR_MINUS_ONE = (
+    1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
+)
+LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
+IDLE, SETTLED = (
+    3,
+    1e-6,
+)  # after so many enlargements without progress an error below this is noise of g or k
+# Errors from the first of these sizes on, once the second is reached, tell whether they fall like a power of n, as those of kinks and of
+# weak singularities do, and whether a system so many times larger than the largest would be enough.
+FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
+# A right-hand side that misses its consistency by more than this fraction is refused.
+INCONSISTENT = 1e-9
+
+
+def solve(problem: Problem, tol: float) -> JacobiDensity:
+    """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
+    sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
+    best: Attempt | None = None
+    seen: list[tuple[int, float]] = []
+    while True:
+        tried = attempt(problem, sizes, kernel)
+        more = tried.unresolved(tol)
+        if not more.any():
+            return consistent(tried)
+        if best is None or tried.progress < 0.5 * best.progress:
+            best, idle = tried, 0
+        else:
+            idle += 1
+        seen.append((sum(sizes), tried.progress))
+        hopeless = problem.k is not None and kernel is None and _never_settles(seen, tol)
+        sizes = _enlarged(sizes, more)
+        if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED) or hopeless:
+            reached = best.answer()
+            raise ContactError(
+                f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its estimated error is {reached.error:.1e}; "
+                + _reason(problem, best),
+                density=reached,
+            )
+
+
+def _largest(problem: Problem) -> int:
+    if not problem.is_transform:
+        return LARGEST
+    (weight,) = problem.weights
+    if weight.is_chebyshev:
+        return LARGEST_TRANSFORM
+    return LARGEST_RULE if weight.is_real else LARGEST_COMPLEX_RULE
+
+
+def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
+    """Whether the errors of a kernel without a series fall like a power of n that no affordable n brings to tol.
+
+    So they fall where k has a kink or is singular, from the first sizes on; of a kernel that is only narrow they stay where they are
+    until n resolves it, and then fall faster than any power.
+    """
+    n, progress = np.array([(n, error) for n, error in seen if n >= FIRST_SEEN]).reshape(-1, 2).T
+    if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
+        return False
+    order = -float(np.polyfit(np.log(n), np.log(progress), 1)[0])
+    return (
+        KINK[0] <= order <= KINK[1]
+        and n[-1] * (progress.min() / tol) ** (1.0 / order) > HOPELESS * LARGEST
+    )
+
+
+def _reason(problem: Problem, best: Attempt) -> str:
+    """Why a density may not settle, and what to do."""
+    enough = (
+        1.1 * best.progress / DECAYED
+    )  # coefficients have to decay to this part of tol; it is printed to two digits
+    remedy = f"raise tol to {enough:.1e}" if enough < 1.0 else "smooth them"
+    for weight in problem.weights:
+        left = abs(
+            (abs(weight.alpha.real) - 1.0)
+            + math.copysign(1.0, weight.alpha.real) * weight.tail.real
+        )
+        if weight.kappa == 0 and left < NEAR_MINUS_ONE:
+            return (
+                f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of φ stands at that end: "
+                f"{remedy}, or make that end bounded and the other singular"
+            )
+    return f"g or k is noisy or not smooth: {remedy}"
+
+
+def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
+    """Where there is a kernel on one interval: as many nodes as g needs without it, by transforms."""
+    sizes, free_of_kernel = problem.first_sizes(), replace(problem, k=None)
+    if problem.is_transform or not free_of_kernel.is_transform:
+        return sizes
+    tried = sizes
+    while sum(tried) <= LARGEST_GUESS:
+        more = attempt(free_of_kernel, tried).unresolved(tol)
+        if not more.any():
+            return tried
+        tried = _enlarged(tried, more)
+    return sizes
+
+
+def _enlarged(sizes: tuple[int, ...], more: NDArray[np.bool_]) -> tuple[int, ...]:
+    return tuple(
+        int(np.ceil(ENLARGED * n)) if grows else n for n, grows in zip(sizes, more, strict=True)
+    )
+
+
+def consistent(found: Attempt) -> JacobiDensity:
+    if found.defect > INCONSISTENT:
+        raise ContactError(
+            f"the right-hand side is not consistent: bounded ends ask for an integral of g that vanishes, and it misses a constant of "
+            f"{found.defect:.1e} times g; free a constant, or let an end be singular",
+            density=found.answer(),
+        )
+    return found.answer()
+
+
+def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:
+    """The density with so many nodes on each interval; with the kernel's series, if it is known, in place of the kernel."""
+    if problem.is_transform:
+        return by_transform(problem, sizes[0])
+    system = System(problem, sizes, kernel)
+    return system.attempt(system.solution())

@@ -1,0 +1,363 @@
+"""Kernels and several intervals: a square system, the identity plus what is smooth.
+
+LAPACK factorises it while it is small, and above DENSE unknowns GMRES solves it in steps of n² operations, whose number does not grow
+with n. Several intervals are coupled by their Cauchy kernels, which are smooth there; close ones are graded towards each other (`grading`).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics import jacobi
+from sie.numerics.interval import EPS
+
+from .formulation import (
+    PROBES,
+    TAIL,
+    Attempt,
+    Kernel,
+    Problem,
+    Terms,
+    attempted,
+    condition_rows,
+    constant_of,
+    functionals,
+    moved,
+    positions,
+    positive,
+    real_if_real,
+    sample,
+    sample_kernel,
+    solved,
+)  # fmt: skip
+from .interval_map import Affine
+from .kernel import Series
+from .rounding import Spread, signs, spread, unsure
+
+Array = NDArray[Any]
+
+# Unknowns up to which LAPACK's n³ costs less than GMRES, measured (`validation`).
+DENSE = 600
+KRYLOV = 120
+# Of a kernel's coefficients in t: the first and the last ones are looked at, and below this they are rounding.
+_FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
+NEGLIGIBLE = 64.0 * EPS
+
+
+class _Block(NamedTuple):
+    """One interval of a system: where its rows are sampled (its probes last), and where its integrals are."""
+
+    x: Array
+    rows: tuple[Array, Array, Array]  # x2 - x, x - x1, ρ
+    right: Array
+    left: Array
+    t: Array
+    columns: tuple[Array, Array, Array]  # x2 - t, t - x1, dt/dσ / ρ
+    sigma: Array
+    analysis: (
+        Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
+    )
+    quadrature: Array  # coefficients c -> weights times values at the columns
+    kappa: int
+
+
+class System:
+    """The equations for all coefficients c and free constants d, with n_i nodes on interval i.
+
+    Rows in this order: interval by interval its projections on p̃, a condition before them where κ = 1, without the one too many
+    where κ = -1; then those that were left out and the conditions that are left, to match the free constants. So the matrix is the
+    identity plus what is smooth, but for that border. The kernel is called once, or not at all where its series is given.
+    """
+
+    def __init__(
+        self, problem: Problem, sizes: tuple[int, ...], series: Series | None = None
+    ) -> None:
+        self.problem, self.sizes, self.series = problem, sizes, series
+        self.blocks = [_block(problem, i, n) for i, n in enumerate(sizes)]
+        self.regular, self.kernel = self._kernel()
+        sampled = [
+            sample(name, f, np.concatenate([b.x for b in self.blocks]))
+            for name, f in problem.functions
+        ]
+        self.sampled = np.stack(sampled) * np.concatenate([b.rows[2] for b in self.blocks])
+        of = [
+            functionals(*parts) for parts in zip(problem.maps, problem.weights, sizes, strict=True)
+        ]
+        self.conditions, self.values = condition_rows(problem, of)
+
+    def _kernel(self) -> tuple[Array | None, Array]:
+        """k, and all that is smooth, rows by columns, times ρ of the row, over ρ of the column."""
+        x, t = (
+            np.concatenate([b.x for b in self.blocks]),
+            np.concatenate([b.t for b in self.blocks]),
+        )
+        rho, rest = (
+            np.concatenate([b.rows[2] for b in self.blocks])[:, None],
+            np.concatenate([b.columns[2] for b in self.blocks]),
+        )
+        regular = (
+            None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
+        )
+        blocks = range(len(self.blocks))
+        cauchy = np.concatenate(
+            [np.concatenate([self._cauchy(i, j) for j in blocks], axis=1) for i in blocks]
+        )
+        out: Array = (real_if_real(self.problem.b) / np.pi) * cauchy
+        return regular, out if regular is None else regular + out
+
+    def _regular(self, k: Kernel, x: Array, t: Array) -> Array:
+        if self.series is None:
+            return sample_kernel(k, x, t)
+        return self.series.at(
+            [0.5 * (b.left - b.right) for b in self.blocks], [b.sigma for b in self.blocks]
+        )
+
+    def _cauchy(self, i: int, j: int) -> Array:
+        rows, columns = self.blocks[i], self.blocks[j]
+        if i == j:
+            smooth = self.problem.maps[i].smooth(columns.sigma, rows.right, rows.left)
+            return np.zeros((len(rows.x), len(columns.t))) if smooth is None else smooth
+        # t - x as a sum of positive distances: in a narrow gap t and x agree to many digits
+        maps = self.problem.maps
+        if j > i:
+            distance = (maps[j].x1 - maps[i].x2) + rows.rows[0][:, None] + columns.columns[1]
+        else:
+            distance = -((maps[i].x1 - maps[j].x2) + rows.rows[1][:, None] + columns.columns[0])
+        out: Array = rows.rows[2][:, None] * columns.columns[2] / distance
+        return out
+
+    @cached_property
+    def _row_slices(self) -> list[slice]:
+        ends = np.cumsum([0, *(len(b.x) for b in self.blocks)]).tolist()
+        return [slice(i, j) for i, j in pairwise(ends)]
+
+    @cached_property
+    def _column_slices(self) -> list[slice]:
+        ends = np.cumsum([0, *self.sizes]).tolist()
+        return [slice(i, j) for i, j in pairwise(ends)]
+
+    def _projected(self, values: Array) -> Array:
+        """Rows sampled (first axis) -> coefficients of p̃, interval by interval."""
+        return np.concatenate(
+            [
+                b.analysis.T @ values[rows][: -len(PROBES)]
+                for b, rows in zip(self.blocks, self._row_slices, strict=True)
+            ]
+        )
+
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """Which row of (conditions, projections) stands where; see the class."""
+        at, start, condition, late = [], len(self.values), 0, []
+        for block, n in zip(self.blocks, self.sizes, strict=True):
+            m = n - block.kappa
+            own = list(range(start, start + m))
+            if block.kappa == 1 and condition < len(self.values):
+                own = [condition, *own]
+                condition += 1
+            elif block.kappa == -1:
+                late.append(own[0])
+                own = own[1:]
+            at += own
+            start += m
+        return np.array(at + late + list(range(condition, len(self.values))))
+
+    @cached_property
+    def _free_columns(self) -> tuple[Array, Array]:
+        """Of the free functions, normalised, and what they were divided by."""
+        columns = np.concatenate(
+            (
+                np.zeros((len(self.values), len(self.sampled) - 1)),
+                -self._projected(self.sampled[1:].T),
+            )
+        )
+        scale = np.linalg.norm(columns, axis=0)
+        scale[scale == 0.0] = 1.0
+        return columns / scale, scale
+
+    @cached_property
+    def rhs(self) -> Array:
+        return np.concatenate((self.values, self._projected(self.sampled[0])))[self.order]
+
+    def matrix(self) -> Array:
+        """The whole matrix."""
+        return self._matrix
+
+    @cached_property
+    def _matrix(self) -> Array:
+        smooth = np.concatenate(
+            [
+                self.kernel[:, at] @ b.quadrature
+                for b, at in zip(self.blocks, self._column_slices, strict=True)
+            ],
+            axis=1,
+        )
+        projected = self._projected(smooth)
+        start = 0
+        for block, at in zip(self.blocks, self._column_slices, strict=True):
+            n, m = at.stop - at.start, at.stop - at.start - block.kappa
+            projected[start : start + m, at] += np.eye(m, n, k=block.kappa)
+            start += m
+        coefficients = np.concatenate((self.conditions, projected))
+        return np.concatenate((coefficients, self._free_columns[0]), axis=1)[self.order]
+
+    def applied(self, unknown: Array) -> Array:
+        """The matrix times a vector, in n² operations."""
+        N = sum(self.sizes)
+        c, d = unknown[:N], unknown[N:]
+        weighted = self._weighted(c)
+        projected = self._projected(self.kernel @ weighted)
+        singular = [
+            moved(c[at], b.kappa) for b, at in zip(self.blocks, self._column_slices, strict=True)
+        ]
+        rows = np.concatenate((self.conditions @ c, projected + np.concatenate(singular)))
+        out: Array = (rows + self._free_columns[0] @ d)[self.order]
+        return out
+
+    def _weighted(self, c: Array) -> Array:
+        return np.concatenate(
+            [b.quadrature @ c[at] for b, at in zip(self.blocks, self._column_slices, strict=True)]
+        )
+
+    def solution(self) -> Array:
+        return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
+
+    def by_lapack(self) -> Array:
+        """In n³ operations."""
+        return solved(self.matrix(), self.rhs)
+
+    def by_gmres(self) -> Array:
+        """In n² operations a step, and as many steps as the kernel asks for, whatever n."""
+        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
+
+        kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
+        operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
+        found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
+        # GMRES stops at rounding of its own recursion; what counts is the residual
+        if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(
+            len(self.rhs)
+        ) * 64.0 * EPS * np.linalg.norm(self.rhs):
+            raise ContactError(
+                f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth"
+            )
+        out: Array = found
+        return out
+
+    def _aliased(self, c: Array, sizes: Array) -> list[float]:
+        """For each interval, what its nodes miss of the integrals over it, relative to the terms' sizes at the rows.
+
+        The residual is blind to it, as it integrates by the same nodes. The coefficients of k(x, ·) tell: n Gauss nodes mistake those
+        beyond 2n - m for the m-th; for complex exponents, where nodes are not Gauss's, all beyond n.
+        """
+        missed = []
+        for block, weight, at in zip(
+            self.blocks, self.problem.weights, self._column_slices, strict=True
+        ):
+            first, last = (
+                np.abs(self.kernel[:, at] @ block.quadrature[:, part]).max(axis=1) / sizes
+                for part in (_FIRST, _LAST)
+            )
+            tail, largest = float(last.max()), max(float(first.max()), float(last.max()))
+            decay = tail / positive(largest)
+            missed.append(
+                float(np.abs(c[at]).max())
+                * tail
+                * (decay if weight.is_real else float(decay > NEGLIGIBLE))
+            )
+        return missed
+
+    def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
+        """For each interval what rounding does to it, by the sizes of the equation's terms that are rounded at the rows.
+
+        On affine intervals, where the matrix is well conditioned, the residual tells; where GMRES serves, more solutions cost too much.
+        """
+        if all(isinstance(m, Affine) for m in self.problem.maps) or len(self.rhs) > DENSE:
+            return []
+        rounded = signs(len(sizes) + len(self.rhs))
+        at_rows, at_sums = rounded[: len(sizes)], rounded[len(sizes) :]
+        terms = np.concatenate(
+            (
+                self.values[:, None] * at_sums[: len(self.values)],
+                self._projected(sizes[:, None] * at_rows),
+            )
+        )[self.order]
+        sums = (np.abs(self._matrix[:, : len(c)]) @ np.abs(c))[:, None] * at_sums
+        off = solved(self._matrix, terms + sums)
+        of_interval = zip(
+            self.problem.maps, self.problem.weights, self.blocks, self._column_slices, strict=True
+        )
+        return [
+            spread(m, weight, (block.sigma, block.quadrature), c[at], off[at])
+            for m, weight, block, at in of_interval
+        ]
+
+    def attempt(self, unknown: Array) -> Attempt:
+        N = sum(self.sizes)
+        c, d = unknown[:N], unknown[N:] / self._free_columns[1]
+        smooth = self.kernel @ self._weighted(c)
+        wanted = np.concatenate(([1.0], d)) @ self.sampled
+        size = [
+            positive(np.abs(wanted[rows]).max(), np.abs(smooth[rows]).max())
+            for rows in self._row_slices
+        ]
+        aliased = self._aliased(c, np.repeat(size, [len(b.x) for b in self.blocks]))
+        varying = wanted if self.regular is None else wanted - self.regular @ self._weighted(c)
+        off = [
+            unsure(b.x, varying[at] / b.rows[2], b.rows[2])
+            for b, at in zip(self.blocks, self._row_slices, strict=True)
+        ]
+        rounded = np.maximum(np.abs(wanted), np.abs(smooth)) + np.concatenate(off) / EPS
+        terms = []
+        for i, (block, rows, at) in enumerate(
+            zip(self.blocks, self._row_slices, self._column_slices, strict=True)
+        ):
+            weight, probes = self.problem.weights[i], slice(rows.stop - len(PROBES), rows.stop)
+            second = constant_of(self.problem, weight) * jacobi.evaluate(
+                weight.inverse, moved(c[at], block.kappa), PROBES
+            )
+            left_over = second + smooth[probes] - wanted[probes]
+            terms.append(
+                Terms(
+                    at.stop - at.start,
+                    left_over,
+                    wanted[rows],
+                    smooth[rows],
+                    aliased[i],
+                    float(off[i].max()),
+                )
+            )
+        return attempted(
+            self.problem,
+            [c[at] for at in self._column_slices],
+            d,
+            terms,
+            partial(self._spreads, c, rounded),
+        )
+
+
+def _block(problem: Problem, i: int, n: int) -> _Block:
+    interval, weight = problem.maps[i], problem.weights[i]
+    s, analysis = jacobi.analysis(weight.inverse, n - weight.kappa)
+    sigma, quadrature = jacobi.analysis(weight, n)
+    at = np.concatenate((s, PROBES))
+    x, *rows = positions(interval, 1.0 - at, 1.0 + at)
+    t, to_right, to_left, _, rest = positions(interval, 1.0 - sigma, 1.0 + sigma)
+    analysis = analysis / constant_of(problem, weight)
+    return _Block(
+        x,
+        (rows[0], rows[1], rows[2]),
+        1.0 - at,
+        1.0 + at,
+        t,
+        (to_right, to_left, rest),
+        sigma,
+        analysis,
+        quadrature,
+        weight.kappa,
+    )

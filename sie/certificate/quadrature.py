@@ -1,0 +1,228 @@
+"""Composite Gauss-Legendre in the angle φ over a contact, for a function that is not smooth at the breaks of a slope.
+
+A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative of H that jumps there. Panels are
+graded towards the breaks, and none is much longer than its neighbours. Of few breaks each is taken for a corner; of many (a trace) a break
+is graded for as many levels as the jumps there ask for, which for a smooth spline is none or one.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval
+from sie.profiles.power_law import PowerSlope
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.sliding_panels import edge_rule
+
+Array = NDArray[np.float64]
+
+NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
+GRADING = 0.25
+FEW_BREAKS = 40
+TOWARDS_EDGE = np.array(
+    [0.0625, 0.125, 0.1875]
+)  # panels need no grading to an edge, but the residual is wanted near it
+# What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
+# (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of the
+# profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
+# corner of the slope.
+LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
+# Of its distance from the next break: a resolution halves its pieces towards a break, and where
+# they are shorter more happens.
+CLOSING_IN = 0.1
+COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
+LONGEST = np.pi / 32  # of a panel where there are many
+POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
+
+
+class Rule(NamedTuple):
+    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels, which no node is near.
+
+    `inner` nodes, in `ends`, are not next to an edge.
+    """
+
+    x: Array
+    angle: Array
+    weight: Array
+    between: Array
+    inner: slice
+    ends: Interval
+
+
+def composite_rule(
+    contact: Interval,
+    slope: Slope,
+    also: Array | None = None,
+    epsilon: float = 0.0,
+    *,
+    resolution: Slope | None = None,
+) -> Rule:
+    """The composite rule; `also` are places inside to be treated as breaks.
+
+    `resolution` is the slope with its functions resolved in the contact.
+
+    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
+    edges take the powers ψ^(±2ε) of sliding into their weights.
+    """
+    many = not slope.functions and len(inner_breaks(contact, slope)) > FEW_BREAKS
+    also = np.zeros(0) if also is None else also
+    resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
+    edges, large = (
+        _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
+    )
+    g, w = chebyshev.gauss_legendre(NODES)
+    length = np.diff(edges)
+    angle = edges[:-1, None] + length[:, None] * g
+    weight = length[:, None] * w
+    if epsilon:
+        for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
+            g, w = edge_rule(NODES, power)
+            angle[k] = abs(start - length[k] * g)
+            weight[k] = length[k] * w / g**power
+    angle, weight = angle.ravel(), (weight * contact.r * np.sin(angle)).ravel()
+    if not epsilon:
+        return Rule(
+            position(contact, angle), angle, weight, position(contact, large), slice(None), contact
+        )
+    large = large[(large > edges[1]) & (large < edges[-2])]
+    x2, x1 = position(contact, edges[[1, -2]]).tolist()
+    return Rule(
+        position(contact, angle),
+        angle,
+        weight,
+        position(contact, large),
+        slice(NODES, -NODES),
+        Interval(x1, x2),
+    )
+
+
+def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
+    """The ends of the panels, as angles from the right edge, and those of the largest."""
+    levels = _levels_of_few(slope, also)
+    cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
+    # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
+    towards = (
+        cut
+        if len(cut) <= FEW_BREAKS
+        else angles(contact, np.union1d(inner_breaks(contact, slope), also))
+    )
+    ends = np.concatenate(([0.0], towards, [np.pi]))
+    cut = cut[_shorter_than_graded(cut, ends)]
+    cuts = [cut]
+    graded = GRADING ** np.arange(levels, 0, -1)
+    graded = graded[graded < 0.25]
+    for k, (lo, hi) in enumerate(pairwise(ends)):
+        left = graded if k > 0 else TOWARDS_EDGE
+        right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
+        cuts.append(
+            lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right))
+        )
+    edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
+    length = np.diff(edges)
+    return edges, edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
+
+
+def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
+    """Which cuts bound a piece that is shorter than the grading towards the ends makes it."""
+    k = np.searchsorted(ends, cut, side="right").clip(1, len(ends) - 1)
+    distance = np.minimum(cut - ends[k - 1], ends[k] - cut)
+    beside = np.diff(cut, prepend=-np.inf, append=np.inf)
+    return np.minimum(beside[:-1], beside[1:]) < CLOSING_IN * distance
+
+
+def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
+    """The same where the slope has many breaks: one panel a piece, graded where a break asks for it; and middles of the largest pieces."""
+    cut = angles(contact, inner_breaks(contact, slope))
+    ends = np.concatenate(([0.0], cut, [np.pi]))
+    length = np.diff(ends)
+    levels = _levels(slope, contact)[::-1]
+    parts = np.ceil(length / LONGEST).astype(int)
+    number = np.arange(parts.sum()) - np.repeat(
+        parts.cumsum() - parts, parts
+    )  # of each part within its piece
+    within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
+    middle = 0.5 * (ends[:-1] + ends[1:])
+    chosen = middle[_largest(middle, length)]
+    cuts = [within, [np.pi], chosen, length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]
+    graded = LONGEST * GRADING ** np.arange(1.0, LEVELS)
+    cuts += [c + np.concatenate(([0.0], graded, -graded)) for c in angles(contact, also)]
+    for level in range(1, int(levels.max()) + 1):
+        at = np.flatnonzero(levels >= level)
+        cuts += [cut[at] - GRADING**level * length[at], cut[at] + GRADING**level * length[at + 1]]
+    every = np.unique(np.concatenate(cuts))
+    return _balanced(every[(every >= 0.0) & (every <= np.pi)]), chosen
+
+
+def _levels_of_few(slope: Slope, also: Array) -> int:
+    """How often the panels at the breaks are graded where these are few.
+
+    Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which asks for fewer.
+    """
+    powers = [f.function for f in slope.functions if isinstance(f.function, PowerSlope)]
+    if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:
+        return LEVELS if not slope.continuous else ROOT_LEVELS if also.size else KINK_LEVELS
+    a = min(power.exponent for power in powers) - 1.0
+    return math.ceil(max(math.log(EPS ** (-1.0 / (a + 1.0)) / NODES**2) / -math.log(GRADING), 0.0))
+
+
+def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
+    """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1) ln|x - e| is then rounding."""
+    b = slope.breaks[1:-1]
+    inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)
+    longer = np.minimum(
+        np.maximum(np.diff(slope.breaks)[:-1], np.diff(slope.breaks)[1:])[inside], 2.0 * contact.r
+    )
+    jumps = np.abs(slope.corners[inside])
+    m = np.arange(jumps.shape[1])
+    scale = float(np.abs(slope(np.array([contact.x1, contact.x2]))).max()) or 1.0
+    size = (jumps * longer[:, None] ** m / (scale * EPS)) ** (1.0 / (m + 1)) / NODES**2
+    return np.clip(
+        np.ceil(np.log(np.maximum(size.max(axis=1), 1.0)) / -np.log(GRADING)), 0, LEVELS
+    ).astype(np.int64)
+
+
+def _largest(x: Array, size: Array) -> list[int]:
+    """The largest in each of POINTS parts of the contact, by angles x."""
+    part = np.minimum((x * (POINTS / np.pi)).astype(int), POINTS - 1)
+    ascending = np.argsort(size)
+    large = ascending[size[ascending] >= COMPARABLE * size.max()]
+    return sorted(dict(zip(part[large].tolist(), large.tolist(), strict=True)).values())
+
+
+def _balanced(edges: Array) -> Array:
+    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular next door is then far enough."""
+    while True:
+        length = np.diff(edges)
+        shortest = np.minimum(
+            np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf]))
+        )
+        long = length > 1.01 * shortest / GRADING
+        if not long.any():
+            return edges
+        edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))
+
+
+def angles(contact: Interval, x: Array) -> Array:
+    """Angles from the right edge, ascending."""
+    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
+    return psi[::-1]
+
+
+def position(contact: Interval, angle: Array) -> Array:
+    """x at an angle from the right edge, counted from the nearer one."""
+    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
+    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
+    return np.where(angle < 0.5 * np.pi, right, left)
+
+
+def inner_breaks(contact: Interval, slope: Slope) -> Array:
+    b = slope.breaks
+    inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
+    return inner

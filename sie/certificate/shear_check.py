@@ -1,0 +1,164 @@
+"""The certificate of a shear traction: measured on its values and those of the pressure, at points that no solver used.
+
+residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
+equilibrium   |∫q dx - Q| / ∫|q| dx
+excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
+opposing      smallest slip in the direction of q over the largest
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.friction.states import Slip
+from sie.numerics.interval import EPS, Interval
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.base import Density
+from sie.traction.of_slope import SlopeDensity
+
+from .pressure_check import ShearCertificate
+from .quadrature import Rule, composite_rule
+
+Array = NDArray[np.float64]
+
+POINTS = 24  # in the stick zone
+# Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
+# does the cost of a value.
+MANY = 12
+# Of the contact, to which the end of a zone is known: there |q| falls from f p like a square root.
+ENDS = 32.0 * EPS
+
+
+class Term(NamedTuple):
+    """factor × density, a part of the shear, and the rule for its integrals."""
+
+    factor: float
+    density: Density
+    contact: Interval
+    rule: Rule
+
+
+def shear_certificate(
+    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float
+) -> ShearCertificate:
+    """Measure a state; `loads` are Q and τ."""
+    contact, bases = pressure.contact, state.shear.bases
+    resolution = refined(slope, contact.x1, contact.x2, EPS)
+    if len(bases) > MANY and all(isinstance(density, SlopeDensity) for _, density in bases):
+        rule = composite_rule(contact, slope, resolution=resolution)
+        terms = [
+            Term(factor, d, d.contact, composite_rule(d.contact, slope, resolution=resolution))
+            for factor, d in bases
+            if isinstance(d, SlopeDensity)
+        ]
+    else:
+        zones = (*state.stick, *(zone[:2] for zone in state.slipped))
+        ends = {*state.levels, *(end for zone in zones for end in zone)}
+        x1, x2 = pressure.interval
+        inside = np.array([c for c in ends if x1 < c < x2])
+        rule = composite_rule(contact, slope, inside, resolution=resolution)
+        terms = [Term(1.0, state.shear, contact, rule)]
+    with np.errstate(
+        divide="ignore", invalid="ignore", over="ignore"
+    ):  # what cannot be measured is infinite, and not ok
+        return _measured(state, pressure, loads, rule, terms, tol=tol)
+
+
+def _measured(
+    state: Slip,
+    pressure: SlopeDensity,
+    loads: tuple[float, float],
+    rule: Rule,
+    terms: list[Term],
+    *,
+    tol: float,
+) -> ShearCertificate:
+    x, weight = rule.x, rule.weight
+    p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
+    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    if size == 0.0:
+        size = peak = state.friction * pressure.resultant
+    force, equation, of_force, of_equation = _integrals(terms, _points(state, terms))
+    return ShearCertificate(
+        residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
+        equilibrium=abs(force - loads[0]) / size,
+        excess=_excess(state, pressure.contact, x, p, q) / float(p.max()),
+        opposing=_opposing(state, x),
+        abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
+        condition=state.condition,
+        advancing=state.advancing,
+        kind=state.kind,
+        tol=tol,
+    )
+
+
+def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
+    """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
+
+    Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
+    zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    """
+    force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
+    for factor, density, contact, (x, _, weight, *_) in terms:
+        ulp = float(np.spacing(contact.r + abs(contact.m)))
+        inwards, at_inwards = (place + np.where(place < contact.m, ulp, -ulp) for place in (x, at))
+        q, values = _finite(density(x)), density(at)
+        moved = weight * np.abs(_finite(density(inwards)) - q)
+        distance = at[:, None] - x
+        distance[distance == 0.0] = np.inf
+        whole = values * np.log(contact.from_left(at) / contact.from_right(at))
+        force += factor * float(weight @ q)
+        equation += factor / np.pi * (((q - values[:, None]) / distance) @ weight + whole)
+        of_force += abs(factor) * float(moved.sum())
+        here = np.abs(_finite(density(at_inwards)) - values)
+        of_equation += abs(factor) * (here + (1.0 / np.abs(distance)) @ moved / np.pi)
+    return force, equation, of_force, of_equation
+
+
+def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
+    worst = float(
+        np.where(p > 0.0, np.abs(q) - p, -np.inf).max()
+    )  # a node on a corner, where p is infinite, was set to 0
+    margin = ENDS * (contact.r + abs(contact.m))
+    for lo, hi, sign in state.slipped:
+        slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)
+        worst = max(worst, float(np.abs(sign * q - p)[slipping].max(initial=0.0)))
+    return worst
+
+
+def _opposing(state: Slip, x: Array) -> float:
+    """Of the slip since the last turning point: smallest in its own direction, over the largest."""
+    slip = state.slip_now(x)
+    largest = float(np.abs(slip).max(initial=0.0))
+    lowest = min(
+        (
+            float((sign * slip[(x > lo) & (x < hi)]).min(initial=0.0))
+            for lo, hi, sign in state.slipped
+        ),
+        default=0.0,
+    )
+    return lowest / largest if largest else 0.0
+
+
+def _points(state: Slip, terms: list[Term]) -> Array:
+    """Where the equation is measured: over the zone that never slipped, half-way between two nodes.
+
+    Of many terms these are the farthest apart in the neighbourhood.
+    """
+    lo, hi = state.untouched
+    nodes, near = np.unique(np.concatenate([term.rule.x for term in terms])), len(terms) - 1
+    at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
+    k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
+    widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
+    k = k[np.arange(POINTS), widest]
+    at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
+    inside: Array = at[(at > lo) & (at < hi) & ~np.isin(at, nodes)]
+    return inside
+
+
+def _finite(values: Array) -> Array:
+    return np.where(np.isfinite(values), values, 0.0)

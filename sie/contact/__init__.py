@@ -1,0 +1,1 @@
+"""From a load to the edges of the contact and its pressure."""

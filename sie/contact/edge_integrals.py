@@ -1,0 +1,301 @@
+"""The integrals over a contact that fix its edges.
+
+Gauss-Legendre in the angle φ on every piece, t = m + r sin φ; exact to rounding, derivatives and jumps included. Two forms of the same
+formulas: arrays for many pieces, plain floats for a few, where NumPy's call overhead would be most of the cost of a solve.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.profiles.slope import SEEN_JUMP, Row, Slope
+from sie.traction.piece_quadrature import NARROW_ANGLE, Geometry, narrow_order, quadrature_order
+
+Array = NDArray[np.float64]
+
+# Up to this angle of a piece a shorter rule reaches rounding.
+NARROW = 0.5 * math.pi + 0.01
+# So many narrow pieces are worth a pass of their own.
+MANY = 24
+
+
+class Moments(NamedTuple):
+    """I0 = ∫H dφ = positive - negative, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, JR = ∫H' (1 + sin φ) dφ, JL = ∫H' (1 - sin φ) dφ.
+
+    JR and JL apart, because where a contact is lopsided one of them is a tiny part of ∫H' dφ.
+    size1 and size2 bound ∫Σ|c_j y^j| (1 -+ sin φ) dφ, every term of H taken positively: rounding of K1 = I1 - I0 and of K2 = I1 + I0 is
+    relative to them.
+    """
+
+    I0: float
+    I1: float
+    C2: float
+    JR: float
+    JL: float
+    positive: float
+    negative: float
+    size1: float
+    size2: float
+
+    def mirrored(self) -> Moments:
+        """Those of h(-x) on the mirrored contact."""
+        return Moments(
+            -self.I0,
+            self.I1,
+            -self.C2,
+            self.JL,
+            self.JR,
+            self.negative,
+            self.positive,
+            self.size2,
+            self.size1,
+        )
+
+
+NOTHING = Moments(*(0.0,) * 9)
+
+
+def moments(
+    slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False
+) -> Moments:
+    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
+    if not contact.r < math.inf:
+        raise OverflowError("an edge of the contact is beyond all doubles")
+    if slope.few and not keep_zero:
+        return _of_few(slope, contact, lower)
+    return _of_many(Geometry(slope, contact, lower, keep_zero))
+
+
+# -- arrays -----------------------------------------------------------------------------------------------------------
+
+
+def _of_many(g: Geometry) -> Moments:
+    if not len(g.k):
+        return NOTHING
+    with np.errstate(
+        over="ignore", invalid="ignore"
+    ):  # a search may try a contact of 1e-300: what overflows is not rising
+        order = quadrature_order(g.slope.degree)
+        narrow = g.angles[2][:, 0] <= NARROW_ANGLE
+        if g.slope.functions or np.count_nonzero(narrow) < MANY:
+            return _summed(g, order)
+        wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
+        return Moments(
+            *map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree)))
+        )
+
+
+def _summed(g: Geometry, order: int) -> Moments:
+    slope = g.slope
+    offset, angle, weight, sign = g.nodes(order)
+    H = g.slopes(offset)
+    WH = weight * H
+    near = (
+        2.0 * np.sin(0.5 * angle) ** 2
+    )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+    cos_phi, sin_phi = np.sin(angle), sign * (near - 1.0)
+    left = np.asarray(sign > 0.0)
+    plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
+    dJ = weight * slope.local_derivative(g.k, g.ends[0], g.tails[0], offset)
+    if slope.functions:
+        # ∫H' dφ = ∫ (dH/dφ) / (r cos φ) dφ, with dH/dφ from the quadrature's own interpolant
+        functions = H - slope.without_functions.local(g.k, g.ends[0], g.tails[0], offset)
+        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
+        dJ = dJ + _weighted_derivative(functions) / (g.contact.r * cos_phi)
+    JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
+    if not slope.continuous:
+        jump = _jumps(g, H)
+        JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
+    I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
+    return Moments(
+        _sum(WH),
+        I1,
+        C2,
+        JR,
+        JL,
+        _sum(np.maximum(WH, 0.0)),
+        -_sum(np.minimum(WH, 0.0)),
+        *sizes(g, weight, H),
+    )
+
+
+def sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
+    """size1 and size2: of each piece its largest Σ|c_j y^j| and 1 -+ sin φ, times its angle."""
+    slope = g.slope
+    start = (g.ends[0] - slope.origins[g.k]) + g.tails[0]
+    farthest = np.maximum(np.abs(start), np.abs(start + g.length))
+    size = np.zeros(len(g.k))
+    for c in np.abs(slope.coefficients[g.k]).T[::-1]:
+        size = size * farthest + c
+    if slope.functions:
+        size += np.abs(H).max(axis=1)
+    size *= weight.sum(axis=1)
+    return 2.0 * float(size @ g.right[0]), 2.0 * float(size @ g.left[1])
+
+
+def _weighted_derivative(values: Array) -> Array:
+    n = values.shape[1]
+    return chebyshev.gauss_legendre(n)[1] * (values @ chebyshev.differentiation(n)[0].T)
+
+
+def _jumps(g: Geometry, H: Array) -> Array:
+    """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
+    jump = rises(chebyshev.differentiation(H.shape[1])[1] @ H.T, g.k)
+    half_cos = g.root_left * g.root_right
+    if g.cut_left:
+        jump[0, 0], half_cos[0, 0] = 0.0, 1.0
+    if g.cut_right:
+        jump[1, -1], half_cos[1, -1] = 0.0, 1.0
+    return jump / (2.0 * g.contact.r * half_cos)
+
+
+def rises(H: Array, k: NDArray[np.int64]) -> Array:
+    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two pieces meet within rounding.
+
+    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all there is.
+    """
+    enter, leave = H
+    size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
+    met = (np.diff(k) == 1) & (np.abs(enter[1:] - leave[:-1]) <= size)
+    return np.stack(
+        (np.where(np.append(False, met), 0.0, enter), np.where(np.append(met, False), 0.0, -leave))
+    )
+
+
+def _sum(a: Array) -> float:
+    return float(np.add.reduce(a, axis=None))
+
+
+# -- plain floats -----------------------------------------------------------------------------------------------------
+
+
+class _Cut(NamedTuple):
+    """One piece in the contact; see `Geometry`: roots of the distances of lo and hi, and angles."""
+
+    base: float  # lo - origin
+    length: float
+    roots: tuple[
+        float, float, float, float
+    ]  # lo from left, lo from right, hi from left, hi from right
+    from_edge: float
+    sign: float
+    angle: float
+
+
+def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
+    width, degree, total = 2.0 * contact.r, slope.degree, None
+    for row in slope.rows:
+        cut = _cut(row, contact, lower, width)
+        if cut is not None:
+            more = _integrals(row.coefficients, cut, width, degree)
+            total = tuple(map(float.__add__, total, more)) if total else more
+    found = Moments(*total) if total else NOTHING
+    return found if slope.continuous else _with_jumps(found, slope, contact, lower)
+
+
+def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut | None:
+    """The piece within the contact (right of `lower`), None if nothing of it is."""
+    if lower is not None and row.hi <= lower:
+        return None
+    start, tail = row.lo, 0.0
+    if lower is not None and start < lower:
+        start = lower
+    lo_left, lo_right = contact.from_left(start), contact.from_right(start)
+    hi_left, hi_right = contact.from_left(row.hi), contact.from_right(row.hi)
+    if hi_left <= 0.0 or lo_right <= 0.0 or row.hi <= start:
+        return None
+    length = row.hi - start
+    at_left, at_right = lo_left <= 0.0, hi_right <= 0.0
+    if at_left:
+        start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
+    if at_right:
+        hi_left, hi_right, length = width, 0.0, lo_right
+    a, b, c, d = (
+        math.sqrt(lo_left / width),
+        math.sqrt(lo_right / width),
+        math.sqrt(hi_left / width),
+        math.sqrt(hi_right / width),
+    )
+    angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
+    left = lo_left + hi_left < width
+    from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
+    return _Cut(
+        (start - row.origin) + tail, length, (a, b, c, d), from_edge, 1.0 if left else -1.0, angle
+    )
+
+
+def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
+    I0 = I1 = C2 = J_near = J_far = positive = negative = 0.0
+    base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
+    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
+    for v in c:
+        size = size * farthest + abs(v)
+    size *= 2.0 * angle
+    sin = math.sin
+    for g, weight in _rule(
+        5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)
+    ):
+        half_step = 0.5 * angle * g
+        middle = from_edge + sign * half_step
+        y = base + width * sin(half_step) * sin(middle)
+        H, dH = c[0], 0.0
+        for v in c[1:]:
+            dH = dH * y + H
+            H = H * y + v
+        at = middle + sign * half_step
+        near = (
+            2.0 * sin(0.5 * at) ** 2
+        )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        cos_phi, sin_phi = sin(at), sign * (near - 1.0)
+        w = angle * weight
+        wH, wdH = w * H, w * dH
+        I0 += wH
+        I1 += wH * sin_phi
+        C2 += wH * cos_phi * cos_phi
+        J_near += wdH * near
+        J_far += wdH * (2.0 - near)
+        if wH > 0.0:
+            positive += wH
+        else:
+            negative -= wH
+    JR, JL = (J_near, J_far) if sign > 0.0 else (J_far, J_near)
+    _, right_of_lo, left_of_hi, _ = cut.roots
+    return (
+        I0,
+        I1,
+        C2,
+        JR,
+        JL,
+        positive,
+        negative,
+        size * right_of_lo * right_of_lo,
+        size * left_of_hi * left_of_hi,
+    )
+
+
+def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:
+    """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
+    rises = slope.rises
+    if lower is not None:
+        rises = ((lower, slope.after(lower)), *((b, rise) for b, rise in rises if b > lower))
+    JR, JL = found.JR, found.JL
+    for b, rise in rises:
+        left, right = contact.from_left(b), contact.from_right(b)
+        if left > 0.0 and right > 0.0 and rise:
+            steep = math.sqrt(left) / math.sqrt(right)
+            JR += rise / contact.r * steep
+            JL += rise / contact.r / steep
+    return found._replace(JR=JR, JL=JL)
+
+
+@lru_cache(maxsize=32)
+def _rule(n: int) -> tuple[tuple[float, float], ...]:
+    g, w = chebyshev.gauss_legendre(n)
+    return tuple(zip(g.tolist(), w.tolist(), strict=True))

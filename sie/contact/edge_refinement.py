@@ -1,0 +1,340 @@
+"""Edges that are nearly known, to the rounding of their own equations.
+
+With T = P/G, F1 = r K1 - T and F2 = r K2 - T of `edges`, both vanish where both edges are smooth. For
+any [x1, x2] of a convex profile
+
+    dF2/dx1 = dF1/dx2 = -I0/2,    dF2/dx2 = r JR + I0/2,    dF1/dx1 = -r JL + I0/2,    JR, JL >= 0
+
+so I0 = (F2 - F1)/(2r) grows with either edge, and max(F1, F2) with the contact. Hence every
+evaluation bounds one edge of the contact sought:
+
+    I0 > 0, F2 > 0: x2 is too far right      I0 > 0, F2 < 0: x1 is too far right
+    I0 < 0, F1 < 0: x2 is too far left       I0 < 0, F1 > 0: x1 is too far left
+
+(Were x2 not too far right in the first, then x1 would be by I0 > 0; this contact would lie in the
+one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, and give way to their
+middle where two of them have not halved the residual. So every second step halves the residual or a
+bracket, and MAX_POLISHING steps are enough.
+
+Newton's method alone creeps, or runs to and fro, where an edge is next to a break at which H or H'
+jumps: at a distance d behind the break, to leading order,
+
+    dF/dd = A + B d^(-1/2) + C d^(1/2),      B = sqrt(2r) [H],      C = 2 sqrt(2r) [H']
+
+There a step leads to the root of this model, on whichever side of the break that is.
+
+The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
+their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by. What that leaves
+unknown of the edges is `uncertainty`.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sie.numerics.interval import EPS, Interval, two_sum
+from sie.profiles.resolution import rounding_noise
+from sie.profiles.slope import Slope
+
+from .edge_integrals import Moments
+
+Place = tuple[
+    float, float
+]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
+
+# A residual is rounding below so many units of its terms: the roots and the angle of each piece, its sines, its weights, Horner's rule
+# and the sum round it once or twice each.
+ROUNDINGS = 16.0 * EPS
+# r JR may vary like a power of the distance to the next break, or to where the profile touches first.
+VARIES = 4.0
+CLOSE = 0.25  # a step longer than this part of the distance to the next break follows what the break adds
+FARTHEST = 0.75  # of r, a step inwards
+STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
+# The residual is halved 53 times from the size of the load to rounding, either bracket 106 times from r to the rounding of two doubles.
+MAX_POLISHING = 2 * (53 + 2 * 106)
+MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
+LEFT, RIGHT = 0, 1
+
+
+@dataclass
+class Bracket:
+    """low < edge < high."""
+
+    low: Place
+    high: Place
+    cuts: tuple[bool, bool] = (False, False)
+
+    def cut(self, at: Place, above: bool) -> None:
+        """The edge is above `at`, or below."""
+        if above:
+            self.low, self.cuts = max(self.low, at), (True, self.cuts[1])
+        else:
+            self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
+
+    def place(self, wanted: Place, slow: bool) -> Place:
+        """The place wanted; the middle if it is out of bounds, or if Newton's steps are slow and both bounds known."""
+        if self.low < wanted < self.high and not (slow and all(self.cuts)):
+            return wanted
+        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
+
+    def middle(self) -> Place:
+        return two_sum(
+            self.low[0],
+            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
+        )
+
+
+def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+    """How far either edge moves for an ulp of the load and the rounding of its own equation: what (P, tilt) fix it to.
+
+    Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
+    """
+    r = contact.r
+    off = [EPS * target + ROUNDINGS * (r * size + target) for size in (k.size1, k.size2)]
+    return off[0] / (r * k.JL), off[1] / (r * k.JR)
+
+
+@dataclass
+class Polish:
+    """Newton's method for the edges of one slope; `evaluate` gives the moments of a contact."""
+
+    slope: Slope
+    evaluate: Callable[[Interval], Moments]
+    epsilon: float = 0.0
+
+    # -- one of two edges is given, or none ---------------------------------------------------------------------------
+
+    def both(
+        self, contact: Interval, target: float, left_sharp: bool
+    ) -> tuple[Interval, Moments, bool]:
+        """The contact that carries target = P/G, its moments, and whether the residuals came down to rounding."""
+        lo, hi = self.slope.domain
+        left, right = (
+            Bracket((lo, 0.0), (contact.x2, contact.tail2)),
+            Bracket((contact.x1, contact.tail1), (hi, 0.0)),
+        )
+        earlier = [math.inf, math.inf]
+        for _ in range(MAX_POLISHING):
+            k, r = self.evaluate(contact), contact.r
+            over1, over2 = r * (k.I1 - k.I0) - target, r * (k.I1 + k.I0) - target
+            rise1, rise2 = r * k.JL, r * k.JR + ((0.5 - self.epsilon) * k.I0 if left_sharp else 0.0)
+            if not rise2 > 0.0 or (not rise1 > 0.0 and not left_sharp):
+                break  # not convex here
+            out1 = 0.0 if left_sharp else self.outwards(contact, LEFT, over1, rise1)
+            wanted = contact.moved(-out1, self.outwards(contact, RIGHT, over2, rise2))
+            rounding1, rounding2 = self.rounding(contact, k, target)
+            missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
+            if missed <= 1.0:
+                return wanted, k, True
+            # Signs within rounding bound nothing; where that of I0 is, both edges are too far out or in
+            askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
+            outside = (over2 if k.I0 > 0.0 else over1) > 0.0
+            if abs(over2) > rounding2 and (not askew or (k.I0 > 0.0) == outside):
+                right.cut((contact.x2, contact.tail2), above=over2 < 0.0)
+            if abs(over1) > rounding1 and not left_sharp and (not askew or (k.I0 < 0.0) == outside):
+                left.cut((contact.x1, contact.tail1), above=over1 > 0.0)
+            slow = missed > 0.5 * earlier[-2]
+            earlier.append(missed)
+            x1, tail1 = contact.x1, contact.tail1
+            if not left_sharp:
+                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
+            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
+            most = FARTHEST * r  # inwards: the edges must not pass each other
+            if contact.from_left(x1) + tail1 > most:
+                x1, tail1 = two_sum(contact.x1, most + contact.tail1)
+            if contact.from_right(x2) - tail2 > most:
+                x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
+            moved = Interval(x1, x2, tail1, tail2)
+            if moved == contact:
+                break
+            contact = moved
+        return contact, k, False
+
+    def balanced(
+        self,
+        contact: Interval,
+        target: float,
+        lever: float,
+        tilted: Callable[[Interval, float], Moments],
+    ) -> tuple[Interval, Moments, float] | None:
+        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its tilt; None if Newton's steps find none.
+
+        Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds p ~ sqrt((x - x1)/(x2 - x)) or the
+        mirror image of it, whose resultants are G r J/2 and act at m -+ r/2: the equations of both edges are apart again.
+        """
+        lo, hi = self.slope.domain
+        tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
+        for _ in range(MAX_BALANCING):
+            k, r = tilted(contact, tilt), contact.r
+            half, turned = (
+                0.5 * (r * k.I1 - target),
+                target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0),
+            )
+            rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
+            if not (rise1 > 0.0 and rise2 > 0.0):
+                return None
+            rounding = ROUNDINGS * (r * (k.size1 + k.size2) + target * (1.0 + abs(lever) / r)) + (
+                math.pi * self.noise(contact) * r if self.slope.functions else 0.0
+            )
+            missed = (abs(half) + abs(turned)) / rounding
+            if missed < before or missed <= 1.0:
+                tilt -= k.I0 / math.pi
+                outwards = (
+                    self.outwards(contact, LEFT, half + turned, rise1, 0.5),
+                    self.outwards(contact, RIGHT, half - turned, rise2, 0.5),
+                )
+                # p > 0 puts the load between the edges
+                room = contact.from_left(lever), contact.from_right(lever)
+                steps = (max(outwards[0], -0.5 * room[0]), max(outwards[1], -0.5 * room[1]))
+                before, last, share = missed, contact, 1.0
+            else:
+                share *= 0.5
+            moved = last.moved(-share * steps[0], share * steps[1])
+            if missed <= 1.0:
+                return moved, k._replace(I0=0.0), tilt
+            if moved == contact or not (lo < moved.x1 and moved.x2 < hi):
+                return None
+            contact = moved
+        return None
+
+    def symmetric(
+        self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
+    ) -> tuple[Interval, bool]:
+        """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that is longer than `reach` r.
+
+        With r JR changing by no more than VARIES times itself over the distance to the next break or to z, what a step leaves is known.
+        """
+        bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
+        earlier = [math.inf, math.inf]
+        for _ in range(most):
+            k, r = self.evaluate(contact), contact.r
+            over, rise = r * k.I1 - target, r * k.JR
+            if not rise > 0.0:
+                break
+            out = -over / rise
+            missed = abs(over) / self.rounding(contact, k, target)[1]
+            room = min(abs(self.nearest(contact, RIGHT)[1]), (contact.x2 - z) + contact.tail2)
+            if abs(out) > CLOSE * room:
+                out = self.outwards(contact, RIGHT, over, rise)
+            if abs(out) > reach * r:
+                break
+            wanted = contact.moved(-out, out)
+            if missed <= 1.0 or (2.0 * abs(out) <= room and VARIES * missed * abs(out) <= room):
+                return wanted, True
+            bracket.cut((contact.x2, contact.tail2), above=over < 0.0)
+            place = bracket.place((wanted.x2, wanted.tail2), missed > 0.5 * earlier[-2])
+            earlier.append(missed)
+            if place != (wanted.x2, wanted.tail2):
+                out = (place[0] - contact.x2) + (place[1] - contact.tail2)
+                wanted = contact.moved(-out, out)
+            if wanted == contact:
+                break
+            contact = wanted
+        return contact, False
+
+    def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, Moments]:
+        """The contact of the same half-width whose centre, between low and high, balances the slope: I0 = 0."""
+        bracket, r = Bracket((low, 0.0), (high, 0.0), (True, True)), contact.r
+        m, earlier = (contact.m, 0.0), [math.inf, math.inf]
+        for _ in range(MAX_POLISHING):
+            k = self.evaluate(contact)
+            over, rise = r * k.I0, 0.5 * r * (k.JR + k.JL)
+            step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
+            missed = abs(over) / sum(self.rounding(contact, k, 0.0))
+            if missed <= 1.0:
+                return contact.moved(step, step), k
+            bracket.cut(m, above=over < 0.0)
+            wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
+            place = bracket.place(wanted, missed > 0.5 * earlier[-2])
+            earlier.append(missed)
+            if place == m:
+                break
+            step = (place[0] - m[0]) + (place[1] - m[1])
+            m, contact = place, contact.moved(step, step)
+        return contact, k
+
+    def _sideways(self, contact: Interval, over: float, rise: float) -> float:
+        """How far right both edges move so that over = r I0 vanishes; the edge next to a break tells."""
+        to_left, to_right = (
+            abs(self.nearest(contact, LEFT)[1]),
+            abs(self.nearest(contact, RIGHT)[1]),
+        )
+        if abs(over) <= CLOSE * rise * min(to_left, to_right):
+            return -over / rise
+        if to_right <= to_left:
+            return self.outwards(contact, RIGHT, over, rise, 0.5)
+        return -self.outwards(contact, LEFT, -over, rise, 0.5)
+
+    # -- a step -------------------------------------------------------------------------------------------------------
+
+    def nearest(self, contact: Interval, side: int) -> tuple[float, float]:
+        """The break nearest to an edge, and how far behind the edge it lies: negative if it is ahead."""
+        breaks, x, distance = self.slope.break_points, contact.x2, contact.from_right
+        if side == LEFT:
+            x, distance = contact.x1, contact.from_left
+        k, best, b = bisect_left(breaks, x), math.inf, 0.0
+        for j in (k - 1, k):
+            if 0 <= j < len(breaks) and abs(d := distance(breaks[j])) < abs(best):
+                best, b = d, breaks[j]
+        return b, best
+
+    def outwards(
+        self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
+    ) -> float:
+        """How far an edge moves outwards so that its residual `over`, which grows by `rise`, vanishes.
+
+        share     of what a break adds at this edge, that the residual takes
+        """
+        newton = -over / rise
+        b, d = self.nearest(contact, side)
+        if abs(newton) <= CLOSE * abs(d):
+            return newton
+        jump, kink = self.slope.corner(b)
+        B, C = (
+            share * math.sqrt(2.0 * contact.r) * jump,
+            share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink),
+        )
+        A, behind = rise, -over + rise * d
+        if d > 0.0:
+            root = math.sqrt(d)
+            A -= B / root + C * root
+            behind = A * d + 2.0 * B * root + C * d * root / 1.5 - over
+        if not A > 0.0:
+            return newton
+        if behind <= 0.0:
+            return behind / A - d
+        v = math.sqrt(behind / A) if B <= 0.0 else behind / (B + math.sqrt(B * B + A * behind))
+        for _ in range(STEPS_TO_A_BREAK):
+            slope = 2.0 * (B + v * (A + C * v))
+            step = (
+                (behind - v * (2.0 * B + v * (A + C * v / 1.5))) / slope
+                if slope > 0.0
+                else math.inf
+            )
+            if not 0.0 < v + step < math.inf:
+                return newton
+            v += step
+            if abs(step) <= EPS * v:
+                break
+        return v * v - d
+
+    # -- rounding -----------------------------------------------------------------------------------------------------
+
+    def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+        """Of F1 and F2."""
+        r = contact.r
+        least = ROUNDINGS * target + (
+            math.pi * self.noise(contact) * r if self.slope.functions else 0.0
+        )
+        return least + ROUNDINGS * r * k.size1, least + ROUNDINGS * r * k.size2
+
+    def noise(self, contact: Interval) -> float:
+        """How rough the values of functions are by rounding of their own."""
+        if self._noise is None:
+            self._noise = rounding_noise(self.slope.inside, contact.x1, contact.x2)
+        return self._noise
+
+    _noise: float | None = None

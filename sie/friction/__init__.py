@@ -1,0 +1,1 @@
+"""Stick, slip and the memory of the load history."""

@@ -1,0 +1,517 @@
+"""How a contact grows under its load, and what slip in its layers turns into heat.
+
+Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is
+dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`ladder`) the slip beside the contact grows by
+2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what lies beside an interval:
+integrated over the layer of a larger contact of half-width R, in which the interval lies anywhere, it
+gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, § 5.1). Hence a front of slip that
+runs down from the level Y to the level L, while the load is P(y) when it passes y, turns into heat
+
+    W = 2 f² j/(π E*) ∫_L^Y dy ∫_y^P(y) (P(y) - η) d ln r(η)  =  2 f² j/(π E*) ∫ v(η) d ln r(η)
+
+for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a quadratic
+polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At constant P, from
+Y = P down, v = (P - η)(η - L).
+
+d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of the
+profile: from there on it goes with the root of the distance. A wide front that crosses the many breaks of
+a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy and T = ∫S dy at
+the four levels, and these are known from the contact under one load (`Growth._potentials`).
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.edge_integrals import Moments
+from sie.contact.edges import Found, Search
+from sie.contact.normal import Normal, pressure
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval, two_sum
+from sie.problem.scene import Scene
+from sie.profiles.resolution import refined
+from sie.traction.piece_quadrature import Geometry
+
+from .memory import Overwritten
+
+Array = NDArray[np.float64]
+
+SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
+TAIL = 3
+FINE, COARSE = (
+    1024.0 * EPS,
+    1e-11,
+)  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
+LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
+NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
+NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
+NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
+SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
+FEW = 8  # so many breaks are cut at without trial
+MANY = 24  # a profile of so many breaks is a trace
+SAME = 16.0 * EPS  # loads that rounding tells apart
+WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
+HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
+LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
+NODES = 16  # on each part of a panel whose ends are not further apart than ...
+RATIO = 4.0
+MARGIN = 0.02  # of the widest contact: how far beyond it a function is resolved
+NEAR, STEPS = 0.25, 8  # Newton from an interpolated contact: its first step, and how many
+SETTLED, ASTRAY = (
+    64.0 * EPS,
+    1e-9,
+)  # steps relative to the distance from where the profile touched first: rounding, and no solution
+FARTHEST = 2.0  # of the logarithms of distances from those of known contacts
+ROWS = 20_000  # parts of panels at a time
+
+
+class Contact(NamedTuple):
+    """The contact under a load, which of its edges are sharp, and the moments there."""
+
+    interval: Interval
+    sharp: tuple[bool, bool]
+    moments: Moments
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """d ln r/d ln y for lo <= y <= hi, with t = ln(y/lo)/ln(hi/lo), as a series in 2 t - 1.
+
+    If an edge passes a break at lo (`kinked`), of sqrt(t) d ln r/d ln y in 2 sqrt(t) - 1.
+    """
+
+    lo: float
+    hi: float
+    kinked: bool
+    series: Array
+
+
+class Growth:
+    """The contacts of a scene's profile at the tilt of a normal contact, under every load up to its; solved where they are asked for."""
+
+    def __init__(self, scene: Scene, normal: Normal, tol: float, economy: Collection[str]) -> None:
+        tilt, widest, top = normal.edges.tilt, normal.edges.contact, normal.edges.normal_load
+        declared = scene.profile.pieces.tilted(tilt)
+        margin = MARGIN * widest.r
+        lo, hi = (
+            max(widest.x1 - margin, declared.domain[0]),
+            min(widest.x2 + margin, declared.domain[1]),
+        )
+        axis = scene.profile.axis if tilt == 0.0 and "symmetry" in economy else None
+        self._search = Search(
+            refined(declared, lo, hi, EPS), 0.5 * scene.Estar, axis, "zero panels" not in economy
+        )
+        self._breaks = declared.break_points
+        self._touch = self._search.touch()
+        self._ends = declared.domain
+        self._scene, self._tilt, self._tol, self._unit = scene, tilt, tol, widest.r
+        self._of_load: dict[float, tuple[float, float]] = {}
+        self.top = top
+        self._panels: list[Panel] = []
+        self._known: list[
+            tuple[float, float, float]
+        ] = []  # (ln y, logarithms of both edges' distances from where it touched first)
+
+    @property
+    def evaluations(self) -> int:
+        """How often the moments of a contact were evaluated."""
+        return self._search.evaluations
+
+    # -- energy -------------------------------------------------------------------------------------------------------
+
+    def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
+        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
+        rows = [
+            (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
+            for P, o in zip(loads, fronts, strict=True)
+        ]
+        apart = [self._crosses_many_breaks(*row) for row in rows]
+        rest = iter(
+            self._by_panels(
+                [row for row, many in zip(rows, apart, strict=True) if not many]
+            ).tolist()
+        )
+        found = np.array(
+            [
+                self._from_potentials(*row) if many else next(rest)
+                for row, many in zip(rows, apart, strict=True)
+            ]
+        )
+        return friction * friction / (math.pi * self._search.half_modulus) * found
+
+    def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
+        """∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
+        ends: list[tuple[float, float, int]] = []
+        for together in _merged([(P + L, P + max(surface)) for P, L, _, *surface in rows]):
+            self._cover(*together)
+        cuts = self._cuts()
+        for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
+            highest = max(at_L, at_Y)
+            marks = {L, highest, *(m for m in (Y, at_L, at_Y) if L < m < highest)}
+            marks |= {
+                c - P
+                for c in cuts[bisect_right(cuts, P + L) : bisect_left(cuts, P + highest)]
+                if L < c - P < highest
+            }
+            ascending = sorted(marks)
+            ends += [(a, b, k) for a, b in pairwise(ascending)]
+        total = np.zeros(len(rows))
+        given = np.array(rows).reshape(-1, 5)
+        for start in range(0, len(ends), ROWS):
+            lo, hi, owner = (
+                np.array(column) for column in zip(*ends[start : start + ROWS], strict=True)
+            )
+            np.add.at(total, owner, self._integrals(lo, hi, given[owner].T[..., None]))
+        return total
+
+    def _integrals(self, lo: Array, hi: Array, given: Array) -> Array:
+        """∫v d ln r from lo to hi, counted from P."""
+        P, L, Y, at_L, at_Y = given
+        g, w = chebyshev.gauss_legendre(NODES)
+        panels = self._panels
+        k = np.clip(
+            np.searchsorted([p.lo for p in panels], P[:, 0] + 0.5 * (lo + hi), side="right") - 1,
+            0,
+            len(panels) - 1,
+        )
+        # In the root of the distance from a break's level, by ratios alone: a front may be thinner than y is known
+        base, kinked = (
+            np.array([getattr(p, name) for p in panels])[k] for name in ("lo", "kinked")
+        )
+        near, far = (np.sqrt(np.maximum(P[:, 0] + end - base, 0.0)) for end in (lo, hi))
+        c = np.where(kinked & (far > 0.0), near / np.where(far > 0.0, far, 1.0), 1.0)[:, None]
+        share, weight = (
+            g * (2.0 * c + (1.0 - c) * g) / (1.0 + c),
+            2.0 * w * (c + (1.0 - c) * g) / (1.0 + c),
+        )
+        y = lo[:, None] + (hi - lo)[:, None] * share
+        rise = (at_L - at_Y) / np.where(Y > L, Y - L, np.inf)  # of P for the front's way down
+        passed = Y + (at_Y - y) / np.where(
+            rise == 0.0, np.nan, rise
+        )  # where the front is when P = y
+        upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
+        lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
+        middle = 0.5 * (upper + lower)
+        v = np.maximum(upper - lower, 0.0) * (at_Y + rise * (Y - middle) - y)
+        level = np.maximum(P + y, panels[0].lo)
+        out: Array = (hi - lo) * (weight * v * self._growth(k, level) / level).sum(axis=1)
+        return out
+
+    def _growth(self, k: NDArray[np.int64], y: Array) -> Array:
+        """d ln r/d ln y at y (K, n) on the panels k."""
+        panels = self._panels
+        lo, hi, kinked = (
+            np.array([getattr(p, name) for p in panels])[k][:, None]
+            for name in ("lo", "hi", "kinked")
+        )
+        t = np.clip(np.log1p((y - lo) / lo) / np.log1p((hi - lo) / lo), NEAREST, 1.0)
+        s = 2.0 * np.where(kinked, np.sqrt(t), t) - 1.0
+        width = max(len(p.series) for p in panels)
+        series = np.zeros((len(panels), width))
+        for row, p in zip(series, panels, strict=True):
+            row[: len(p.series)] = p.series
+        after = values = np.zeros(y.shape)  # Clenshaw (1955)
+        for c in series.T[:0:-1]:
+            values, after = c[k][:, None] + 2.0 * s * values - after, values
+        total: Array = (series[k, :1] + s * values - after) / np.where(kinked, np.sqrt(t), 1.0)
+        return total
+
+    def _cuts(self) -> list[float]:
+        """Where an integral over y is cut: at the ends of panels, and so that no part is long."""
+        low = self._panels[0].lo if self._panels else self.top
+        geometric = self.top / RATIO ** np.arange(
+            1, int(math.log(self.top / low) / math.log(RATIO)) + 1
+        )
+        return sorted({*(end for p in self._panels for end in (p.lo, p.hi)), *geometric.tolist()})
+
+    # -- across many breaks -----------------------------------------------------------------------------------------------
+
+    def _crosses_many_breaks(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> bool:
+        """Whether the front of a trace crosses so many breaks that a panel for each costs more than two potentials (and no digits)."""
+        if len(self._breaks) <= MANY or self._search.slope.functions:
+            return False
+        highest, change = max(at_L, at_Y), abs(at_L - at_Y)
+        thin = highest - L < WIDE * (P + highest) or 0.0 < change < WIDE * (Y - L)
+        return not thin and len(self._passed(max(P + L, LOWEST * self.top), P + highest)) > FEW
+
+    def _from_potentials(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> float:
+        """∫v d ln r from S = ∫ln r dy and T = ∫S dy at the four levels."""
+        (S_L, T_L), (S_Y, T_Y), (S_at_L, T_at_L), (_, T_at_Y) = (
+            self._potentials(P + level) for level in (L, Y, at_L, at_Y)
+        )
+        rise = (at_L - at_Y) / (Y - L)
+        of_load = (T_at_L - T_at_Y) / rise if rise else S_at_L * (Y - L)
+        return of_load - (2.0 + rise) * (T_Y - T_L) - (at_Y - Y) * S_Y + (at_L - L) * S_L
+
+    def _potentials(self, y: float) -> tuple[float, float]:
+        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the lowest point in the angle φ.
+
+        Because δ - h is the potential of p in the contact, and the mean of a potential over a contact is its Robin constant.
+        """
+        if y not in self._of_load:
+            self._of_load[y] = self._measured(y) if y > LOWEST * self.top else (0.0, 0.0)
+        return self._of_load[y]
+
+    def _measured(self, y: float) -> tuple[float, float]:
+        (contact, sharp, _), search, scene = self.contact(y), self._search, self._scene
+        edges = search.finished(Found(contact, sharp), y, self._tilt)
+        p = pressure(Normal(edges, search.axis is not None), scene, self._tol)
+        geometry = Geometry(search.slope, edges.contact, keep_zero=True)
+        offset, angle, weight, _ = geometry.nodes(HEIGHTS)
+        x = (geometry.ends[0] + geometry.tails[0])[:, None] + offset
+        z = 0.5 * sum(self._touch)
+        h = (scene.profile.height(x) + self._tilt * x) - float(
+            scene.profile.height(z) + self._tilt * z
+        )
+        G, r = search.half_modulus, edges.contact.r
+        mean = float((weight * h).sum()) / math.pi
+        work = float((weight * h * p(x) * r * np.sin(angle)).sum())
+        S = y * math.log(r / self._unit) - math.pi * G * mean
+        return S, 0.5 * (y * S - math.pi * G * work)
+
+    # -- panels ---------------------------------------------------------------------------------------------------------
+
+    def _cover(self, lo: float, hi: float) -> None:
+        """Panels for every load from lo to hi, where there are none yet."""
+        lo, hi = max(lo, LOWEST * self.top), min(hi, self.top)
+        panels, gaps = self._panels, []
+        k = bisect_right(panels, lo, key=lambda p: p.hi)
+        below = panels[k - 1].hi if k else 0.0
+        while lo < hi:
+            until = panels[k].lo if k < len(panels) else hi
+            if lo < until:
+                gaps.append((lo, min(until, hi), below))
+            if until >= hi:
+                break
+            lo = below = panels[k].hi
+            k += 1
+        for start, end, limit in gaps:
+            at_break = self._break_below(start, end, limit)
+            k = bisect_right(panels, end, key=lambda p: p.hi)
+            panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
+
+    def _break_below(self, level: float, top: float, limit: float) -> float:
+        """The level at which an edge passed the nearest break, where that is not far below, nor below `limit`; otherwise 0."""
+        here, there = self.contact(level).interval, self.contact(top).interval
+        found = [0.0]
+        for right in (False, True):
+            passed = [
+                b
+                for b in self._breaks
+                if (self._touch[1] < b < here.x2 if right else here.x1 < b < self._touch[0])
+            ]
+            if passed:
+                b = max(passed) if right else min(passed)
+                moved, since = (
+                    (there.x2 - here.x2, here.x2 - b)
+                    if right
+                    else (here.x1 - there.x1, b - here.x1)
+                )
+                if since <= moved:
+                    found.append(self._level_at(b, right, here))
+        return max(y if max(limit, LOWEST * self.top) < y < level else 0.0 for y in found)
+
+    def _resolved(
+        self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
+    ) -> list[Panel]:
+        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more.
+
+        An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
+        """
+        whole = whole or hi - lo
+        inside = self._passed(lo, hi)
+        cut = (
+            self._level_at(
+                *inside[len(inside) // 2], self.contact(math.sqrt(lo) * math.sqrt(hi)).interval
+            )
+            if inside
+            else 0.0
+        )
+        at_break = lo * (1.0 + SHORTEST) < cut < hi * (1.0 - SHORTEST)
+        if not (at_break and len(inside) <= FEW):
+            before = math.inf
+            for n in SIZES:
+                series, missed = self._series(lo, hi, kinked, n)
+                if hi - lo <= SHORTEST * lo:
+                    return [Panel(lo, hi, kinked, series)]
+                # Beside what a front of such a load turns into heat
+                enough = (COARSE if at_break else FINE) * min(whole, hi) / (hi - lo)
+                if missed <= enough or 0.25 * before <= missed <= NOISE:
+                    return [Panel(lo, hi, kinked, series)]
+                if missed * (missed / before) ** 2 > enough:
+                    break  # twice as many points would not do either
+                before = missed
+        if not at_break:
+            cut = lo * (hi / lo) ** (0.25 if kinked else 0.75 if below else 0.5)
+        upper = self._resolved(cut, hi, at_break, whole, below)
+        return self._resolved(lo, cut, kinked, whole, at_break) + upper
+
+    def _series(self, lo: float, hi: float, kinked: bool, n: int) -> tuple[Array, float]:
+        """The series of a panel, and how large its last coefficients are."""
+        s = chebyshev.points(n)
+        t = 0.5 * (1.0 + s)
+        y = lo * (hi / lo) ** (t * t if kinked else t)
+        length = math.log1p((hi - lo) / lo)
+        # The slope near where it is 0 is known to rounding of its larger values
+        scale = max(NOISELESS * math.sqrt(self.top / hi), 1.0)
+        if length > LONG and (self._search.slope.functions or len(self._breaks) > FEW):
+            contacts = [self.contact(level).interval for level in y.tolist()]
+            series = chebyshev.transform(np.log([[c.r / contacts[-1].r for c in contacts]]))[0]
+            missed = float(np.abs(series[-TAIL:]).max()) / scale / length
+            return np.polynomial.chebyshev.chebder(series) * (
+                (1.0 if kinked else 2.0) / length
+            ), missed
+        values = np.array([self._rate(level) for level in y.tolist()])
+        if kinked:
+            values = values * t
+        series = chebyshev.transform(values[None, :])[0]
+        scale *= float(np.abs(values).max())
+        return series, float(np.abs(series[-TAIL:]).max()) / scale if scale else 0.0
+
+    def _passed(self, lo: float, hi: float) -> list[tuple[float, bool]]:
+        """The breaks that the edges pass between two loads, in the order of their distance, and whether it is the right edge."""
+        if not self._breaks:
+            return []
+        a, b = self.contact(lo).interval, self.contact(hi).interval
+        slack = 4.0 * EPS * (b.r + abs(b.m))
+        lo_end, hi_end = self._ends  # which an edge reaches, and does not pass
+        left = [
+            (x, False)
+            for x in self._breaks
+            if b.x1 + (0.0 if x == lo_end else slack) <= x < a.x1 - slack
+        ]
+        right = [
+            (x, True)
+            for x in self._breaks
+            if a.x2 + slack < x <= b.x2 - (0.0 if x == hi_end else slack)
+        ]
+        both = left + right if self._search.axis is None else right
+        return sorted(both, key=lambda pair: abs(pair[0] - a.m))
+
+    # -- contacts ---------------------------------------------------------------------------------------------------------
+
+    def _rate(self, y: float) -> float:
+        """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp (`edges`)."""
+        (contact, sharp, k), G = self.contact(y), self._search.half_modulus
+        rise1 = contact.r * k.JL - (0.5 * k.I0 if sharp[1] else 0.0)
+        rise2 = contact.r * k.JR + (0.5 * k.I0 if sharp[0] else 0.0)
+        moves = (0.0 if sharp[0] else 1.0 / rise1) + (0.0 if sharp[1] else 1.0 / rise2)
+        return y * moves / (2.0 * G * contact.r)
+
+    def contact(self, y: float) -> Contact:
+        found = self._near(y)
+        if found is None:
+            search = self._search
+            contact, sharp, k = (
+                search.symmetric(y) if search.axis is not None else search.general(y)
+            )
+            found = Contact(contact, sharp, k or search.moments(contact))
+        self._learn(y, found)
+        return found
+
+    def _near(self, y: float) -> Contact | None:
+        """By Newton from what the contacts of other loads say, None if that does not settle or an edge is sharp."""
+        guess = self._guess(math.log(y))
+        if guess is None:
+            return None
+        contact, target, previous = guess, y / self._search.half_modulus, NEAR
+        for _ in range(STEPS):
+            k, r = self._search.moments(contact), contact.r
+            if not (k.JL > 0.0 and k.JR > 0.0):
+                return None
+            step1, step2 = (
+                (r * (k.I1 - k.I0) - target) / (r * k.JL),
+                (target - r * (k.I1 + k.I0)) / (r * k.JR),
+            )
+            d1, d2 = self._distances(contact)
+            size = max(abs(step1) / d1, abs(step2) / d2)
+            if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(self.top / y):
+                return Contact(contact, (False, False), k)
+            if not size <= previous:
+                return None
+            contact, previous = contact.moved(step1, step2), size
+            if not (self._ends[0] < contact.x1 and contact.x2 < self._ends[1]):
+                return None
+        return None
+
+    def _distances(self, contact: Interval) -> tuple[float, float]:
+        z1, z2 = self._touch
+        return (z1 - contact.x1) - contact.tail1, (contact.x2 - z2) + contact.tail2
+
+    def _learn(self, y: float, found: Contact) -> None:
+        distances = self._distances(found.interval)
+        if any(found.sharp) or min(distances) <= 0.0:
+            return
+        point = (math.log(y), math.log(distances[0]), math.log(distances[1]))
+        k = bisect_left(self._known, point[:1])
+        if k == len(self._known) or self._known[k][0] != point[0]:
+            self._known.insert(k, point)
+
+    def _guess(self, at: float) -> Interval | None:
+        """From the four nearest loads: the distances of the edges are power laws, about, and cubics in logarithms."""
+        if len(self._known) < 2:
+            return None
+        first = max(min(bisect_left(self._known, (at,)) - 2, len(self._known) - 4), 0)
+        table = np.array(self._known[first : first + 4])
+        x, moves = table[:, 0], table[:, 1:]
+        for order in range(1, len(x)):  # Neville
+            t = ((at - x[: len(x) - order]) / (x[order:] - x[: len(x) - order]))[:, None]
+            moves = moves[:-1] + t * (moves[1:] - moves[:-1])
+        if not np.abs(moves[0] - table[:, 1:]).max(axis=1).min() <= FARTHEST:
+            return None
+        (d1, d2), (z1, z2) = np.exp(moves[0]).tolist(), self._touch
+        (x1, tail1), (x2, tail2) = two_sum(z1, -d1), two_sum(z2, d2)
+        return Interval(x1, x2, tail1, tail2)
+
+    def _level_at(self, b: float, right: bool, near: Interval) -> float:
+        """The load under which an edge is at b, 0 if it is not found."""
+        search = self._search
+        if search.axis is not None:
+            d = abs(b - search.axis)
+            contact = (
+                Interval(2.0 * search.axis - b, b) if right else Interval(b, 2.0 * search.axis - b)
+            )
+            return search.load(contact, search.moments(contact)) if d > 0.0 else 0.0
+        contact = (
+            Interval(near.x1, b, near.tail1, 0.0)
+            if right
+            else Interval(b, near.x2, 0.0, near.tail2)
+        )
+        previous = math.inf
+        for _ in range(STEPS * 4):
+            k = search.moments(contact)
+            J = k.JL if right else k.JR
+            if not J > 0.0:
+                return 0.0
+            step = -2.0 * k.I0 / J
+            if abs(step) >= 0.5 * previous or abs(step) <= SETTLED * contact.r:
+                return search.load(contact, k) if abs(step) <= ASTRAY * contact.r else 0.0
+            contact, previous = (
+                (contact.moved(step, 0.0) if right else contact.moved(0.0, step)),
+                abs(step),
+            )
+            if not contact.r > 0.0:
+                return 0.0
+        return 0.0
+
+
+def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The union of ranges, as those that do not meet.
+
+    Small steps of a path ask for short ranges, each of which would be a panel.
+    """
+    out: list[tuple[float, float]] = []
+    for lo, hi in sorted(ranges):
+        if out and lo <= out[-1][1] * (1.0 + SAME):
+            out[-1] = out[-1][0], max(hi, out[-1][1])
+        else:
+            out.append((lo, hi))
+    return out

@@ -1,0 +1,303 @@
+"""Slip zones at both ends of a stick zone: where they end, and the shear between them, from the pressure alone.
+
+On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1; inside, 1/π PV∫q/(x - t) dt = τ, the strain
+that a bulk stress causes, as a stress. With c = (c1 + c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone,
+(Fq - τ)/R is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
+
+    Fq(z) = τ + R(z)/π ∫_slip q(s) / (R(s) (z - s)) ds
+    q(x)  = f w(x)/π [ s1 ∫_left p/(|R| |s - x|) ds + s2 ∫_right p/(|R| |s - x|) ds ]          in the stick zone
+
+and what this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the combinations that belong to one end each:
+
+    s2 ∫_right p sqrt((s - c1)/(s - c2)) ds + s1 ∫_left  p sqrt((c1 - s)/(c2 - s)) ds = (Q - π ρ τ)/f
+    s1 ∫_left  p sqrt((c2 - s)/(c1 - s)) ds + s2 ∫_right p sqrt((s - c2)/(s - c1)) ds = (Q + π ρ τ)/f
+
+With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures (`slip`); with s1 = -s2 slip is reversed
+on one side by a large bulk stress (Nowell & Hills 1987). All integrands are positive: nothing cancels, however thin the zones are. The
+pressure next to an edge is needed as a function of the distance from it, which a double x no longer tells: it is evaluated in coordinates
+whose origin is that edge.
+
+The same argument gives what a further load step does while nothing else slips, dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): zones of
+slip grow at both ends as long as s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval
+from sie.profiles.slope import Slope
+from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity
+from sie.traction.panels import Panels
+from sie.traction.piece_quadrature import Geometry
+
+Array = NDArray[np.float64]
+
+NODES = 16  # on panels that are a quarter as long as the distance to what is singular
+GRADING = 0.25
+LEVELS = 26  # GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+ROWS = 4096  # abscissae at a time
+GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
+MAX_STEPS = 200
+MAX_SWEEPS = 60
+FIRST_STEP = 16.0
+SHORTEST = 1e-120  # of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
+SETTLED = 8.0 * EPS
+
+
+# -- the contact seen from one of its edges -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Rim:
+    """The contact in coordinates of one of its edges: distance inwards, to relative accuracy.
+
+    `density` and `slope` are the contact's, moved so that the edge is at 0; `side` is +1 for the right edge.
+    """
+
+    density: SlopeDensity
+    slope: Slope
+    side: float
+    origin: tuple[float, float]  # what was added to x: -edge and -tail
+
+    def pressure(self, distance: Array) -> Array:
+        return self.density(-self.side * distance)
+
+    @cached_property
+    def breaks(self) -> Array:
+        """Distances of the profile's breaks inside the contact, ascending."""
+        b = -self.side * self.slope.breaks
+        return np.sort(b[(b > 0.0) & (b < 2.0 * self.density.contact.r)])
+
+    @property
+    def width(self) -> float:
+        return 2.0 * self.density.contact.r
+
+
+def rim(density: SlopeDensity, slope: Slope, side: float) -> Rim:
+    contact = density.contact
+    edge, tail = (contact.x2, contact.tail2) if side > 0.0 else (contact.x1, contact.tail1)
+    width = 2.0 * contact.r
+    seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
+    return Rim(
+        moved(density, seen, -edge, -tail),
+        slope.shifted(-edge).shifted(-tail),
+        side,
+        (-edge, -tail),
+    )
+
+
+def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> SlopeDensity:
+    """The same density with its contact, and what it knows of the slope, moved by dx + tail."""
+    if isinstance(density, PowerDensity):
+        return density.moved(contact, dx, tail)
+    if not isinstance(density, PanelDensity):
+        return replace(density, contact=contact)
+    old = density.panels
+    slope = old.geometry.slope.shifted(dx).shifted(tail)
+    # A slope that ended with the contact still does: an ulp short of it, all of H would jump there
+    breaks = slope.breaks.copy()
+    breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
+    return replace(
+        density,
+        contact=contact,
+        panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0),
+    )
+
+
+# -- one zone -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Zone:
+    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of contact, and the forces p ds there."""
+
+    length: float
+    inwards: Array
+    outwards: Array
+    weight: Array
+    force: Array
+
+    def strong(self, rho: float) -> float:
+        """∫p sqrt((s - c_far)/(s - c_near)) ds."""
+        return float(self.force @ (np.sqrt(self.inwards + 2.0 * rho) / np.sqrt(self.inwards)))
+
+    def weak(self, rho: float) -> float:
+        """∫p sqrt((s - c_near)/(s - c_far)) ds."""
+        return float(self.force @ np.sqrt(self.inwards / (self.inwards + 2.0 * rho)))
+
+    def pull(self, distance: Array, rho: float) -> Array:
+        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its side away from the zone."""
+        weight = self.force / np.sqrt(self.inwards * (self.inwards + 2.0 * rho))
+        out = np.empty(distance.shape)
+        far = distance >= self.length
+        places, strength = self._gathered(weight) if far.any() else (self.inwards, weight)
+        for at, nodes, charge in (
+            (np.flatnonzero(far), places, strength),
+            (np.flatnonzero(~far), self.inwards, weight),
+        ):
+            for start in range(0, len(at), ROWS):
+                rows = at[start : start + ROWS]
+                out[rows] = np.reciprocal(distance[rows, None] + nodes) @ charge
+        return out
+
+    def _gathered(self, weight: Array) -> tuple[Array, Array]:
+        """A few places in the zone and the weights there that act beyond its length like all: 1/(d + s) is a short series in s."""
+        u = chebyshev.points(GATHERED)
+        series = chebyshev.polynomials(GATHERED, 2.0 * self.inwards / self.length - 1.0)
+        series *= np.where(np.arange(GATHERED) == 0, 1.0, 2.0)[:, None] / GATHERED
+        strength: Array = chebyshev.polynomials(GATHERED, u).T @ (series @ weight)
+        return 0.5 * self.length * (1.0 + u), strength
+
+
+def zone(rim: Rim, length: float) -> Zone:
+    """The slip zone of this length at a rim: s = edge - length cos²(ψ/2), graded towards the stick zone and towards breaks.
+
+    In ψ a smooth edge and a sharp one are both harmless.
+    """
+    if length <= 0.0:
+        none = np.zeros(0)
+        return Zone(0.0, none, none, none, none)
+    inner = rim.breaks[rim.breaks < length]
+    at_breaks = 2.0 * np.arctan2(np.sqrt(length - inner), np.sqrt(inner))[::-1]
+    marks = np.concatenate(([0.0], at_breaks, [np.pi]))
+    ratios = GRADING ** np.arange(LEVELS, 0, -1)
+    cuts = [marks]
+    for k, (lo, hi) in enumerate(pairwise(marks)):
+        cuts += [lo + (hi - lo) * ratios, lo + (hi - lo) * np.array([0.5, 0.75])]
+        if k < len(marks) - 2:
+            cuts.append(hi - (hi - lo) * ratios[:-1])
+    ends = np.unique(np.concatenate(cuts))
+    g, w = chebyshev.gauss_legendre(NODES)
+    step = np.diff(ends)
+    half = 0.5 * (ends[:-1, None] + step[:, None] * g).ravel()
+    inwards, outwards = length * np.sin(half) ** 2, length * np.cos(half) ** 2
+    weight = (step[:, None] * w).ravel() * length * np.sin(half) * np.cos(half)
+    p = rim.pressure(outwards)
+    return Zone(length, inwards, outwards, weight, weight * np.where(np.isfinite(p), p, 0.0))
+
+
+# -- both zones ---------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What the zones answer to: Q/f, π τ/f and the signs of slip at the left and at the right edge."""
+
+    load: float
+    strain: float
+    left: float
+    right: float
+
+
+@dataclass(frozen=True, eq=False)
+class Zones:
+    """The stick zone and the slip zones beside it."""
+
+    stick: Interval
+    left: Zone
+    right: Zone
+    drive: Drive
+    spare: float = (
+        0.0  # of π τ/f: what a stick zone that has no width does not hold back (`narrow`)
+    )
+
+    def shear(self, x: Array) -> Array:
+        """q/f inside the stick zone, x 1-d."""
+        c, d = self.stick, self.drive
+        from_left, from_right = np.maximum(c.from_left(x), 0.0), np.maximum(c.from_right(x), 0.0)
+        pulls = d.left * self.left.pull(from_left, c.r) + d.right * self.right.pull(from_right, c.r)
+        q: Array = np.sqrt(from_left) * np.sqrt(from_right) / np.pi * pulls
+        return q
+
+    @cached_property
+    def moment(self) -> float:
+        """∫q x dx / f about x = 0: the next term of Fq far away."""
+        c, d = self.stick, self.drive
+        total = 0.0
+        for sign, zone, outward in ((d.left, self.left, -1.0), (d.right, self.right, 1.0)):
+            lever = c.r + zone.inwards
+            # Σ q (lever² - ρ²/2)/R with R = outward |R|
+            weight = zone.force / np.sqrt(zone.inwards * (zone.inwards + 2.0 * c.r))
+            total += outward * sign * float(weight @ (lever * lever - 0.5 * c.r * c.r))
+        return total + c.m * d.load
+
+
+def zones(
+    rims: tuple[Rim, Rim], contact: Interval, drive: Drive, guess: tuple[float, float]
+) -> Zones:
+    """The zones that the drive opens, from a guess of their lengths (left, right). Raises ContactError if there are none.
+
+    Each end has an equation of its own, in which the other one matters only to second order: they are solved in turn.
+    """
+    lengths = list(guess)
+    previous = np.inf
+    for _ in range(MAX_SWEEPS):
+        before = tuple(lengths)
+        for k in (0, 1):
+            lengths[k] = _length(rims, contact.r, drive, lengths, k)
+        change = max(abs(new - old) / new for new, old in zip(lengths, before, strict=True))
+        if change <= SETTLED or (change >= 0.5 * previous and change < 1e-12):
+            break
+        previous = change
+    else:
+        raise ContactError(
+            "the ends of the stick zone do not settle: another zone of slip opens inside it",
+            lengths=tuple(lengths),
+        )
+    left, right = (zone(r, length) for r, length in zip(rims, lengths, strict=True))
+    return Zones(contact.moved(lengths[0], -lengths[1]), left, right, drive)
+
+
+def _length(rims: tuple[Rim, Rim], r: float, drive: Drive, lengths: list[float], k: int) -> float:
+    """The length of zone k (0 left, 1 right) for the other one as it is."""
+    other = zone(rims[1 - k], lengths[1 - k])
+    sign, others, outward = (drive.right, drive.left, -1.0) if k else (drive.left, drive.right, 1.0)
+
+    def excess(length: float) -> float:
+        rho = r - 0.5 * (length + other.length)
+        return zone(rims[k], length).strong(rho) + sign * (
+            others * other.weak(rho) - drive.load - outward * rho * drive.strain
+        )
+
+    return root(excess, lengths[k], 2.0 * r - other.length)
+
+
+def root(function: Callable[[float], float], guess: float, limit: float) -> float:
+    """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
+    low, high = 0.0, limit
+    u, step = min(guess, 0.5 * limit), np.inf
+    before: tuple[float, float] | None = None
+    for _ in range(MAX_STEPS):
+        f = function(u)
+        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
+            return u
+        low, high = (u, high) if f < 0.0 else (low, u)
+        new = (
+            u - f * (u - before[0]) / (f - before[1])
+            if before is not None and f != before[1]
+            else -1.0
+        )
+        if not low < new < high:
+            new = 0.5 * (low + high)
+            if f < 0.0 and high == limit:
+                new = min(u * FIRST_STEP, 0.5 * (u + limit))
+            elif low == 0.0:
+                new = u / FIRST_STEP
+        before = (u, f)
+        if (
+            abs(new - u) <= EPS * u
+            or high - low <= 2.0 * EPS * high
+            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
+        ):
+            return new
+        step, u = new - u, new
+    return u

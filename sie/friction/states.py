@@ -1,0 +1,454 @@
+"""The states of a contact under tangential load: where it sticks, where it slips, what it carries. `slip` says which one it is."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.certificate.pressure_check import verify_inequalities
+from sie.contact.edge_integrals import moments
+from sie.contact.gap import gap
+from sie.contact.normal import Normal, pressure
+from sie.numerics.interval import EPS, Interval, two_sum
+from sie.problem.scene import Scene
+from sie.profiles.lowest_points import lowest_points, raised
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.base import ZERO, Density
+from sie.traction.combination import Combination
+from sie.traction.of_slope import SlopeDensity
+
+from .dissipation import Growth
+from .memory import Overwritten
+from .shear_density import OneSign, TwoSigns
+from .slip_zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones
+
+Array = NDArray[np.float64]
+
+# Below this fraction of sliding the shear is not taken as a difference of two pressures, which are then nearly the same.
+THIN = 1e-2
+
+
+@dataclass(frozen=True)
+class Step:
+    """What slips: a contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
+
+    `near` is a stick zone that the one asked for may be close to: it saves work, and changes nothing.
+    """
+
+    scene: Scene
+    normal: Normal
+    pressure: SlopeDensity
+    Q: float
+    tau: float
+    tol: float
+    economy: Collection[str]
+    near: Interval | None = None
+
+    @property
+    def slope(self) -> Slope:
+        return self.normal.slope(self.scene.profile)
+
+    @property
+    def normal_load(self) -> float:
+        return self.normal.edges.normal_load
+
+
+class Slip(ABC):
+    """Zones of stick and slip of a contact, and the shear there.
+
+    stick    the stick zones (lo, hi);     shear    q, a Density;     slip(x)    see the module;     kind    which of the states it is
+    """
+
+    kind: str
+    contact: Interval
+    friction: float
+    stick: tuple[tuple[float, float], ...]
+    advancing: bool = True  # whether the zones of slip grow along the whole step
+    condition: float = (
+        1.0  # how much larger a relative error of the load on the stick zone is than one of P or Q
+    )
+
+    @property
+    @abstractmethod
+    def shear(self) -> Density: ...
+
+    @abstractmethod
+    def slip(self, x: Array) -> Array:
+        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the contact."""
+
+    @property
+    @abstractmethod
+    def energy(self) -> float:
+        """∫|q| |slip| dx over the slip zones: what the step turned into heat, per unit length and thickness."""
+
+    @property
+    @abstractmethod
+    def shift(self) -> float:
+        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would, had nothing slipped."""
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order of time; |q| = f p in those in contact.
+
+        Where slip turned while P fell, the zones of the first direction lie beside the contact, which has left them.
+        """
+        return ()
+
+    @property
+    def untouched(self) -> tuple[float, float]:
+        """The zone that never slipped."""
+        return self.stick[0] if self.stick else (0.0, 0.0)
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        """Where else q has a kink: the ends of earlier stick zones."""
+        return ()
+
+    def slip_now(self, x: Array) -> Array:
+        """The slip since the last turning point."""
+        return self.slip(x)
+
+
+@dataclass(frozen=True, eq=False)
+class Stuck(Slip):
+    """Nothing slips and nothing is sheared."""
+
+    contact: Interval
+    friction: float
+    kind = "stick"
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        return ((self.contact.x1, self.contact.x2),) if self.friction else ()
+
+    @property
+    def shear(self) -> Density:
+        return ZERO
+
+    def slip(self, x: Array) -> Array:
+        return np.zeros(x.shape)
+
+    @property
+    def energy(self) -> float:
+        return 0.0
+
+    @property
+    def shift(self) -> float:
+        return 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _Slipping(Slip):
+    """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from their rims."""
+
+    pressure: SlopeDensity
+    slope: Slope
+    friction: float
+    step: Step
+
+    @property
+    def contact(self) -> Interval:  # type: ignore[override]
+        return self.pressure.contact
+
+    @property
+    @abstractmethod
+    def signs(self) -> tuple[float, float]:
+        """Signs of slip at the left and the right edge."""
+
+    @property
+    @abstractmethod
+    def lengths(self) -> tuple[float, float]: ...
+
+    @abstractmethod
+    def _opening(self, distance: Array, rim: Rim) -> Array:
+        """|slip|/f at these distances from the edge."""
+
+    @cached_property
+    def rims(self) -> tuple[Rim, Rim]:
+        return rims(self.pressure, self.slope)
+
+    def slip(self, x: Array) -> Array:
+        out = np.zeros(x.shape)
+        if not x.size:
+            return out
+        from_edge = self.contact.from_left(x), self.contact.from_right(x)
+        nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
+        for r, distance, sign, side in zip(
+            self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
+        ):
+            at = side & (distance >= 0.0)
+            if at.any():
+                out[at] = sign * self.friction * self._opening(distance[at], r)
+        return out
+
+    @property
+    def zones(self) -> tuple[Zone, Zone]:
+        left, right = (zone(r, length) for r, length in zip(self.rims, self.lengths, strict=True))
+        return left, right
+
+    @cached_property
+    def _integrals(self) -> tuple[float, float]:
+        f, width = self.friction, 2.0 * self.contact.r
+        energy = shift = 0.0
+        for r, z, sign in zip(self.rims, self.zones, self.signs, strict=True):
+            if z.length > 0.0:
+                opening = self._opening(z.outwards, r)
+                energy += f * f * float(z.force @ opening)
+                from_other_edge = (width - z.length) + z.inwards
+                shift += (
+                    sign
+                    * f
+                    / math.pi
+                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
+                )
+        return energy, shift
+
+    @cached_property
+    def energy(self) -> float:
+        step = self.step
+        if step.tau:
+            return self._integrals[0]
+        growth = Growth(step.scene, step.normal, step.tol, step.economy)
+        return float(
+            growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0]
+        )
+
+    @property
+    def shift(self) -> float:
+        return self._integrals[1]
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        (x1, x2), (left, right) = self.pressure.interval, self.signs
+        if not self.stick:
+            return ((x1, x2, left),)
+        (c1, c2), (lengths) = self.stick[0], self.lengths
+        both = ((x1, c1, left), (c2, x2, right))
+        return tuple(z for z, length in zip(both, lengths, strict=True) if length > 0.0)
+
+
+def rims(density: SlopeDensity, slope: Slope) -> tuple[Rim, Rim]:
+    return rim(density, slope, -1.0), rim(density, slope, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Sliding(_Slipping):
+    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go. `unloaded` is the slope of that limit."""
+
+    sign: float
+    unloaded: Slope
+    kind = "sliding"
+    stick = ()
+
+    @cached_property
+    def shear(self) -> Density:
+        return Combination(((self.sign * self.friction, self.pressure),))
+
+    @property
+    def signs(self) -> tuple[float, float]:
+        return self.sign, self.sign
+
+    @cached_property
+    def _touch(self) -> tuple[float, float]:
+        return lowest_points(self._resolved)
+
+    @cached_property
+    def _resolved(self) -> Slope:
+        """On the contact alone: a strain may pull the lowest point of the whole profile out of it, and the last to let go is an edge."""
+        x1, x2 = self.contact.x1, self.contact.x2
+        return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        (z1, z2), width = self._touch, 2.0 * self.contact.r
+        return min(max(self.contact.from_left(z1), 0.0), width), min(
+            max(self.contact.from_right(z2), 0.0), width
+        )
+
+    def _opening(self, distance: Array, rim: Rim) -> Array:
+        edge, tail = (
+            (self.contact.x2, self.contact.tail2)
+            if rim.side > 0.0
+            else (self.contact.x1, self.contact.tail1)
+        )
+        slope = self._resolved.shifted(-edge).shifted(-tail)
+        z1, z2 = ((z - edge) - tail for z in self._touch)
+        return raised(slope, (z1, z2), -rim.side * distance)
+
+
+@dataclass(frozen=True, eq=False)
+class OneWay(_Slipping):
+    """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
+
+    sign: float
+    found: Normal
+    kind = "one sign"
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        inner, outer = self.found.edges.contact, self.contact
+        return ((max(inner.x1, outer.x1), min(inner.x2, outer.x2)),)
+
+    @cached_property
+    def thin(self) -> Zones | None:
+        """The zones from their own equations, where the difference of two pressures would lose digits."""
+        step, f = self.step, self.friction
+        Q, tau, contact = step.Q, step.tau, self.contact
+        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(
+            tau
+        ) <= abs(Q)
+        if not small or any(step.normal.edges.sharp):
+            return None
+        drive = Drive(self.sign * Q / f, self.sign * math.pi * tau / f, 1.0, 1.0)
+        return zones(self.rims, contact, drive, _guess(step, self.sign))
+
+    @cached_property
+    def corrective(self) -> SlopeDensity:
+        """p̂."""
+        step, found = self.step, self.found
+        if self.thin is not None:
+            found = replace(found, edges=replace(found.edges, contact=self.thin.stick))
+        density = pressure(found, step.scene, step.tol, step.economy)
+        if not (step.scene.profile.convex and "convexity" in step.economy):
+            verify_inequalities(density, self._tilted)
+        return density
+
+    @property
+    def _tilted(self) -> Slope:
+        """What p̂ answers to."""
+        return self.found.slope(self.step.scene.profile)
+
+    @cached_property
+    def shear(self) -> Density:
+        return OneSign(
+            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.thin
+        )
+
+    @property
+    def signs(self) -> tuple[float, float]:
+        return self.sign, self.sign
+
+    @property
+    def condition(self) -> float:  # type: ignore[override]
+        P, left = self.step.normal_load, self.found.edges.normal_load
+        return max(P / left, 1.0)
+
+    @property
+    def advancing(self) -> bool:  # type: ignore[override]
+        return _advancing(self, self.step, (self.contact.r, self.found.edges.contact.r))
+
+    @cached_property
+    def lengths(self) -> tuple[float, float]:
+        if self.thin is not None:
+            return self.thin.left.length, self.thin.right.length
+        outer, inner = self.contact, self.corrective.contact
+        left = (inner.x1 - outer.x1) + (inner.tail1 - outer.tail1)
+        right = (outer.x2 - inner.x2) + (outer.tail2 - inner.tail2)
+        return max(left, 0.0), max(right, 0.0)
+
+    def _opening(self, distance: Array, rim: Rim) -> Array:
+        corrective, slope = seen(self.corrective, self._tilted, self.lengths, rim)
+        return gap(-rim.side * distance, corrective, slope)
+
+
+@dataclass(frozen=True, eq=False)
+class TwoWays(_Slipping):
+    """Slip in opposite directions at the two edges: `sign` at the left one."""
+
+    found: Zones
+    formal: SlopeDensity  # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish at both ends
+    kind = "two signs"
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        found = self.found
+        return (
+            (found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),
+        )
+
+    @cached_property
+    def shear(self) -> Density:
+        held = self.step.tau - math.copysign(
+            self.friction * self.found.spare / math.pi, self.step.tau
+        )
+        return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, held)
+
+    @property
+    def advancing(self) -> bool:  # type: ignore[override]
+        return _advancing(self, self.step, (self.contact.r, self.found.stick.r))
+
+    @property
+    def signs(self) -> tuple[float, float]:
+        return self.found.drive.left, self.found.drive.right
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        return self.found.left.length, self.found.right.length
+
+    @property
+    def zones(self) -> tuple[Zone, Zone]:
+        return self.found.left, self.found.right
+
+    def _opening(self, distance: Array, rim: Rim) -> Array:
+        formal, slope = seen(self.formal, self.slope, self.lengths, rim)
+        return gap(-rim.side * distance, formal, slope, self._more(formal.contact))
+
+    def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
+        """What the other zone's shear, and strain that nothing holds back, add to the outward derivative of slip/f."""
+        G, rho = self.pressure.half_modulus, stick.r
+
+        def more(x: Array, side: float) -> Array:
+            from_far, from_near = (
+                (stick.from_left(x), -stick.from_right(x))
+                if side > 0.0
+                else (stick.from_right(x), -stick.from_left(x))
+            )
+            other = self.found.left if side > 0.0 else self.found.right
+            near = np.maximum(from_near, 0.0)
+            pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
+            opening: Array = (pull + self.found.spare) / (math.pi * G)
+            return opening
+
+        return more
+
+
+def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
+    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ)."""
+    Q, tau = step.Q, step.tau
+    return all(
+        length == 0.0
+        or all(sign * (Q - outward * math.pi * rho * tau) >= 0.0 for rho in half_widths)
+        for length, sign, outward in zip(state.lengths, state.signs, (-1.0, 1.0), strict=True)
+    )
+
+
+def seen(
+    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim
+) -> tuple[SlopeDensity, Slope]:
+    """A density on the stick zone and its slope in the coordinates of a rim."""
+    near = lengths[rim.side > 0.0]
+    far, rest = two_sum(
+        -near, -2.0 * density.contact.r
+    )  # from the width of the stick zone, which the other length may not tell
+    ends = Interval(far, -near, rest, 0.0) if rim.side > 0.0 else Interval(near, -far, 0.0, -rest)
+    dx, tail = rim.origin
+    return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
+
+
+def _guess(step: Step, sign: float) -> tuple[float, float]:
+    """Lengths of thin zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
+    contact, G, f = step.pressure.contact, step.pressure.half_modulus, step.scene.friction
+    slope = refined(step.slope, contact.x1, contact.x2, EPS)
+    k = moments(slope, contact)
+    Q, strain = sign * step.Q, sign * math.pi * contact.r * step.tau
+    tiny = EPS * abs(Q)
+    return max(Q + strain, tiny) / (f * G * contact.r * k.JL), max(Q - strain, tiny) / (
+        f * G * contact.r * k.JR
+    )

@@ -1,0 +1,229 @@
+"""An answer to read: rounded to six digits, with a picture of the pressure in text."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from sie.history import Followed
+from sie.solution import Solution
+
+from .export import energy_of, notes_of, slipping, turning_points, wanted
+from .sample_points import SAME_PEAK, ceiling, peak
+from .scene_file import SceneFile, Units
+
+SAME_PLACE = 1e-7  # of the half-width: where a smooth peak is, rounding of p does not tell closer
+NOTHING = 1e-13  # of its scale: below it a printed number is rounding, and 0 is what is meant
+COLUMNS, ROWS = 60, 8  # of the text picture
+
+
+def summary(solution: Solution, file: SceneFile) -> str:
+    """What the file wants, section by section."""
+    sections = {
+        "edges": edges_summary,
+        "pressure": pressure_summary,
+        "gap": gap_summary,
+        "shear": shear_summary,
+        "stress": stress_summary,
+        "yield": yield_summary,
+        "tension": tension_summary,
+        "check": check_summary,
+    }
+    scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
+    parts = [
+        section(solution, file.units) for name, section in sections.items() if name in wanted(file)
+    ]
+    noted = (
+        [] if "check" in wanted(file) else ["\n".join(notes_of(solution, file))]
+    )  # the certificate says them itself
+    return "\n\n".join(
+        [f"{file.title}\n{scene}" if file.title else scene, *parts, *filter(None, noted)]
+    )
+
+
+def edges_summary(solution: Solution, units: Units) -> str:
+    r, P = solution.half_width, solution.normal_load
+    x1, x2 = (
+        f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}"
+        for x, s in zip(solution.edges, solution.sharp, strict=True)
+    )
+    return _rows(
+        ("edges", f"x1 = {x1};  x2 = {x2}"),
+        ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
+        ("normal load", f"{_number(P)} {units.force}"),
+        ("moment", f"{_number(solution.moment, P * r)} {units.moment}, about x = 0"),
+        ("tilt", _number(solution.tilt, P / (r * solution.scene.Estar))),
+    )
+
+
+def pressure_summary(solution: Solution, units: Units) -> str:
+    largest, where = peak(solution)
+    places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
+    places += [f"{len(where) - 2} more"] if len(where) > 2 else []
+    value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
+    mean = solution.normal_load / (2.0 * solution.half_width)
+    rows = _rows(
+        ("peak pressure", f"{value} at x = {' and '.join(places)}"),
+        ("mean pressure", f"{_number(mean)} {units.stress}"),
+    )
+    return f"{rows}\n\n{text_picture(solution, units)}"
+
+
+def gap_summary(solution: Solution, units: Units) -> str:
+    """The gap half a half-width beyond each edge."""
+    (x1, x2), r = solution.edges, solution.half_width
+    x = np.array([x1 - 0.5 * r, x2 + 0.5 * r])
+    values = (
+        f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter"
+        for g in solution.gap(x).tolist()
+    )
+    return _rows(
+        (
+            "gap",
+            ";  ".join(
+                f"{value} at x = {_number(at)}"
+                for value, at in zip(values, x.tolist(), strict=True)
+            ),
+        )
+    )
+
+
+def shear_summary(solution: Solution, units: Units) -> str:
+    """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
+    if not solution.carries_shear:
+        return _rows(("shear", "none"))
+    scene, r = solution.scene, solution.half_width
+    limit = (
+        "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
+    )
+    rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
+    rows += (
+        [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")]
+        if scene.bulk_stress
+        else []
+    )
+    rows += [
+        ("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}")
+        for lo, hi in solution.stick
+    ] or [("stick", "none")]
+    for lo, hi, sign in slipping(solution):
+        rows.append(
+            (
+                "slip",
+                f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p",
+            )
+        )
+    rows += [
+        ("energy lost", f"{_number(energy)} {units.moment}")
+        for energy in energy_of(solution).values()
+    ]
+    table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
+    return "\n\n".join([_rows(*rows), *table])
+
+
+def _path_table(solution: Followed, units: Units) -> str:
+    head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
+    lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
+    for point in turning_points(solution):
+        lo, hi = point["stick"][0] if point["stick"] else ("-", "-")
+        cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], lo, hi)
+        shown = "".join(f"{c:>14}" if isinstance(c, str) else f"{_number(c):>14}" for c in cells)
+        lines.append(f"{shown}   {_number(point['energy_lost'])}")
+    return "\n".join(lines)
+
+
+def stress_summary(solution: Solution, units: Units) -> str:
+    """The stress under the centre of the contact, on the surface and half a half-width below."""
+    r = solution.half_width
+    lines: list[tuple[str, str]] = []
+    for where, y in (
+        ("on the surface", 0.0),
+        (f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r),
+    ):
+        s = solution.stress(solution.centre, y)
+        scale = solution.normal_load / r
+        parts = (
+            f"{name} = {_number(float(v), scale)}"
+            for name, v in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
+        )
+        lines.append(
+            (
+                "stress" if not lines else "",
+                f"{', '.join(parts)} {units.stress} at the centre, {where}",
+            )
+        )
+    return _rows(*lines)
+
+
+def yield_summary(solution: Solution, units: Units) -> str:
+    found, r = solution.elastic_limit(), solution.half_width
+    if math.isinf(found.stress):
+        return _rows(
+            (
+                "elastic limit",
+                f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface",
+            )
+        )
+    places = (
+        f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in found.places
+    )
+    return _rows(
+        (
+            "elastic limit",
+            f"P/(bk) = {_number(found.ratio)} (von Mises): this contact yields if k < {_number(found.stress)} {units.stress}",
+        ),
+        ("weakest point", " and ".join(places)),
+    )
+
+
+def tension_summary(solution: Solution, units: Units) -> str:
+    value, x = solution.peak_tension()
+    size = (
+        f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
+        if math.isfinite(value)
+        else "infinite"
+    )
+    return _rows(
+        ("peak tension", f"{size} at x = {_number(x, solution.half_width)} {units.length}")
+    )
+
+
+def check_summary(solution: Solution, _units: Units) -> str:
+    """The certificate of the equations, and of each trace what its noise leaves open."""
+    return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
+
+
+def text_picture(solution: Solution, units: Units) -> str:
+    """The pressure over the contact as columns of blocks; ↑ where it rises above the picture."""
+    (x1, x2), top = solution.edges, ceiling(solution)
+    p = solution.pressure(x1 + (x2 - x1) * (np.arange(COLUMNS) + 0.5) / COLUMNS)
+    eighths: list[int] = np.round(np.minimum(p / top, 1.0) * 8 * ROWS).astype(int).tolist()
+    rows = [
+        "".join(" ▁▂▃▄▅▆▇█"[min(max(e - 8 * level, 0), 8)] for e in eighths)
+        for level in range(ROWS - 1, -1, -1)
+    ]
+    rows[0] = "".join(
+        "↑" if cut else block
+        for block, cut in zip(rows[0], p > top * (1.0 + SAME_PEAK), strict=True)
+    )
+    labels = [_number(top), *[""] * (ROWS - 1)]
+    margin = len(labels[0])
+    left, right = (
+        _number(x1, solution.half_width),
+        f"{_number(x2, solution.half_width)} {units.length}",
+    )
+    lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]
+    axis = [
+        f"{0:>{margin}} └{'─' * COLUMNS}",
+        f"{'':>{margin}}  {left}{right:>{COLUMNS - len(left)}}",
+    ]
+    return "\n".join([f"p in {units.stress}", *lines, *axis])
+
+
+def _number(value: float, scale: float = 0.0, nothing: float = NOTHING) -> str:
+    return f"{0.0 if abs(value) < nothing * scale else value:.6g}"
+
+
+def _rows(*rows: tuple[str, str]) -> str:
+    return "\n".join(f"{name:<15} {text}" for name, text in rows)

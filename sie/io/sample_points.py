@@ -1,0 +1,128 @@
+"""Where to look at an answer: points that miss no rim and no peak, and the heights that a picture needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics.interval import EPS
+from sie.solution import Solution
+
+Array = NDArray[np.float64]
+
+POINTS = 401  # in the contact, unless told otherwise
+# Points beside the contact, on each side, as a fraction of those in it, and how far out they reach, in half-widths.
+BESIDE = 0.25
+REACH = 0.6
+# Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is below the flat top that rounding leaves.
+PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
+ZOOMS = 8
+ZOOM_POINTS = 41
+LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
+SAME_PEAK = 1e-9  # relative: a symmetric pressure has its peak twice
+# A spike is cut out of a picture if it is so many times what 95 % of the contact stays below; the picture then ends a little above that.
+SPIKE = 3.0
+ABOVE_ORDINARY = 1.4
+
+
+def inside(solution: Solution, points: int = POINTS) -> Array:
+    """About `points` abscissae from x1 to x2, ascending, among them the edges and the breaks of the slope.
+
+    Points gather at edges and breaks like Chebyshev's. Half of them are shared out by length (in the angle of the contact), half equally,
+    so that a narrow rim has its own. Of very many breaks, as a trace has, none is a place of its own.
+    """
+    (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
+    ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
+    angle = np.arccos(np.clip((m - ends) / r, -1.0, 1.0))
+    share = 0.5 * np.diff(angle) / np.pi + 0.5 / (len(ends) - 1)
+    parts = [
+        lo + (hi - lo) * _gathered(round(points * s))
+        for lo, hi, s in zip(ends[:-1], ends[1:], share, strict=True)
+    ]
+    return np.unique(np.concatenate([*parts, ends]))
+
+
+def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
+    """Abscissae left and right of the contact, ascending, without the edges, out to REACH half-widths or the end of the indenter."""
+    (x1, x2), (lo, hi), reach = (
+        solution.edges,
+        solution.scene.profile.domain,
+        REACH * solution.half_width,
+    )
+    left, right = max(x1 - reach, lo), min(x2 + reach, hi)
+    t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
+    x = np.unique(
+        np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points)))
+    )
+    return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
+
+
+def _corners(solution: Solution, points: int) -> tuple[float, ...]:
+    breaks = solution.scene.profile.breaks
+    return breaks if len(breaks) <= points // PER_BREAK else ()
+
+
+def abscissae(solution: Solution, points: int = POINTS) -> Array:
+    """Left of the contact, in it, and right of it."""
+    left, right = beside(solution, points)
+    return np.concatenate((left, inside(solution, points), right))
+
+
+def _gathered(n: int) -> Array:
+    """n + 1 points (at least 2) from 0 to 1, dense at both."""
+    return np.asarray(np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, max(n, 1) + 1)) ** 2)
+
+
+@dataclass(frozen=True)
+class Summit:
+    """A local maximum of the pressure; p is inf at a sharp edge or under a corner."""
+
+    x: float
+    p: float
+
+
+def summits(solution: Solution) -> tuple[Summit, ...]:
+    """The local maxima of the pressure, from left to right; lesser ones only as closely as they were sampled."""
+    x = np.union1d(inside(solution), [solution.centre])
+    p = solution.pressure(x)
+    padded = np.concatenate(([-np.inf], p, [-np.inf]))
+    top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
+    high = top[np.isfinite(p[top]) & (p[top] >= LESSER * p[np.isfinite(p)].max())]
+    x[high], p[high] = _narrowed(
+        solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
+    )
+    return tuple(Summit(*found) for found in zip(x[top].tolist(), p[top].tolist(), strict=True))
+
+
+def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
+    """(largest pressure, where): at more than one x if the pressure is as large there."""
+    found = summits(solution)
+    largest = max(s.p for s in found)
+    return largest, tuple(
+        s.x for s in found if s.p == largest or s.p >= largest * (1.0 - SAME_PEAK)
+    )
+
+
+def ceiling(solution: Solution) -> float:
+    """The largest pressure that a picture should show: the peak, unless it is infinite or a spike over a small part of the contact."""
+    x1, x2 = solution.edges
+    p = solution.pressure(x1 + (x2 - x1) * (np.arange(400) + 0.5) / 400.0)
+    ordinary = float(np.quantile(p, 0.95, method="lower"))
+    largest, _ = peak(solution)
+    return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary
+
+
+def _narrowed(solution: Solution, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
+    """(where, value) of the largest pressures in [lo, hi], from x on: moved only for a gain beyond rounding."""
+    p, every = solution.pressure(x), np.arange(len(x))
+    for _ in range(ZOOMS):
+        near = np.linspace(lo, hi, ZOOM_POINTS, axis=1)
+        values = solution.pressure(near)
+        k = np.argmax(values, axis=1)
+        gain = values[every, k] > p * (1.0 + 4.0 * EPS)
+        x, p = np.where(gain, near[every, k], x), np.where(gain, values[every, k], p)
+        step = (hi - lo) / (ZOOM_POINTS - 1)
+        lo, hi = np.maximum(x - step, lo), np.minimum(x + step, hi)
+    return x, p

@@ -1,0 +1,119 @@
+"""The stress on a grid of points, and files of it for other programs.
+
+    .csv    4 comment lines (#), then  x,y,xx,yy,xy,zz,j2  and one row per point, x fastest
+    .npz    arrays x (nx), y (ny), xx, yy, xy, zz, j2 (ny, nx):  numpy.load(file)["j2"]
+    .vti    VTK image data that ParaView opens: the tensor "stress" (XX YY ZZ XY YZ XZ) and the scalars "j2" and "mises"
+
+The axes are those of the package: x along the surface, y the depth, 0 on the surface. What is infinite, at a sharp edge, stays inf.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+import sys
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.solution import Solution
+from sie.stress.half_plane import Stress
+
+Array = NDArray[np.float64]
+
+SUFFIXES = ("csv", "npz", "vti")
+COMPONENTS = ("xx", "yy", "xy", "zz", "j2")
+SIZE = (201, 101)
+# The window: beside the contact and in depth, in half-widths.
+BESIDE, DEPTH = 1.0, 2.0
+# Characters that no XML text may contain, in whatever form (XML 1.0, production 2).
+FORBIDDEN = "[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """The stress of a solution at nx × ny points of a window around the contact, both ends included; arrays (ny, nx)."""
+
+    solution: Solution
+    nx: int = SIZE[0]
+    ny: int = SIZE[1]
+
+    @cached_property
+    def x(self) -> Array:
+        (x1, x2), r = self.solution.edges, self.solution.half_width
+        return np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, self.nx)
+
+    @cached_property
+    def y(self) -> Array:
+        return np.linspace(0.0, DEPTH * self.solution.half_width, self.ny)
+
+    @cached_property
+    def stress(self) -> Stress:
+        return self.solution.stress(self.x, self.y[:, None])
+
+
+def file_bytes(grid: Grid, suffix: str, head: tuple[str, ...] = ()) -> bytes:
+    """The grid as a file of that suffix; `head` are lines of comment. ValueError for a suffix that is not known."""
+    writers = {"csv": _csv, "npz": _npz, "vti": _vti}
+    if suffix not in writers:
+        raise ValueError(f'a grid cannot be written as ".{suffix}": choose .{", .".join(SUFFIXES)}')
+    return writers[suffix](grid, tuple(map(_one_line, head)))
+
+
+def _one_line(text: str) -> str:
+    """The text without line ends, and without characters that UTF-8 or XML does not have."""
+    return " ".join(re.sub(FORBIDDEN, "\ufffd", text).splitlines())
+
+
+def _csv(grid: Grid, head: tuple[str, ...]) -> bytes:
+    x, y = np.meshgrid(grid.x, grid.y)
+    columns = [
+        v.ravel().tolist() for v in (x, y, *(getattr(grid.stress, name) for name in COMPONENTS))
+    ]
+    lines = [*(f"# {line}" for line in head), ",".join(("x", "y", *COMPONENTS))]
+    return (
+        "\n".join([*lines, *(",".join(map(repr, row)) for row in zip(*columns, strict=True))])
+        + "\n"
+    ).encode()
+
+
+def _npz(grid: Grid, head: tuple[str, ...]) -> bytes:
+    stream = io.BytesIO()
+    values = {name: getattr(grid.stress, name) for name in COMPONENTS}
+    np.savez(stream, x=grid.x, y=grid.y, about=np.array("\n".join(head)), **values)
+    return stream.getvalue()
+
+
+def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
+    s = grid.stress
+    zero = np.zeros_like(s.xx)
+    tensor = np.stack((s.xx, s.yy, s.zz, s.xy, zero, zero), axis=-1)
+    extent = f"0 {grid.nx - 1} 0 {grid.ny - 1} 0 0"
+    spacing = " ".join(repr(float(v[1] - v[0])) for v in (grid.x, grid.y))
+    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
+    about = re.sub(
+        "-(?=-|$)", "- ", "; ".join(head)
+    )  # a comment has no two hyphens in a row, and none at its end
+    return f"""<?xml version="1.0"?>
+<!-- {about} -->
+<VTKFile type="ImageData" version="1.0" byte_order="{order}" header_type="UInt64">
+  <ImageData WholeExtent="{extent}" Origin="{float(grid.x[0])!r} 0.0 0.0" Spacing="{spacing} 1.0">
+    <Piece Extent="{extent}">
+      <PointData Scalars="j2" Tensors="stress">
+        <DataArray type="Float64" Name="stress" NumberOfComponents="6" format="binary">{_encoded(tensor)}</DataArray>
+        <DataArray type="Float64" Name="j2" format="binary">{_encoded(s.j2)}</DataArray>
+        <DataArray type="Float64" Name="mises" format="binary">{_encoded(s.mises)}</DataArray>
+      </PointData>
+    </Piece>
+  </ImageData>
+</VTKFile>
+""".encode()
+
+
+def _encoded(values: Array) -> str:
+    """The number of bytes as 64 bits, then the bytes, in base 64: VTK's inline binary format."""
+    data = np.ascontiguousarray(values).tobytes()
+    return base64.b64encode(np.uint64(len(data)).tobytes() + data).decode()

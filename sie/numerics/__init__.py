@@ -1,0 +1,1 @@
+"""Mathematics that does not depend on mechanics."""

@@ -1,0 +1,189 @@
+"""Chebyshev series: points, transforms, evaluation, chopping. No physics.
+
+A series c stands for Σ c_n T_n(s), s in [-1, 1]; arrays of series have the degree along the last axis. The points are those
+of the first kind, s_k = cos((k + 1/2) π / N), which avoid the ends: a slope may be singular there.
+
+Sources: Mason & Handscomb, Chebyshev Polynomials (2003); Trefethen, Approximation Theory and Approximation Practice (2013).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+SHORT = 12  # points up to which a matrix is faster than an FFT
+
+
+@lru_cache(maxsize=64)
+def points(n: int) -> Array:
+    """The n Chebyshev points of the first kind, ascending, symmetric to the last bit."""
+    s = np.sin(np.pi * np.arange(1 - n, n, 2) / (2 * n))
+    s.flags.writeable = False
+    return s
+
+
+def transform(values: Array) -> Array:
+    """Coefficients of the interpolant through `values` at `points(n)`, along the last axis (a DCT by one complex FFT of length n)."""
+    n = values.shape[-1]
+    if n <= SHORT:
+        short: Array = values @ _matrix(n)
+        return short
+    v = values[..., ::-1]
+    folded = np.concatenate((v[..., ::2], v[..., 1::2][..., ::-1]), axis=-1)
+    c: Array = (np.fft.fft(folded, axis=-1) * _twiddle(n)).real
+    return c
+
+
+@lru_cache(maxsize=16)
+def _matrix(n: int) -> Array:
+    k, theta = np.arange(n), np.pi * (np.arange(n, 0, -1) - 0.5) / n
+    m: Array = np.cos(theta[:, None] * k) * (2.0 / n)
+    m[:, 0] *= 0.5
+    return m
+
+
+@lru_cache(maxsize=64)
+def _twiddle(n: int) -> NDArray[np.complex128]:
+    t: NDArray[np.complex128] = np.exp(-0.5j * np.pi * np.arange(n) / n) * (2.0 / n)
+    t[0] *= 0.5
+    return t
+
+
+def evaluate(c: Array, s: Any) -> Any:
+    """Σ c_n T_n(s) by Clenshaw's recurrence; s real or complex, any shape."""
+    if len(c) == 1:
+        return c[0] + 0.0 * s
+    if len(c) == 2:
+        return c[0] + c[1] * s
+    twice = 2.0 * s
+    high, higher = c[-1], 0.0
+    for a in c[-2:0:-1]:
+        high, higher = a + twice * high - higher, high
+    return c[0] + s * high - higher
+
+
+def evaluate_second_kind(c: Array, s: Any) -> Any:
+    """Σ c_n U_n(s) by Clenshaw's recurrence; s real or complex, any shape; a constant comes back as a scalar."""
+    if len(c) <= 1:
+        return c[0] if len(c) else 0.0
+    twice = 2.0 * s
+    high, higher = c[-1] + 0.0 * s, 0.0
+    for a in c[-2::-1]:
+        high, higher = a + twice * high - higher, high
+    return high
+
+
+def polynomials(n: int, s: Array) -> Array:
+    """T_0(s) ... T_{n-1}(s), stacked along a new first axis."""
+    t = np.empty((n, *s.shape))
+    t[0] = 1.0
+    if n > 1:
+        t[1] = s
+    for k in range(2, n):
+        t[k] = 2.0 * s * t[k - 1] - t[k - 2]
+    return t
+
+
+def antiderivative(c: Array) -> Array:
+    """Coefficients of ∫_{-1}^s Σ c_n T_n, along the last axis."""
+    n = c.shape[-1]
+    padded = np.concatenate((c, np.zeros((*c.shape[:-1], 2))), axis=-1)
+    k = np.arange(1, n + 1)
+    out = np.zeros((*c.shape[:-1], n + 1))
+    out[..., 1:] = (padded[..., :n] - padded[..., 2 : n + 2]) / (2 * k)
+    out[..., 1] += 0.5 * c[..., 0]  # T_0 integrates to T_1, not to T_1 / 2
+    out[..., 0] = -(out[..., 1:] * (-1.0) ** k).sum(axis=-1)
+    return out
+
+
+def divided(c: Array, end: float) -> Array:
+    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis: 2 U_{n-1-j}(end) of T_n, the first halved."""
+    n = c.shape[-1]
+    U = np.arange(1, n) * end ** np.arange(n - 1)
+    d = np.zeros((*c.shape[:-1], max(n - 1, 0)))
+    for j in range(n - 1):
+        d[..., j] = 2.0 * (c[..., j + 1 :] @ U[: n - 1 - j])
+    d[..., :1] *= 0.5
+    return d
+
+
+def second_kind_derivative(q: Array) -> Array:
+    """U-coefficients of the derivative of Σ q_m U_m, along the last axis: that of U_m is 2 Σ (j + 1) U_j over j = m - 1, m - 3, ..."""
+    d = np.zeros((*q.shape[:-1], max(q.shape[-1] - 1, 0)))
+    for j in range(d.shape[-1]):
+        d[..., j] = 2.0 * (j + 1) * q[..., j + 1 :: 2].sum(axis=-1)
+    return d
+
+
+def chopped_length(c: Array, floor: float) -> int:
+    """How many coefficients of c matter: all beyond are below `floor` (at least one is kept)."""
+    matter = np.flatnonzero(np.abs(c) > floor)
+    return int(matter[-1]) + 1 if matter.size else 1
+
+
+def reach(c: Array, growth: float) -> Array:
+    """How far each series (K, N) can be continued beyond [-1, 1]: the largest Bernstein parameter ρ with Σ|c_n| ρ^n <= growth max|c|."""
+    size = np.abs(c)
+    candidates, powers = _candidates(c.shape[-1], growth)
+    fits = powers @ size.T <= growth * size.max(axis=-1)
+    rho: Array = candidates[np.maximum(fits.sum(axis=0) - 1, 0)]
+    return rho
+
+
+@lru_cache(maxsize=64)
+def _candidates(n: int, growth: float) -> tuple[Array, Array]:
+    rho = np.geomspace(1.0, growth, 64)
+    with np.errstate(over="ignore"):
+        powers = np.minimum(
+            rho[:, None] ** np.arange(n), 1e280
+        )  # finite, so that a zero coefficient stays zero
+    return rho, powers
+
+
+@lru_cache(maxsize=64)
+def gauss_legendre(n: int) -> tuple[Array, Array]:
+    """Gauss-Legendre nodes g in (0, 1), ascending, and weights that sum to 1, both to rounding.
+
+    Newton on the recurrence in extended precision: NumPy's weights are off by up to 1e-12 where they are small.
+    """
+    k = np.arange(1, n + 1, dtype=np.longdouble)
+    x = -np.cos(np.pi * (k - 0.25) / (n + 0.5))
+    for _ in range(
+        5
+    ):  # quadratic convergence from four digits; the last pass evaluates the weights at the root
+        before, at = np.ones_like(x), x
+        for j in range(2, n + 1):
+            before, at = at, ((2 * j - 1) * x * at - (j - 1) * before) / j
+        x = x - at * (1 - x * x) / (n * (before - x * at))
+    g, w = (
+        np.asarray(0.5 * (1 + x), dtype=float),
+        np.asarray((1 - x * x) / (n * before) ** 2, dtype=float),
+    )
+    g.flags.writeable = w.flags.writeable = False
+    return g, w
+
+
+@lru_cache(maxsize=64)
+def differentiation(n: int) -> tuple[Array, Array]:
+    """From values f at the n Gauss-Legendre nodes g: matrices D, E with D f = f'(g) and E f = (f(0), f(1)).
+
+    Barycentric (Berrut & Trefethen 2004), exact for polynomials of degree n - 1.
+    """
+    g, w = gauss_legendre(n)
+    weights = (-1.0) ** np.arange(n) * np.sqrt(
+        g * (1.0 - g) * w
+    )  # barycentric weights of Gauss-Legendre nodes
+    gaps = g[:, None] - g[None, :]
+    np.fill_diagonal(gaps, 1.0)
+    d = weights[None, :] / weights[:, None] / gaps
+    np.fill_diagonal(d, 0.0)
+    np.fill_diagonal(d, -d.sum(axis=1))
+    e = weights / (np.array([[0.0], [1.0]]) - g)
+    e /= e.sum(axis=1, keepdims=True)
+    d.flags.writeable = e.flags.writeable = False
+    return d, e

@@ -1,0 +1,130 @@
+"""What the logarithms and arctangents of the square root become for the exponents of frictional edges.
+
+    log(a):     Λ_a(r) = ∫_0^r t^(a-1)/(1 - t) dt = Σ r^(k+a)/(k+a)             (2 artanh sqrt(r) at a = 1/2; r^a times Lerch's Φ(r, 1, a))
+    arctan(a):  A_a(r) = ∫_0^r t^(a-1)/(1 + t) dt = Σ (-1)^k r^(k+a)/(k+a)       (2 arctan sqrt(r) at a = 1/2)
+
+for |r| <= 1, 0 < a < 1. With d = -ln r both are r^a times a power series in r where Re d >= SWITCH, and Taylor series in d nearer to 1,
+whose coefficients are Bernoulli's and Euler's polynomials:
+
+    Λ_a = -ln d + const - Σ B_n(a) (-d)^n / (n n!),        |d| < 2π
+    A_a = const - 1/2 Σ E_n(1-a) d^(n+1) / ((n+1) n!),     |d| < π
+
+Erdélyi et al., Higher Transcendental Functions I (1953), §§ 1.11 (9), 1.13, 1.14. The constants come from the other series, at SWITCH.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import factorial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+SWITCH = 1.2
+POWERS = 32  # e^(-32 SWITCH) is rounding
+TERMS_REAL, TERMS_COMPLEX, TERMS_EULER = (
+    24,
+    62,
+    40,
+)  # (SWITCH/2π)^n, (|SWITCH + iπ|/2π)^n, (SWITCH/π)^n are rounding
+
+
+@lru_cache(maxsize=64)
+def _powers(a: float, sign: float) -> Array:
+    return sign ** np.arange(POWERS) / (np.arange(POWERS) + a)
+
+
+@lru_cache(maxsize=64)
+def _bernoulli(a: float) -> Array:
+    """-B_n(a) (-1)^n / (n n!) for n >= 1, after a constant that matches the power series at SWITCH."""
+    n = np.arange(TERMS_COMPLEX + 1)
+    # B_n / n! from t / (e^t - 1) = 1 / Σ t^k / (k + 1)!
+    inverse = np.array([1.0 / factorial(int(k) + 1) for k in n])
+    numbers = np.zeros(len(n))
+    numbers[0] = 1.0
+    for k in n[1:]:
+        numbers[k] = -np.dot(inverse[1 : k + 1], numbers[k - 1 :: -1][:k])
+    exponential = np.array([a ** int(k) / factorial(int(k)) for k in n])
+    polynomials = np.convolve(numbers, exponential)[: len(n)]
+    c = np.zeros(len(n))
+    c[1:] = -polynomials[1:] * (-1.0) ** n[1:] / n[1:]
+    r = np.exp(-SWITCH)
+    c[0] = (
+        r**a * np.polynomial.polynomial.polyval(r, _powers(a, 1.0))
+        + np.log(SWITCH)
+        - np.polynomial.polynomial.polyval(SWITCH, c)
+    )
+    return c
+
+
+@lru_cache(maxsize=64)
+def _euler(a: float) -> Array:
+    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant that matches the power series at SWITCH."""
+    n = np.arange(TERMS_EULER)
+    denominator = np.array([1.0 / factorial(int(k)) for k in n])
+    denominator[0] = 2.0
+    inverse = np.zeros(len(n))
+    inverse[0] = 0.5
+    for k in n[1:]:
+        inverse[k] = -0.5 * np.dot(denominator[1 : k + 1], inverse[k - 1 :: -1][:k])
+    exponential = np.array([(1.0 - a) ** int(k) / factorial(int(k)) for k in n])
+    c = np.zeros(len(n) + 1)
+    c[1:] = -np.convolve(inverse, exponential)[: len(n)] / (n + 1.0)
+    r = np.exp(-SWITCH)
+    c[0] = r**a * np.polynomial.polynomial.polyval(
+        r, _powers(a, -1.0)
+    ) - np.polynomial.polynomial.polyval(SWITCH, c)
+    return c
+
+
+def log(a: float, r: Array, y: Array) -> Array:
+    """Λ_a(r) for |r| <= 1, real or complex, given y = 1 - r too: near r = 1 that is what counts. Infinite at y = 0."""
+    far = np.abs(r) <= np.exp(-SWITCH)
+    out = np.empty_like(r)
+    if far.any():
+        at = r[far]
+        out[far] = at**a * _horner(_powers(a, 1.0), at)
+    if not far.all():
+        d = -log1p(-y[~far])
+        terms = TERMS_COMPLEX if np.iscomplexobj(r) else TERMS_REAL
+        with np.errstate(divide="ignore"):
+            out[~far] = _horner(_bernoulli(a)[:terms], d) - np.log(d)
+    return out
+
+
+def arctan(a: float, r: Array) -> Array:
+    """A_a(r) for 0 <= r < inf."""
+    inner = r <= 1.0
+    out = np.empty_like(r)
+    out[inner] = _arctan_inside(a, r[inner])
+    if not inner.all():
+        out[~inner] = np.pi / np.sin(np.pi * a) - _arctan_inside(1.0 - a, 1.0 / r[~inner])
+    return out
+
+
+def _arctan_inside(a: float, r: Array) -> Array:
+    far = r <= np.exp(-SWITCH)
+    out = np.empty_like(r)
+    at = r[far]
+    out[far] = at**a * _horner(_powers(a, -1.0), at)
+    out[~far] = _horner(_euler(a), -np.log(r[~far]))
+    return out
+
+
+def log1p(u: Array) -> Array:
+    """ln(1 + u); NumPy's complex one loses the digits of a small u."""
+    if not np.iscomplexobj(u):
+        real: Array = np.log1p(u)
+        return real
+    squared = u.real * (2.0 + u.real) + u.imag * u.imag
+    return 0.5 * np.log1p(np.maximum(squared, -1.0)) + 1j * np.arctan2(u.imag, 1.0 + u.real)
+
+
+def _horner(c: Array, x: Array) -> Array:
+    total = np.full_like(x, c[-1])
+    for a in c[-2::-1]:
+        total = total * x + a
+    return total

@@ -1,0 +1,1 @@
+"""What is asked, as values: materials, scenes, load paths."""

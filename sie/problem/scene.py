@@ -1,0 +1,200 @@
+"""The question: a profile, two bodies, loads, friction. A value that refuses nonsense when it is built."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from sie import arguments
+from sie.numerics.interval import EPS
+from sie.profiles.base import Profile
+
+from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """A plane contact problem, per unit length, in any consistent units.
+
+    profile            the gap h(x) between the undeformed indenter and the flat surface
+    body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
+                       or, in their place, modulus = E*, dundurs = β, poisson = ν
+    dundurs            beside body and indenter: 0 neglects their β, all else stays theirs; |β| < 1e-12 is 0 without asking
+    normal_load        P, force per length;  or half_width, length: exactly one of the two
+    tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
+    friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
+    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body. Both grow in proportion, after P is applied
+    sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
+
+    Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
+    """
+
+    profile: Profile
+    body: Body | None = None
+    indenter: Body | None = None
+    normal_load: float | None = None
+    half_width: float | None = None
+    tilt: float = 0.0
+    moment: float | None = None
+    friction: float = 0.0
+    tangential_load: float = 0.0
+    bulk_stress: float = 0.0
+    sliding: int = 0
+    modulus: float | None = None
+    dundurs: float | None = None
+    poisson: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.profile, Profile):
+            raise ValueError(
+                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another"
+            )
+        self._check_bodies()
+        self._check_loads()
+
+    def _check_bodies(self) -> None:
+        if (self.body is None) == (self.modulus is None):
+            what = "neither" if self.body is None else "both"
+            raise ValueError(
+                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*"
+            )
+        if self.body is not None:
+            if self.poisson is not None:
+                raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
+            if self.dundurs is not None:
+                self._set("dundurs", arguments.finite("dundurs", self.dundurs))
+                if self.dundurs != 0.0:
+                    raise ValueError(
+                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β"
+                    )
+            if self.indenter is None:
+                self._set("indenter", self.body)
+            for name in ("body", "indenter"):
+                if not isinstance(getattr(self, name), (Elastic, Rigid)):
+                    raise ValueError(
+                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID"
+                    )
+            if self.body == RIGID == self.indenter:
+                raise ValueError(
+                    "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
+                )
+            return
+        if self.indenter is not None:
+            raise ValueError(
+                "indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out"
+            )
+        self._set("modulus", arguments.positive("modulus", self.modulus))
+        beta = coupling(arguments.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
+        if abs(beta) > 0.5:
+            raise ValueError(
+                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it"
+            )
+        self._set("dundurs", beta)
+        if self.poisson is not None:
+            self._set("poisson", Elastic(1.0, self.poisson).poisson)
+
+    def _check_loads(self) -> None:
+        if (self.normal_load is None) == (self.half_width is None):
+            what = "neither" if self.normal_load is None else "both"
+            raise ValueError(
+                f"{what} of normal_load and half_width given: give exactly one, the other follows"
+            )
+        for name in ("normal_load", "half_width"):
+            if getattr(self, name) is not None:
+                largest = arguments.LARGEST_LOAD if name == "normal_load" else arguments.LARGEST
+                self._set(name, arguments.positive(name, getattr(self, name), largest))
+        self._set("tilt", arguments.measure("tilt", self.tilt))
+        if self.moment is not None:
+            self._set(
+                "moment", arguments.measure("moment", self.moment, arguments.LARGEST_COEFFICIENT)
+            )
+            if self.tilt != 0.0:
+                raise ValueError(
+                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows"
+                )
+        if self.friction != math.inf:
+            self._set("friction", arguments.not_negative("friction", self.friction))
+            if self.friction:
+                arguments.positive("friction", self.friction)
+        self._set(
+            "tangential_load",
+            arguments.measure("tangential_load", self.tangential_load, arguments.LARGEST_LOAD),
+        )
+        self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
+        if self.tangential_load != 0.0 and self.friction == 0.0:
+            raise ValueError(
+                f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"
+            )
+        self._check_sliding()
+
+    def _check_sliding(self) -> None:
+        if self.sliding not in (-1, 0, 1):
+            raise ValueError(
+                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0"
+            )
+        self._set("sliding", int(self.sliding))
+        if self.sliding and self.tangential_load:
+            raise ValueError(
+                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
+            )
+        if self.sliding and self.friction == math.inf:
+            raise ValueError(
+                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction"
+            )
+        if self.sliding and self.friction == 0.0:
+            raise ValueError(
+                f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0"
+            )
+
+    def _set(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
+
+    @property
+    def slides(self) -> int:
+        """+1 or -1 in full sliding, q = ±f p: if that was said, or if |Q| = f P to rounding."""
+        if self.sliding or self.normal_load is None or self.tangential_load == 0.0 or self.bonded:
+            return self.sliding
+        limit = self.friction * self.normal_load
+        return (
+            int(math.copysign(1.0, self.tangential_load))
+            if abs(abs(self.tangential_load) - limit) <= 4.0 * EPS * limit
+            else 0
+        )
+
+    @property
+    def bonded(self) -> bool:
+        """Full stick: infinite friction."""
+        return self.friction == math.inf
+
+    @property
+    def epsilon(self) -> float:
+        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β f in full sliding."""
+        slides = self.slides
+        return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
+
+    @property
+    def Estar(self) -> float:
+        """E*, in units of stress."""
+        if self.modulus is not None:
+            return self.modulus
+        assert self.body is not None and self.indenter is not None
+        return pair_modulus(self.body, self.indenter)
+
+    @property
+    def beta(self) -> float:
+        """Dundurs' second constant β."""
+        if self.dundurs is not None:
+            return self.dundurs
+        assert self.body is not None and self.indenter is not None
+        return dundurs(self.body, self.indenter)
+
+    @property
+    def tau(self) -> float:
+        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4 for similar bodies.
+
+        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E* the bodies are taken as similar.
+        """
+        if self.body is None or self.indenter is None:
+            return 0.25 * self.bulk_stress
+        return 0.5 * self.bulk_stress * share(self.body, self.indenter)

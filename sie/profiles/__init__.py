@@ -1,0 +1,1 @@
+"""Indenter profiles h(x) and their slopes."""

@@ -1,0 +1,248 @@
+"""What a trace is like: its gaps, its outliers, the line through it, and the nearest rounded flat.
+
+    h = c + t x + (|x - x0| - a)_+² / (2R)          a flat base of half-length a, arcs of radius R, centre x0, tilt t
+
+c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub & Pereyra 1973): a scan of both first,
+since a trace of a nearly flat pad has other minima, then least squares with all five.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics.interval import EPS
+
+Array = NDArray[np.float64]
+
+FENCE = 6.0  # interquartile ranges above the upper quartile, and half a median more: a gap
+DEVIANT = 5.0  # standard deviations: with Gaussian noise 1 of 20 traces of 1e5 points has one
+GAUSSIAN = 1.4826  # standard deviations in the median of the absolute value
+CONFIRMED = 2.0  # standard deviations
+ROUNDS = 4
+NEXT = 3  # points on one side of a point that is judged
+NEIGHBOURS = 6  # points on one side through which a parabola is laid
+FEWEST_NEIGHBOURS = 4
+LOOKED_AT = 30  # points on one side, among which these are found
+MOST_EXAMINED = 1000  # points
+STRAIGHT = 64.0 * EPS  # of the largest height: a trace that leaves its line by less is the line
+ARCHED = 0.5  # of the variance is explained by a downward parabola: the trace is upside down
+
+SCAN = 24  # values of x0 and of a in the scan
+MOST_SCANNED = 2000  # points of the trace
+
+
+class Gap(NamedTuple):
+    """An interval without points: its ends, and how many points of the typical step are missing."""
+
+    lo: float
+    hi: float
+    missing: int
+
+
+def gaps(x: Array) -> tuple[Gap, ...]:
+    """Steps much longer than the others (Tukey's fence): irregular or graded points are no gaps."""
+    step = np.diff(x)
+    lower, middle, upper = np.quantile(step, (0.25, 0.5, 0.75)).tolist()
+    wide = np.flatnonzero(step > upper + 0.5 * middle + FENCE * (upper - lower))
+    missing = np.maximum(np.round(step[wide] / middle) - 1.0, 1.0).astype(int)
+    return tuple(map(Gap, x[wide].tolist(), x[wide + 1].tolist(), missing.tolist()))
+
+
+def outliers(x: Array, h: Array) -> tuple[int, ...]:
+    """Which points stand out of the noise, ascending; searched again without those, a few times.
+
+    A point is judged by a cubic through the next points on both sides: it is off if it misses that
+    by many times the median. A corner or a kink of a trace without noise does so too. So the point
+    must also lie off both parabolas through its neighbours, left and right, to the same side. The
+    points next to an end are not judged.
+    """
+    kept = np.arange(len(x))
+    for _ in range(ROUNDS):
+        found = _outstanding(x[kept], h[kept])
+        if not found:
+            break
+        kept = np.delete(kept, found)
+    return tuple(np.setdiff1d(np.arange(len(x)), kept).tolist())
+
+
+def _outstanding(x: Array, h: Array) -> list[int]:
+    if len(x) <= 2 * NEXT:
+        return []
+    middle = np.arange(NEXT, len(x) - NEXT)
+    near = middle[:, None] + np.delete(np.arange(-NEXT, NEXT + 1), NEXT)
+    weights = _extrapolation(x[near], x[middle], 3)
+    miss = np.zeros(len(x))
+    miss[middle] = np.einsum("ij,ij->i", weights, h[middle, None] - h[near])  # their sum is 1
+    miss[middle] /= np.sqrt(1.0 + np.einsum("ij,ij->i", weights, weights))
+    size = np.abs(miss)
+    few = 1.0 + 10.0 / len(middle)  # the spread of few points is known badly
+    usual = max(few * GAUSSIAN * float(np.median(size[middle])), EPS * float(np.abs(h).max()))
+    suspects = np.flatnonzero(size > DEVIANT * usual)
+    largest = suspects[np.argsort(-size[suspects], kind="stable")][:MOST_EXAMINED]
+    return [k for k in largest.tolist() if _confirmed(x, h, miss, k, usual)]
+
+
+def _confirmed(x: Array, h: Array, miss: Array, k: int, usual: float) -> bool:
+    """Whether the neighbours on either side say so too."""
+    for side in _sides(k, np.abs(miss)):
+        off, uncertain = _off(x, h, k, side)
+        if off * np.sign(miss[k]) <= max(0.5 * abs(miss[k]), CONFIRMED * usual * uncertain):
+            return False
+    return True
+
+
+def _sides(k: int, size: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The next neighbours on the left and on the right, less those that may be outliers too."""
+    start, stop = max(k - LOOKED_AT, 0), k + 1 + LOOKED_AT
+    near = start + np.flatnonzero(size[start:stop] <= 0.5 * size[k])
+    return near[near < k][-NEIGHBOURS:], near[near > k][:NEIGHBOURS]
+
+
+def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, float]:
+    """How far point k is off the parabola through some points, and what noise of 1 does to that."""
+    if len(side) < FEWEST_NEIGHBOURS:
+        return 0.0, 1.0
+    weights = _extrapolation(x[None, side], x[k : k + 1], 2)[0]
+    return float(weights @ (h[k] - h[side])), float(np.sqrt(1.0 + weights @ weights))
+
+
+def _extrapolation(x: Array, at: Array, degree: int) -> Array:
+    """Weights (n, m) of heights at x (n, m) in the value at `at` (n,) of a least-squares polynomial."""
+    u = (x - at[:, None]) / np.ptp(x, axis=1)[:, None]
+    weights: Array = np.linalg.pinv(u[..., None] ** np.arange(degree + 1))[:, 0]
+    return weights
+
+
+@dataclass(frozen=True)
+class RoundedFlatFit:
+    """h ≈ offset + tilt x + (|x - centre| - half_flat)_+² / (2 radius), by least squares.
+
+    rms, largest    what is left of h: the root of the mean square, and the largest
+    residuals       at every point of the trace
+
+    The profile is `sie.RoundedFlat(fit.half_flat, fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
+    """
+
+    half_flat: float
+    radius: float
+    centre: float
+    tilt: float
+    offset: float
+    residuals: tuple[float, ...]
+
+    @property
+    def rms(self) -> float:
+        return float(np.sqrt(np.mean(np.square(self.residuals))))
+
+    @property
+    def largest(self) -> float:
+        return float(np.abs(self.residuals).max())
+
+    def __repr__(self) -> str:
+        numbers = ", ".join(
+            f"{name}={getattr(self, name):.6g}"
+            for name in ("half_flat", "radius", "centre", "tilt", "offset")
+        )
+        return (
+            f"RoundedFlatFit({numbers}; residuals {self.rms:.2g} rms, {self.largest:.2g} at most)"
+        )
+
+
+def line(x: Array, h: Array) -> tuple[float, float]:
+    """(height at x = 0, slope) of the least-squares line."""
+    m = float(x.mean())
+    slope = float((x - m) @ (h - h.mean()) / ((x - m) @ (x - m)))
+    return float(h.mean()) - slope * m, slope
+
+
+def reason_at_an_end(x: Array, h: Array) -> str:
+    """Why a contact with the trace may reach its end, and what helps; "" if there is no reason."""
+    offset, slope = line(x, h)
+    left = h - (offset + slope * x)
+    if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
+        return "the trace is a straight line, to rounding: an indenter has to rise on both sides"
+    if _arched(x, left):
+        return "the trace arches upwards: heights of a surface have the other sign, scale = (1, -1) turns them over"
+    if int(np.argmin(h)) in (0, len(h) - 1):
+        return (
+            "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
+        )
+    bumps = np.count_nonzero((h[1:-1] < h[:-2]) & (h[1:-1] <= h[2:]))
+    return (
+        "the trace has several bumps and touches in several patches, which are not covered yet"
+        if bumps > 1
+        else ""
+    )
+
+
+def _arched(x: Array, left: Array) -> bool:
+    """Whether what the line leaves is mostly a parabola that opens downwards."""
+    u = (x - x.mean()) / np.ptp(x)
+    bow = u * u - np.polyval(np.polyfit(u, u * u, 1), u)
+    share = float(bow @ left)
+    return share < 0.0 and share * share > ARCHED * float(bow @ bow) * float(left @ left)
+
+
+def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
+    """The nearest rounded flat. Raises ValueError where the trace does not rise on both sides of a base."""
+    from scipy.optimize import least_squares  # noqa: PLC0415
+
+    m, r = 0.5 * float(x[0] + x[-1]), 0.5 * float(x[-1] - x[0])
+    scale = float(np.ptp(h)) or 1.0
+    s, y = (x - m) / r, (h - h.mean()) / scale
+
+    def model(s0: float, a: float) -> Array:
+        return np.stack(
+            (np.ones_like(s), s, 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2), axis=1
+        )
+
+    start = _scanned(s, y)
+    linear = np.linalg.lstsq(model(*start), y, rcond=None)[0]
+    found = least_squares(
+        lambda v: model(v[0], v[1]) @ v[2:] - y,
+        [*start, *linear],
+        xtol=1e-14,
+        ftol=1e-14,
+        gtol=1e-14,
+    )
+    s0, a, c, t, curvature = found.x.tolist()
+    a = abs(a)
+    rises = np.abs(s - s0) > a
+    if curvature <= 0.0 or not (rises & (s < s0)).any() or not (rises & (s > s0)).any():
+        raise ValueError(
+            "no flat with rounded edges is near this trace: it must rise on both sides of a base; "
+            "a trace of surface heights has the other sign, scale = (1, -1) turns it over"
+        )
+    residuals = h - (scale * (model(s0, a) @ [c, t, curvature]) + h.mean())
+    tilt = scale * t / r
+    return RoundedFlatFit(
+        half_flat=a * r,
+        radius=r * r / (scale * curvature),
+        centre=m + s0 * r,
+        tilt=tilt,
+        offset=scale * c + float(h.mean()) - tilt * m,
+        residuals=tuple(residuals.tolist()),
+    )
+
+
+def _scanned(s: Array, y: Array) -> tuple[float, float]:
+    """(s0, a) with the least sum of squares on a grid, among arcs that rise."""
+    step = max(len(s) // MOST_SCANNED, 1)
+    s, y = s[::step], y[::step]
+    best, place = np.inf, (0.0, 0.5)
+    for s0 in np.linspace(-0.8, 0.8, SCAN).tolist():
+        for a in np.linspace(0.0, 0.95, SCAN).tolist():
+            arcs = 0.5 * np.maximum(np.abs(s - s0) - a, 0.0) ** 2
+            A = np.stack((np.ones_like(s), s, arcs), axis=1)
+            normal = A.T @ A
+            if np.linalg.cond(normal) > 1e12:
+                continue
+            c = np.linalg.solve(normal, A.T @ y)
+            misfit = float(((y - A @ c) ** 2).sum())
+            if c[2] > 0.0 and misfit < best:
+                best, place = misfit, (s0, a)
+    return place

@@ -1,0 +1,196 @@
+"""Where a profile touches first: its lowest points.
+
+A profile is lowest where its slope changes from negative to positive; a flat base is an interval of such points, and the end of an indenter
+can be one. Of several minima the deepest is taken: contact starts there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import LoadError
+from sie.numerics import chebyshev
+
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
+MANY, FEWER = 100, 3  # of so many polynomials each is sampled less
+SHORTLIST = 16  # of the minima of a rough trace, those which the samples show as lowest
+MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
+HEIGHT_NODES = 16
+BEYOND = 1e-3
+ROUNDING = 8.0  # ulp
+NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
+
+
+def lowest_points(slope: Slope) -> tuple[float, float]:
+    """[z1, z2] where h is lowest: H <= 0 to the left, H = 0 between, H >= 0 to the right."""
+    ends = _finite_ends(slope)
+    x, H, piece = _samples(slope, ends)
+    sign = np.sign(H)
+    if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
+        raise LoadError(
+            "the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt"
+        )
+    if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
+        raise LoadError(
+            "the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt"
+        )
+    for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
+        if sign[end] == 0 and not np.isfinite(outer):
+            raise LoadError(
+                f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises"
+            )
+    candidates = _candidates(slope, ends, x, H, piece)
+    if len(candidates) == 1:
+        z1, z2 = candidates[0]
+        return float(z1), float(z2)
+    heights = [_height(slope, ends, z1) for z1, _ in candidates]
+    z1, z2 = candidates[int(np.argmin(heights))]
+    return float(z1), float(z2)
+
+
+def _finite_ends(slope: Slope) -> Array:
+    """Both ends of every piece (N, 2), infinite ones replaced by points beyond the polynomial's last root (Fujiwara's bound)."""
+    ends = np.stack((slope.breaks[:-1], slope.breaks[1:]), axis=1)
+    for k, j in np.argwhere(~np.isfinite(ends)):
+        c = np.abs(slope.coefficients[k])
+        degree = int(np.flatnonzero(c)[-1]) if c.any() else 0
+        powers = 1.0 / np.arange(degree, 0, -1)
+        bound = 2.0 * float(((c[:degree] / c[degree]) ** powers).max()) if degree else 1.0
+        finite = ends[k][np.isfinite(ends[k])]
+        origin = slope.origins[k]
+        start = origin if not finite.size else finite[0]
+        # Some way beyond the last root, also where that root is next to the other end
+        reach = (2.0 * bound + abs(start - origin) + BEYOND * max(abs(start), abs(origin))) or 1.0
+        ends[k, j] = origin + (-reach if j == 0 else reach)
+    return ends
+
+
+def _samples(slope: Slope, ends: Array) -> tuple[Array, Array, NDArray[np.int64]]:
+    """Points inside every piece, ascending, the slope there, and the pieces' indices."""
+    samples = SAMPLES if slope.functions or len(ends) <= MANY else FEWER
+    s = 0.5 * (1.0 + chebyshev.points(samples + int(slope.degrees.max())))
+    k = np.arange(len(ends))
+    offset = (ends[:, 1] - ends[:, 0])[:, None] * s
+    H = slope.local(k, ends[:, 0], np.zeros(len(k)), offset)
+    H[slope.is_zero] = 0.0
+    return (ends[:, :1] + offset).ravel(), H.ravel(), np.repeat(k, len(s))
+
+
+def _candidates(
+    slope: Slope, ends: Array, x: Array, H: Array, piece: NDArray[np.int64]
+) -> list[tuple[float, float]]:
+    sign = np.sign(H)
+    found: list[tuple[float, float]] = []
+    moving = np.flatnonzero(sign)
+    if not moving.size:
+        return [(float(ends[0, 0]), float(ends[-1, 1]))]
+    if sign[moving[0]] > 0:
+        found.append((float(ends[0, 0]), _left_end(slope, ends, x, piece, moving[0])))
+    turn = np.flatnonzero((sign[moving[:-1]] < 0) & (sign[moving[1:]] > 0))
+    if len(turn) > SHORTLIST:
+        height = np.concatenate(([0.0], np.cumsum(np.diff(x) * 0.5 * (H[1:] + H[:-1]))))
+        turn = np.sort(turn[np.argsort(height[moving[turn]], kind="stable")[:SHORTLIST]])
+    for i, j in zip(moving[turn].tolist(), moving[turn + 1].tolist(), strict=True):
+        found.append(_change(slope, ends, (x[i], int(piece[i])), (x[j], int(piece[j]))))
+    if sign[moving[-1]] < 0:
+        found.append(
+            (
+                _root(slope, int(piece[moving[-1]]), x[moving[-1]], ends[piece[moving[-1]], 1]),
+                float(ends[-1, 1]),
+            )
+        )
+    return found
+
+
+def _change(
+    slope: Slope, ends: Array, before: tuple[float, int], after: tuple[float, int]
+) -> tuple[float, float]:
+    """Where H stops being negative and starts being positive, between two points (x, piece) with H < 0 < H and no other sign between."""
+    (x, i), (y, j) = before, after
+    if i == j:
+        z = _root(slope, i, x, y)
+        return z, z
+    z1, z2 = _root(slope, i, x, ends[i, 1]), _root(slope, j, ends[j, 0], y)
+    # A root within rounding of its piece's end is that end: a flat base may begin there
+    end, start = float(ends[i, 1]), float(ends[j, 0])
+    if z1 < end - ROUNDING * float(np.spacing(abs(end))):
+        return z1, z1
+    return (z2, z2) if z2 > start + ROUNDING * float(np.spacing(abs(start))) else (end, start)
+
+
+def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: int) -> float:
+    return _root(slope, int(piece[i]), ends[piece[i], 0], x[i])
+
+
+def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
+    """Where H of piece k changes sign in [lo, hi]; the end itself when it does not (the change is the jump at the break).
+
+    Regula falsi with halved weights (Illinois), and bisection whenever two steps have not halved the bracket.
+    """
+    index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
+
+    def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly
+        return float(slope.local(index, origin, zero, np.array([[y]]))[0, 0])
+
+    a, b = lo - float(origin[0]), hi - float(origin[0])
+    at_a, at_b = H(a), H(b)
+    if at_a >= 0.0 or at_b <= 0.0:
+        return lo if at_a >= 0.0 else hi
+    # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
+    if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
+        return float(origin[0])
+    widths = [np.inf, np.inf]
+    for _ in range(MAX_STEPS):
+        widths.append(b - a)
+        if b - a <= 4.0 * float(np.spacing(max(abs(a), abs(b)))):
+            break
+        y = (a * at_b - b * at_a) / (at_b - at_a)
+        if not a < y < b or widths[-1] > 0.5 * widths[-3]:
+            y = 0.5 * (a + b)
+        value = H(y)
+        if value == 0.0:
+            return float(origin[0]) + y
+        if value < 0.0:
+            a, at_a, at_b = y, value, 0.5 * at_b
+        else:
+            b, at_b, at_a = y, value, 0.5 * at_a
+    return float(origin[0]) + 0.5 * (a + b)
+
+
+def _height(slope: Slope, ends: Array, z: float) -> float:
+    """h(z) - h(left end), by Gauss-Legendre on every piece; only to compare minima."""
+    degree = int(slope.degrees.max())
+    g, w = chebyshev.gauss_legendre(HEIGHT_NODES + degree if slope.functions else degree // 2 + 1)
+    lo, hi = np.minimum(ends[:, 0], z), np.minimum(ends[:, 1], z)
+    length = hi - lo
+    H = slope.local(np.arange(len(lo)), lo, np.zeros(len(lo)), length[:, None] * g)
+    return float((length * (H @ w)).sum())
+
+
+def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
+    """h(x) over its lowest value, by Gauss-Legendre from the lowest points on every piece: to relative accuracy."""
+    z1, z2 = touch
+    pieces = slope.split_at(z1).split_at(z2)
+    g, w = chebyshev.gauss_legendre(2 + pieces.degree // 2)
+    k = np.clip(np.searchsorted(pieces.breaks, x, side="right") - 1, 0, len(pieces.origins) - 1)
+    out = np.zeros(x.shape)
+    for j in range(len(pieces.origins)):
+        a, b = pieces.breaks[j], pieces.breaks[j + 1]
+        right = a >= z2
+        if not right and b > z1:
+            continue
+        # from the end nearer to the touch, as far as x or to the other end
+        start = a if right else b
+        end = np.clip(x, a, b)
+        beyond = k >= j if right else k <= j
+        length = np.where(beyond, end - start, 0.0)
+        H = pieces.local(
+            np.full(len(x), j), np.full(len(x), start), np.zeros(len(x)), length[:, None] * g
+        )
+        out += length * (H @ w)
+    return out

@@ -1,0 +1,235 @@
+"""Pieces on which a function is resolved by Chebyshev series: chop where the coefficients decay, split where they do not.
+
+All open intervals are sampled in one call of the function, level by level. Halving towards a point where the function behaves like |x|^s
+grades the pieces geometrically by itself; a jump or a kink that was not declared is closed in to rounding. At a break that was declared
+H may vanish like |x|^s. What a series misses there is a small jump, and the pressure at the break is off by ln(length/piece) times as
+much: pieces that touch one are resolved further than rounding of H elsewhere would let others be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ResolutionError
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS
+
+from .slope import Slope
+
+Array = NDArray[np.float64]
+
+SIZES = (17, 33)  # points a piece is tried with before it is split
+TAIL = 3  # the last coefficients that must have decayed
+# Points on no grid, where a settled series must agree with the function: what lies between the points is seen there, if not always.
+PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
+MISSED = 32.0  # times what the series itself may miss
+NEIGHBOURS, CLOSE = 12, 1e-6
+NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
+ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
+FINER = 1e-3  # of the tolerance: next to a declared break
+TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
+MAX_PIECES = 8_000  # of a formula: within seconds
+SHORTEST = EPS**6  # of the interval
+DEEP = 64  # levels, after which x = 0 is such a break
+# After so many levels what has not settled next to a declared break is singular there: so many
+# halvings at once.
+PATIENCE, HALVINGS = 3, 8
+
+
+class Tolerance(NamedTuple):
+    """What a series may miss: relative to the largest |value|, and absolute; less next to the inner breaks that were declared."""
+
+    relative: float
+    absolute: float
+    breaks: Array
+    shortest: float  # of the pieces: next to x = 0 powers of x are not smooth to the last double
+
+    def of(self, pieces: Array, values: Array, scale: float) -> Array:
+        """For each piece (K, 2) with these values (K, n), where the largest of all is `scale`."""
+        enough = np.full(
+            len(pieces), max(self.relative * scale, min(self.absolute, ROUGHEST * scale))
+        )
+        touches = np.isin(pieces, self.breaks).any(axis=1)
+        finer = np.maximum(FINER * self.relative * scale, 4.0 * EPS * np.abs(values).max(axis=1))
+        enough[touches] = np.minimum(enough, finer)[touches]
+        return enough
+
+
+def resolved(
+    function: Callable[[Array], Array],
+    breaks: Array,
+    tol: float,
+    cuts: Array | None = None,
+) -> tuple[Array, NDArray[np.int64]]:
+    """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
+
+    The function is smooth at the `cuts`, from which the refinement starts.
+    `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
+    """
+    ends = breaks
+    if cuts is not None:
+        ends = np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
+    open_ = np.stack((ends[:-1], ends[1:]), axis=1)
+    noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
+    tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
+    done: list[tuple[float, float, int]] = []
+    scale, level = 0.0, 0
+    while len(open_):
+        for n in SIZES:
+            degrees, scale = _degrees(function, open_, n, tolerance, scale)
+            settled = degrees >= 0
+            done += zip(open_[settled, 0], open_[settled, 1], degrees[settled], strict=True)
+            open_ = open_[~settled]
+            if not len(open_):
+                break
+        if len(done) + 2 * len(open_) > MAX_PIECES:
+            middle = float(0.5 * open_[0].sum())
+            raise ResolutionError(
+                f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
+                "declare its breaks, narrow the domain, or smooth the noise",
+                x=middle,
+            )
+        level += 1
+        graded_towards = tolerance.breaks if level > PATIENCE else breaks[:0]
+        if level > DEEP:  # only next to x = 0 are doubles so close
+            inside = (open_[:, 0] < 0.0) & (open_[:, 1] > 0.0)
+            left, right = open_[inside] * [1.0, 0.0], open_[inside] * [0.0, 1.0]
+            open_ = np.concatenate((open_[~inside], left, right))
+            graded_towards = np.append(graded_towards, 0.0)
+        open_ = _split(open_, graded_towards)
+    done.sort()
+    return np.array([p[0] for p in done] + [done[-1][1]]), np.array(
+        [p[2] for p in done], dtype=np.int64
+    )
+
+
+def _split(pieces: Array, graded_towards: Array) -> Array:
+    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once.
+
+    A piece that has been halved before touches no more than one.
+    """
+    touches = np.isin(pieces, graded_towards)
+    alone = ~touches.any(axis=1)
+    lo, hi = pieces[alone].T
+    middle = 0.5 * (lo + hi)
+    parts = [np.stack((lo, middle), axis=1), np.stack((middle, hi), axis=1)]
+    for end in (0, 1):
+        at, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
+        away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
+        x = at[:, None] + away
+        parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
+    halves = np.concatenate(parts)
+    return halves[halves[:, 0] < halves[:, 1]]  # the last halvings may be less than an ulp
+
+
+def _degrees(
+    function: Callable[[Array], Array], pieces: Array, n: int, tolerance: Tolerance, scale: float
+) -> tuple[NDArray[np.int64], float]:
+    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far."""
+    lo, hi = pieces.T
+    middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
+    s = np.concatenate((chebyshev.points(n), PROBES))
+    x = middle[:, None] + half[:, None] * s
+    values = function(x)
+    refuse_non_finite(x, values)
+    scale = max(scale, float(np.abs(values).max()))
+    c = chebyshev.transform(values[:, :n])
+    enough = tolerance.of(pieces, values, scale)
+    # a few ulp of x move the value by rounding: no series can do better
+    floor = np.maximum(
+        enough,
+        EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)),
+    )
+    missed = np.abs(c @ _at_probes(n) - values[:, n:]).max(axis=1)
+    settled = (np.abs(c[:, -TAIL:]).max(axis=1) <= floor) & (missed <= MISSED * floor)
+    ulp = np.spacing(np.abs(pieces).max(axis=1))
+    settled |= 2.0 * half <= np.maximum(4.0 * ulp, tolerance.shortest)
+    chopped = zip(c, 0.5 * enough, settled, strict=True)
+    lengths = [chebyshev.chopped_length(row, by) - 1 if ok else -1 for row, by, ok in chopped]
+    return np.array(lengths, dtype=np.int64), scale
+
+
+@lru_cache(maxsize=len(SIZES))
+def _at_probes(n: int) -> Array:
+    return chebyshev.polynomials(n, PROBES)
+
+
+def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
+    """How rough the function's values are on [lo, hi] by rounding of its own, like exp(x) - 1 near 0: no series can do better.
+
+    What is left of its values at NEIGHBOURS points very close together after a parabola through them, the median of several places.
+    """
+    middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
+    s = chebyshev.points(NEIGHBOURS)
+    values = function(middle[:, None] + CLOSE * (hi - lo) * s)
+    refuse_non_finite(middle[:, None] + 0.0 * s, values)
+    left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
+    return sorted(np.abs(left).max(axis=1).tolist())[
+        len(PROBES) // 2
+    ]  # np.median imports numpy.ma, which takes longer than a solve
+
+
+def refuse_non_finite(x: Array, values: Array) -> None:
+    bad = ~np.isfinite(values)
+    if bad.any():
+        raise ValueError(
+            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside its domain; narrow the domain"
+        )
+
+
+def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None = None) -> Slope:
+    """The slope on [lo, hi], its functions resolved to tol times the largest |H| there; a slope without functions is returned as it is."""
+    if not slope.functions:
+        return slope
+    inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
+    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
+    k = np.clip(
+        np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
+    )
+    return Slope(
+        breaks,
+        slope.origins[k],
+        slope.coefficients[k],
+        np.maximum(degrees, slope.degrees[k]),
+        slope.functions,
+    )
+
+
+def integral(slope: Slope, start: float, x: Array) -> Array:
+    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the ends of the indenter."""
+    lo, hi = slope.domain
+    inside = np.clip(x, lo, hi)
+    out = np.zeros(np.shape(x))
+    for sign in (-1.0, 1.0):
+        ahead = sign * (inside - start)
+        if ahead.size == 0 or ahead.max() <= 0.0:
+            continue
+        end = start + sign * float(ahead.max())
+        pieces = refined(slope, min(start, end), max(start, end), EPS)
+        out = np.where(ahead > 0.0, _antiderivative(pieces, start, inside), out)
+    return np.where((x < lo) | (x > hi), np.inf, out)
+
+
+def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
+    """∫ H from start, on the resolved pieces (start is one of their ends)."""
+    k = np.arange(len(pieces.degrees))
+    lo, length = pieces.breaks[:-1], np.diff(pieces.breaks)
+    n = int(pieces.degrees.max()) + 1
+    c = chebyshev.transform(
+        pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n)))
+    )
+    primitive = chebyshev.antiderivative(c) * (0.5 * length)[:, None]
+    at = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
+    at -= at[int(np.searchsorted(pieces.breaks, start))]
+    flat = x.ravel()
+    j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
+    s = np.clip((flat - lo[j]) / (0.5 * length[j]) - 1.0, -1.0, 1.0)
+    values = at[j] + np.array(
+        [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
+    )
+    return values.reshape(x.shape)

@@ -1,0 +1,407 @@
+"""The slope H = h' of an indenter, piece by piece: what the numerics see of a profile.
+
+On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus functions that are smooth there:
+
+    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j  +  Σ functions(t),       breaks[k] < t < breaks[k+1]
+
+The first and last break are the ends of the indenter and may be infinite. Each piece has its own origin because a profile is often
+small there and nowhere else: (t - a)/R on the rim of a punch whose rim is 1e-12 of its width must not be formed as t/R - a/R.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie import arguments
+from sie.numerics.interval import EPS
+
+Array = NDArray[np.float64]
+Vectorised = Callable[[Array], Any]
+
+
+# Up to so many pieces of so low a degree, a loop over floats is cheaper than NumPy's calls.
+FEW, LOW = 6, 4
+
+
+# A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump exceeds rounding by this factor.
+JUMP = 256.0 * EPS
+# Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
+SEEN_JUMP = 1e-9
+
+
+class Row(NamedTuple):
+    """One piece of a slope as plain floats; coefficients high order first."""
+
+    lo: float
+    hi: float
+    origin: float
+    coefficients: tuple[float, ...]
+
+    def at(self, x: float) -> float:
+        value = 0.0
+        for c in self.coefficients:
+            value = value * (x - self.origin) + c
+        return value
+
+    def steepness(self, x: float) -> float:
+        """H'."""
+        value = slope = 0.0
+        for c in self.coefficients:
+            slope = slope * (x - self.origin) + value
+            value = value * (x - self.origin) + c
+        return slope
+
+
+@dataclass(frozen=True)
+class FunctionTerm:
+    """t -> sign f(sign (t - shift)): a function of the user's, moved and mirrored with its profile."""
+
+    function: Vectorised
+    shift: float = 0.0
+    sign: float = 1.0
+
+    def __call__(self, offset: Array) -> Array:
+        """Values at t, given offset = t - shift."""
+        with np.errstate(
+            all="ignore"
+        ):  # who resolves the function refuses what is not finite, with the place
+            values: Array = self.sign * arguments.real_values(
+                "slope", self.function, self.sign * offset
+            )
+        return values
+
+
+@dataclass(frozen=True, eq=False)
+class Slope:
+    """H on its breaks. Arrays: breaks (N+1,), origins (N,), coefficients (N, D) low order first, degrees (N,).
+
+    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree where there is no function.
+    """
+
+    breaks: Array
+    origins: Array
+    coefficients: Array
+    degrees: NDArray[np.int64]
+    functions: tuple[FunctionTerm, ...] = ()
+
+    def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
+        """H at t = (start + tail) + u on the pieces k: start and tail (K,), u (K, n); exact differences, no rounding of t."""
+        c = self.coefficients[k]
+        values: Array = c[:, -1:]
+        if c.shape[1] > 1:
+            y = ((start - self.origins[k]) + tail)[:, None] + u
+            for j in range(c.shape[1] - 2, -1, -1):
+                values = values * y + c[:, j : j + 1]
+        for f in self.functions:
+            values = values + f(((start - f.shift) + tail)[:, None] + u)
+        return values if values.shape == u.shape else values + np.zeros_like(u)
+
+    def local_derivative(self, k: Any, start: Array, tail: Array, u: Array) -> Array | float:
+        """H' of the polynomials at the same points; functions have no derivative here."""
+        c = self.coefficients[k]
+        degree = c.shape[1] - 1
+        if degree == 0:
+            return 0.0
+        values: Array = degree * c[:, -1:]
+        if degree > 1:
+            y = ((start - self.origins[k]) + tail)[:, None] + u
+            for j in range(degree - 1, 0, -1):
+                values = values * y + j * c[:, j : j + 1]
+        return values
+
+    def __call__(self, x: Any) -> Array:
+        """H(x): the mean of both sides at a break, -inf and inf beyond the ends of the indenter, which are vertical walls."""
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        right = np.searchsorted(self.breaks, flat, side="right") - 1
+        left = np.searchsorted(self.breaks, flat, side="left") - 1
+        last = len(self.origins) - 1
+        values = self._on(np.clip(right, 0, last), flat)
+        at_break = np.flatnonzero((left != right) & (left >= 0) & (right <= last))
+        if at_break.size:
+            values[at_break] = 0.5 * (values[at_break] + self._on(left[at_break], flat[at_break]))
+        values[flat < self.breaks[0]] = -np.inf
+        values[flat > self.breaks[-1]] = np.inf
+        return values.reshape(x.shape)
+
+    def inside(self, x: Array) -> Array:
+        """H at points x (K, n), each row inside one piece."""
+        k = np.clip(
+            np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1,
+            0,
+            len(self.origins) - 1,
+        )
+        return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
+
+    def _on(self, k: NDArray[np.int64], x: Array) -> Array:
+        inside = np.clip(
+            x, self.breaks[0], self.breaks[-1]
+        )  # beyond the ends the value is replaced; keep functions in their domain
+        return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
+
+    @cached_property
+    def is_zero(self) -> NDArray[np.bool_]:
+        """Which pieces are flat: they cost nothing."""
+        if self.functions:
+            return np.zeros(len(self.origins), dtype=bool)
+        return np.logical_not(self.coefficients.any(axis=1))
+
+    @cached_property
+    def has_zero(self) -> bool:
+        return bool(self.is_zero.any())
+
+    @cached_property
+    def degree(self) -> int:
+        """The largest degree that resolves a piece."""
+        return int(self.degrees.max())
+
+    @cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """The pieces that are not flat, as plain floats."""
+        ends = self.breaks.tolist()
+        rows = zip(
+            ends[:-1],
+            ends[1:],
+            self.origins.tolist(),
+            self.coefficients[:, ::-1].tolist(),
+            self.is_zero.tolist(),
+            strict=True,
+        )
+        return tuple(Row(lo, hi, origin, tuple(c)) for lo, hi, origin, c, zero in rows if not zero)
+
+    @cached_property
+    def break_points(self) -> tuple[float, ...]:
+        """The finite breaks as plain floats."""
+        return tuple(b for b in self.breaks.tolist() if abs(b) < np.inf)
+
+    @cached_property
+    def few(self) -> bool:
+        """Whether plain floats beat arrays."""
+        return (
+            not self.functions
+            and len(self.is_zero) - int(self.is_zero.sum()) <= FEW
+            and self.degree <= LOW
+        )
+
+    @cached_property
+    def without_functions(self) -> Slope:
+        return replace(self, functions=())
+
+    @cached_property
+    def continuous(self) -> bool:
+        """Whether H is known to have no jumps at its breaks, but for rounding (a function may have them at declared ones)."""
+        if self.functions:
+            return False
+        if not self.few:
+            left, right = self._sides
+            return bool(
+                (np.abs(left - right) <= JUMP * np.abs((left, right)).max(initial=0.0)).all()
+            )
+        below, above = self.at_breaks
+        rounding = JUMP * max(map(abs, below + above), default=0.0)
+        return all(abs(a - b) <= rounding for a, b in zip(below, above, strict=True))
+
+    @cached_property
+    def at_breaks(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The polynomials' H from the left and from the right of every inner break."""
+        inner = self.breaks[1:-1]
+        if self.few:
+            before = {row.hi: row for row in self.rows}
+            after = {row.lo: row for row in self.rows}
+            ends = inner.tolist()  # a flat piece has no row
+            return tuple(before[b].at(b) if b in before else 0.0 for b in ends), tuple(
+                after[b].at(b) if b in after else 0.0 for b in ends
+            )
+        left, right = self._sides
+        return tuple(left.tolist()), tuple(right.tolist())
+
+    @cached_property
+    def rises(self) -> tuple[tuple[float, float], ...]:
+        """(break, what H rises by there), of the inner breaks where that is more than rounding."""
+        found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
+        return tuple(
+            (b, above - below)
+            for b, below, above in found
+            if abs(above - below) > JUMP * max(abs(below), abs(above))
+        )
+
+    def corner(self, x: float) -> tuple[float, float]:
+        """What H and H' jump by at a break x; of functions H alone, one ulp beside it."""
+        j = int(np.searchsorted(self.breaks, x))
+        if not 0 < j < len(self.origins):
+            return 0.0, 0.0
+        if self.few:  # a flat piece has no row
+            lower, upper = (
+                next((row for row in self.rows if row[end] == x), Row(x, x, x, ()))
+                for end in (1, 0)
+            )
+            below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
+        else:
+            k, start, ulp = (
+                np.array([j - 1, j]),
+                np.array([x, x]),
+                np.spacing(abs(x)) if self.functions else 0.0,
+            )
+            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[
+                :, 0
+            ].tolist()
+            curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
+            kink = (
+                float(curvature[1, 0] - curvature[0, 0])
+                if isinstance(curvature, np.ndarray)
+                else 0.0
+            )
+        rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
+        return (float(above - below) if abs(above - below) > rounding else 0.0), kink
+
+    def after(self, x: float) -> float:
+        """H just right of x, of few pieces."""
+        return next((row.at(x) for row in self.rows if row.lo <= x < row.hi), 0.0)
+
+    @cached_property
+    def _sides(self) -> tuple[Array, Array]:
+        inner, k = self.breaks[1:-1], np.arange(len(self.origins))
+        left, right = (
+            self.local(j, inner, np.zeros_like(inner), np.zeros((len(inner), 1)))[:, 0]
+            for j in (k[:-1], k[1:])
+        )
+        return left, right
+
+    @cached_property
+    def corners(self) -> Array:
+        """What jumps at the inner breaks: Taylor coefficients of the polynomials there, from the right less from the left, (N - 1, D)."""
+        k, inner, width = (
+            np.arange(len(self.origins)),
+            self.breaks[1:-1],
+            self.coefficients.shape[1],
+        )
+        return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return float(self.breaks[0]), float(self.breaks[-1])
+
+    def tilted(self, tilt: float) -> Slope:
+        if tilt == 0.0:
+            return self
+        c = self.coefficients.copy()
+        c[:, 0] += tilt
+        return replace(self, coefficients=c)
+
+    def split_at(self, x: float) -> Slope:
+        """The same slope with a break at x, which changes nothing but where its pieces end."""
+        k = int(np.searchsorted(self.breaks, x))
+        if not self.breaks[0] < x < self.breaks[-1] or self.breaks[k] == x:
+            return self
+        twice = np.insert(np.arange(len(self.origins)), k, k - 1)
+        return replace(
+            self,
+            breaks=np.insert(self.breaks, k, x),
+            origins=self.origins[twice],
+            coefficients=self.coefficients[twice],
+            degrees=self.degrees[twice],
+        )
+
+    def within(self, lo: float, hi: float) -> Slope:
+        """The same slope on [lo, hi] alone, with walls there."""
+        split = self.split_at(lo).split_at(hi)
+        kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
+        ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
+        return Slope(
+            ends,
+            split.origins[kept],
+            split.coefficients[kept],
+            split.degrees[kept],
+            split.functions,
+        )
+
+    def shifted(self, dx: float) -> Slope:
+        functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
+        breaks, origins = self.breaks + dx, self.origins + dx
+        kept = (
+            np.diff(breaks) > 0.0
+        )  # a piece that is shorter than the doubles are apart there is gone
+        if kept.all():
+            return replace(self, breaks=breaks, origins=origins, functions=functions)
+        ends = np.append(breaks[:-1][kept], breaks[-1])
+        return Slope(ends, origins[kept], self.coefficients[kept], self.degrees[kept], functions)
+
+    def mirrored(self) -> Slope:
+        """The slope of h(-x), that is -H(-x)."""
+        c = -self.coefficients[::-1] * (-1.0) ** np.arange(self.coefficients.shape[1])
+        functions = tuple(replace(f, shift=-f.shift, sign=-f.sign) for f in self.functions)
+        return Slope(-self.breaks[::-1], -self.origins[::-1], c, self.degrees[::-1], functions)
+
+    def __add__(self, other: Slope) -> Slope:
+        """The sum on the intersection of both domains, broken where either is."""
+        lo, hi = max(self.breaks[0], other.breaks[0]), min(self.breaks[-1], other.breaks[-1])
+        if not lo < hi:
+            raise ValueError(
+                f"profiles on {self.domain} and {other.domain} do not overlap: shift one of them before adding"
+            )
+        merged = np.union1d(self.breaks, other.breaks)
+        breaks = merged[(merged >= lo) & (merged <= hi)]
+        mine, theirs = (
+            np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other)
+        )
+        origins = np.where(
+            other.is_zero[theirs]
+            | (
+                ~self.is_zero[mine]
+                & (
+                    _distance(self.origins[mine], breaks)
+                    <= _distance(other.origins[theirs], breaks)
+                )
+            ),
+            self.origins[mine],
+            other.origins[theirs],
+        )
+        width = max(self.coefficients.shape[1], other.coefficients.shape[1])
+        c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
+        degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
+        return Slope(breaks, origins, c, degrees, self.functions + other.functions)
+
+
+def polynomial_slope(
+    breaks: Sequence[float], origins: Sequence[float], coefficients: Sequence[Sequence[float]]
+) -> Slope:
+    """A Slope from rows of polynomial coefficients of unequal length."""
+    width = max(len(row) for row in coefficients)
+    c = np.zeros((len(coefficients), width))
+    for k, row in enumerate(coefficients):
+        c[k, : len(row)] = row
+    degrees = np.array([max(len(row) - 1, 0) for row in coefficients], dtype=np.int64)
+    return Slope(np.asarray(breaks, dtype=float), np.asarray(origins, dtype=float), c, degrees)
+
+
+def _distance(origins: Array, breaks: Array) -> Array:
+    """How far each origin is from its piece: 0 inside a bounded one, from the end of a half-bounded one, from x = 0 on an endless one.
+
+    Contact is near the finite breaks; a far origin makes large coefficients that cancel there.
+    """
+    lo, hi = breaks[:-1], breaks[1:]
+    outside = np.maximum(np.maximum(lo - origins, origins - hi), 0.0)
+    one_end = np.where(np.isfinite(lo), np.abs(origins - lo), np.abs(origins - hi))
+    return np.where(
+        np.isfinite(lo) & np.isfinite(hi),
+        outside,
+        np.where(np.isinf(one_end), np.abs(origins), one_end),
+    )
+
+
+def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
+    """Coefficients of the pieces k about new origins (Horner's synthetic division, exact where the origin stays)."""
+    c = np.zeros((len(k), width))
+    c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
+    step = origins - slope.origins[k]
+    if step.any():
+        for i in range(width - 1):
+            for j in range(width - 2, i - 1, -1):
+                c[:, j] += step * c[:, j + 1]
+    return c

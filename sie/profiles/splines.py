@@ -1,0 +1,291 @@
+"""Cubic splines through a trace, and the smoothing spline of a noisy one.
+
+The smoothing spline minimises, over all functions f on the trace's interval (Reinsch 1967, SciPy's `make_smoothing_spline`),
+
+    Σ_i (h_i - f(x_i))² + λ ∫ f''² dx,          λ in units of length³
+
+It is a natural cubic spline with a knot at every point, and averages over a length of about (λ Δ)^(1/4), Δ the mean spacing. With
+thousands of points within that length a knot at every point costs digits (the equations' condition is the fourth power of the number) and
+buys nothing: then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's
+`smooth.spline`).
+
+With few points in that length (few enough for a knot at each) the second derivatives γ at the points are solved for, and f follows
+(Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines would lose f between the points as λ → 0.
+
+    (R + λ Q'Q) γ = Q'h,       f = h - λ Q γ,       Q'h second differences, R their mass matrix
+
+λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
+f(x).
+Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
+
+What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
+s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance
+s² (B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+(Nychka 1988).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics.interval import EPS
+
+Array = NDArray[np.float64]
+
+ALL_KNOTS = 1000  # up to so many points each is a knot
+FEWEST_KNOTS = 250
+KNOTS_IN_LENGTH = (
+    10.0  # a spline on these differs from that on all points by 1e-5 of what smoothing changes
+)
+SHORT = KNOTS_IN_LENGTH**4  # λ over the cube of the mean spacing: up to so many points are averaged
+EXACT_TRACE = 400
+PROBES = 16
+STEPS = 25  # of the first look at the score, from a third of the spacing to the length of the trace
+LONGEST = 4.0  # times the length of the trace: beyond it, averaging leaves a straight line
+SIGNIFICANT = 3.0  # standard deviations
+LOCAL = 50  # points whose misfit tells the noise
+REFINED = 0.02  # of the logarithm of the averaging length
+
+
+def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
+    """(breaks, coefficients (N, 4), low order first, about the left end of each piece): not-a-knot, so that a cubic is reproduced."""
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
+
+    c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
+    return x, c
+
+
+def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
+    """The same of the smoothing spline with λ = lam > 0; breaks at its knots."""
+    problem = _Problem(x, h)
+    return problem.spline(lam / problem.length**3)
+
+
+def longest_lambda(x: Array) -> float:
+    """The λ beyond which a smoothing spline is a straight line."""
+    return float((x[-1] - x[0]) ** 3 * len(x) * LONGEST**4)
+
+
+def cross_validated(x: Array, h: Array) -> float:
+    """λ of the smallest score."""
+    from scipy.optimize import minimize_scalar  # noqa: PLC0415
+
+    problem = _Problem(x, h)
+
+    def score(averaging: float) -> float:
+        return problem.score(len(x) * float(np.exp(4.0 * averaging)))
+
+    grid = np.linspace(-np.log(3.0 * len(x)), 0.0, STEPS)
+    best = int(np.argmin([score(u) for u in grid.tolist()]))
+    around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, STEPS - 1)])
+    averaging = float(
+        minimize_scalar(score, bounds=around, method="bounded", options={"xatol": REFINED}).x
+    )
+    return float(len(x) * np.exp(4.0 * averaging)) * problem.length**3
+
+
+def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
+    """Whether the misfit there exceeds that of a smaller λ by no more than noise does (an F-test)."""
+    problem = _Problem(x, h)
+    part, unit = _local(x, *between), problem.length**3
+    rss, left = problem.misfit(lam / unit, part)
+    least_rss, least_left = problem.misfit(least / unit, part)
+    freed = max(left - least_left, 0.0)
+    expected = freed + SIGNIFICANT * math.sqrt(2.0 * freed)
+    return (rss - least_rss) * least_left <= expected * least_rss
+
+
+def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
+    """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
+
+    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points: without
+    bias its sum of squares has the expectation s² tr (I - A)².
+    """
+    from scipy.interpolate import BSpline  # noqa: PLC0415
+
+    problem = _Problem(x, h)
+    lam /= problem.length**3
+    basis = problem.basis(lam)
+    rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
+    at = (points - x[0]) / problem.length
+    design = BSpline.design_matrix(at, basis.knots[1:-1], 2) @ basis.first_difference
+    functional = design.T @ weights.T
+    variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
+    return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
+
+
+def _local(x: Array, lo: float, hi: float) -> slice:
+    """The points between two x, or LOCAL points about them."""
+    start, stop = np.searchsorted(x, (lo, hi)).tolist()
+    start = max(min((start + stop - LOCAL) // 2, start, len(x) - LOCAL), 0)
+    return slice(start, max(stop, start + LOCAL))
+
+
+class _Problem:
+    """A trace in its own units: x from 0 to 1, λ with it, and heights of the order of 1 about 0."""
+
+    def __init__(self, x: Array, h: Array) -> None:
+        self.x, self.length = x, float(x[-1] - x[0])
+        self.at = (x - x[0]) / self.length
+        self.origin = float(h[0])
+        self.unit = float(np.ptp(h)) or 1.0
+        self.h = (h - self.origin) / self.unit
+        self._bases: dict[int, _Basis] = {}
+
+    def basis(self, lam: float) -> _Basis:
+        n = len(self.x)
+        needed = KNOTS_IN_LENGTH * (lam / n) ** -0.25
+        knots = FEWEST_KNOTS * 2 ** int(np.ceil(np.log2(max(needed / FEWEST_KNOTS, 1.0))))
+        knots = n if n <= ALL_KNOTS or 2 * knots > n else knots
+        if knots not in self._bases:
+            self._bases[knots] = _Basis(
+                self.at, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
+            )
+        return self._bases[knots]
+
+    def score(self, lam: float) -> float:
+        basis, n = self.basis(lam), len(self.x)
+        misfit = self.h - basis.values @ basis.coefficients(lam)
+        return float(n * (misfit @ misfit) / (n - basis.traces(lam)[0]) ** 2)
+
+    def misfit(self, lam: float, part: slice) -> tuple[float, float]:
+        """(sum of squares of the misfit of some points, their share of tr (I - A)²)."""
+        basis, n = self.basis(lam), len(self.x)
+        misfit = (self.h - basis.values @ basis.coefficients(lam))[part]
+        once, twice = basis.traces(lam)
+        return float(misfit @ misfit), len(misfit) * max(1.0 - (2.0 * once - twice) / n, EPS)
+
+    def spline(self, lam: float) -> tuple[Array, Array]:
+        from scipy.interpolate import BSpline  # noqa: PLC0415
+
+        if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
+            return self.x, self._in_given_units(_reinsch(self.at, self.h, lam))
+        basis = self.basis(lam)
+        knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
+        return self.x[basis.chosen], self._in_given_units(
+            _pieces(knots, spline(knots), spline(knots, 2))
+        )
+
+    def _in_given_units(self, c: Array) -> Array:
+        c = c * (self.unit / self.length ** np.arange(4.0))
+        c[:, 0] += self.origin
+        return c
+
+
+def _reinsch(x: Array, h: Array, lam: float) -> Array:
+    """Coefficients of the smoothing spline about the left end of each piece, from its second derivatives."""
+    from scipy.linalg import solveh_banded  # noqa: PLC0415
+
+    step = np.diff(x)
+    right_side = np.diff(np.diff(h) / step)
+    # Columns of Q have the entries a, b, c at three neighbouring points
+    a, c = 1.0 / step[:-1], 1.0 / step[1:]
+    b = -a - c
+    system = np.zeros((3, len(right_side)))
+    system[2] = (step[:-1] + step[1:]) / 3.0 + lam * (a * a + b * b + c * c)
+    system[1, 1:] = step[1:-1] / 6.0 + lam * (b[:-1] * a[1:] + c[:-1] * b[1:])
+    system[0, 2:] = lam * c[:-2] * a[2:]
+    gamma = solveh_banded(system, right_side, check_finite=False)
+    f = h.copy()
+    for entries, at in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
+        f[at] -= lam * entries * gamma
+    return _pieces(x, f, np.concatenate(([0.0], gamma, [0.0])))
+
+
+def _pieces(x: Array, f: Array, second: Array) -> Array:
+    """Coefficients about the left end of each piece of the cubic spline with these values and second derivatives at its knots.
+
+    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a corner of the indenter.
+    """
+    step = np.diff(x)
+    chord = np.diff(f) / step
+    last = chord[-1] + step[-1] * (second[-2] + 2.0 * second[-1]) / 6.0
+    slope = np.append(chord - step * (2.0 * second[:-1] + second[1:]) / 6.0, last)
+    excess = slope[:-1] + slope[1:] - 2.0 * chord
+    return np.stack(
+        (f[:-1], slope[:-1], (chord - slope[:-1] - excess) / step, excess / (step * step)), axis=1
+    )
+
+
+@dataclass
+class _Basis:
+    """Cubic B-splines on the chosen points, the data in them, and the bending energy, as banded matrices (upper form)."""
+
+    at: Array
+    h: Array
+    chosen: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        from scipy.interpolate import BSpline  # noqa: PLC0415
+
+        inner = self.at[self.chosen]
+        self.knots = np.concatenate(([inner[0]] * 3, inner, [inner[-1]] * 3))
+        self.values: Any = BSpline.design_matrix(self.at, self.knots, 3)
+        self._gram = _upper(self.values.T @ self.values)
+        self._bending = _upper(self._energy(inner))
+        self._data = self.values.T @ self.h
+
+    def _energy(self, inner: Array) -> Any:
+        """∫ B_i'' B_j'': B'' is linear between knots, with values S c there."""
+        from scipy.sparse import diags  # noqa: PLC0415
+
+        t, m = self.knots, len(inner)
+        second = 2.0 / (t[4 : m + 4] - t[2 : m + 2])
+        S = diags([-second, second], [0, 1], shape=(m, m + 1)) @ self.first_difference
+        step = np.diff(inner) / 6.0
+        mass = diags([step, 2.0 * (np.append(step, 0.0) + np.append(0.0, step)), step], [-1, 0, 1])
+        return S.T @ mass @ S
+
+    @property
+    def first_difference(self) -> Any:
+        """From the coefficients of f to those of f' in quadratic B-splines, on all knots but the outermost."""
+        from scipy.sparse import diags  # noqa: PLC0415
+
+        t, m = self.knots, len(self.chosen)
+        first = 3.0 / (t[4 : m + 5] - t[1 : m + 2])
+        return diags([-first, first], [0, 1], shape=(m + 1, m + 2))
+
+    def coefficients(self, lam: float) -> Array:
+        return self.solved(lam, self._data)
+
+    def traces(self, lam: float) -> tuple[float, float]:
+        """tr A = tr (B'B + λE)^-1 B'B, and tr A²."""
+        if len(self.chosen) <= EXACT_TRACE:
+            hat = self.solved(lam, self._full)
+            return float(np.trace(hat)), float(np.einsum("ij,ji", hat, hat))
+        signs, projected = self._probes
+        fitted = self.values @ self.solved(lam, projected)
+        return float((signs * fitted).sum() / PROBES), float((fitted * fitted).sum() / PROBES)
+
+    @cached_property
+    def _full(self) -> Array:
+        full: Array = (self.values.T @ self.values).toarray()
+        return full
+
+    @cached_property
+    def _probes(self) -> tuple[Array, Array]:
+        signs: Array = np.where(
+            np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0
+        )
+        projected: Array = self.values.T @ signs
+        return signs, projected
+
+    def solved(self, lam: float, right: Array) -> Array:
+        from scipy.linalg import solveh_banded  # noqa: PLC0415
+
+        solved: Array = solveh_banded(self._gram + lam * self._bending, right, check_finite=False)
+        return solved
+
+
+def _upper(matrix: Any) -> Array:
+    """The diagonal and three above it, as SciPy stores them."""
+    band = np.zeros((4, matrix.shape[0]))
+    for k in range(4):
+        band[3 - k, k:] = matrix.diagonal(k)
+    return band

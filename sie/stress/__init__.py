@@ -1,0 +1,1 @@
+"""The stress in the body: yield, surface tension, load cycles."""

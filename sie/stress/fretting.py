@@ -1,0 +1,125 @@
+"""What a cycle of loading does: stress histories at points, slip on the surface, and the parameters that rank fretting damage.
+
+A cycle is a sequence of states, one Solution after each step of the load. What is needed of one: .pressure, .shear and .scene.bulk_stress
+(through `stress(x, y)`), and .slip(x), the tangential displacement of the body against the indenter.
+
+    slip amplitude     δ(x) = (max s - min s)/2 over the cycle
+    Ruiz (1984)        κ1 = max|q| δ, friction work, for wear;      κ2 = max σ_xx max|q| δ, for the start of cracks
+
+Ruiz, Boddington & Chen, Exp. Mech. 24 (1984) 208-217;  Hills & Nowell, Mechanics of Fretting Fatigue (1994), ch. 7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .half_plane import Stress
+
+Array = NDArray[np.float64]
+
+
+class State(Protocol):
+    """What a cycle needs of a solution."""
+
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress: ...
+    def slip(self, x: ArrayLike) -> Array: ...
+    @property
+    def shear(self) -> Any: ...
+
+
+@dataclass(frozen=True)
+class Range:
+    """The extremes of a quantity over a cycle, at points: arrays of their shape."""
+
+    lowest: Array
+    highest: Array
+
+    @property
+    def range(self) -> Array:
+        return self.highest - self.lowest
+
+    @property
+    def amplitude(self) -> Array:
+        return 0.5 * (self.highest - self.lowest)
+
+    @property
+    def mean(self) -> Array:
+        return 0.5 * (self.highest + self.lowest)
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle:
+    """The states of a cycle of loading, in order; the last one closes it: `Cycle(follow(scene, path))`, or a part of that.
+
+    What happens between two states is not looked at. Inside the body and in slip zones a stress may be largest there: follow
+    `path.subdivided(8)`. ValueError for fewer than two states.
+    """
+
+    states: Sequence[State]
+
+    def __post_init__(self) -> None:
+        if len(self.states) < 2:
+            raise ValueError(
+                f"{len(self.states)} states make no cycle: give the solutions at two or more steps of the load"
+            )
+
+    @cached_property
+    def size(self) -> int:
+        return len(self.states)
+
+    def history(self, x: ArrayLike, y: ArrayLike) -> Array:
+        """The stress tensors at points (x, y) after every step, (steps, *shape, 3, 3): what a critical-plane code takes.
+
+        Axes x, y (depth), z out of the plane; it needs Poisson's ratio for σ_zz.
+        """
+        shape = np.broadcast_shapes(np.shape(x), np.shape(y))
+        out = np.zeros((self.size, *shape, 3, 3))
+        for tensor, state in zip(out, self.states, strict=True):
+            s = state.stress(x, y)
+            tensor[..., 0, 0], tensor[..., 1, 1], tensor[..., 2, 2] = s.xx, s.yy, s.zz
+            tensor[..., 0, 1] = tensor[..., 1, 0] = s.xy
+        return out
+
+    def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
+        """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where Poisson's ratio is known."""
+        stresses = [state.stress(x, y) for state in self.states]
+        names = (
+            ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
+        )
+        values = ((name, np.stack([getattr(s, name) for s in stresses])) for name in names)
+        return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
+
+    def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
+        """(largest range of shear stress over all planes through the z axis, angle of that plane's normal from x), at points.
+
+        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges
+        over the width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
+        """
+        stresses = [state.stress(x, y) for state in self.states]
+        D = np.stack([0.5 * (s.yy - s.xx) + 1j * s.xy for s in stresses])
+        difference = D[:, None] - D[None, :]
+        flat = difference.reshape(self.size**2, *D.shape[1:])
+        k = np.abs(flat).argmax(axis=0)
+        widest = np.take_along_axis(flat, k[None], axis=0)[0]
+        return np.abs(widest), np.mod(0.5 * (0.5 * np.pi - np.angle(widest)), 0.5 * np.pi)
+
+    def slip_range(self, x: ArrayLike) -> Range:
+        """Lowest and highest slip on the surface over the cycle; its `amplitude` is δ(x)."""
+        slip = np.stack([np.asarray(state.slip(x)) for state in self.states])
+        return Range(slip.min(axis=0), slip.max(axis=0))
+
+    def friction_work(self, x: ArrayLike) -> Array:
+        """Ruiz' first parameter κ1 = max|q| δ, work per area: where the surface wears."""
+        q = np.stack([np.abs(state.shear(x)) for state in self.states]).max(axis=0)
+        return q * self.slip_range(x).amplitude
+
+    def ruiz(self, x: ArrayLike) -> Array:
+        """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ, 0 where the surface is never in tension: where cracks begin."""
+        tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
+        return np.maximum(tension, 0.0) * self.friction_work(x)

@@ -1,0 +1,561 @@
+"""The largest value that a measure of the stress takes in the body: scanned on the scale of its singularities, polished by Newton.
+
+Where the maxima can hide.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it; what is not smooth
+are the edges and breaks of the tractions, the marks. So on a disc that keeps away from these by its own radius the stress is a fast
+convergent power series, and a scan whose cells are as large as a fraction of
+
+    s(x) = min_j (|x - m_j| + g_j),      m_j the marks, g_j a fraction of the gap to the next one
+
+resolves it equally well at every scale: a rim of 1e-6 b has as many cells as the whole contact. Where the slope of a traction is infinite
+the stress goes like r ln r, or like the root of r, with the distance r. Beside a falling term k r that has a maximum at a distance
+of exp(-k), however small: there g_j is FINEST. The scan goes from the depth up to the surface, and leaves out what is too small, at one
+scale and on the surface, to be the largest at a finer one. Every local maximum of the scan becomes a start, with its neighbours to both
+sides, because two maxima may lie on either side of a saddle under the centre; so does what lies beneath a maximum of the surface from which
+the measure grows inwards.
+
+Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with ρ = y/400 exact to 400^-N,
+
+    F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
+
+so that gradient and Hessian are those of the stress itself, no finite differences. On the surface the derivative is
+Fp' there, and its sign changes are bracketed between neighbouring columns, of which every edge and break is one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .half_plane import Tractions, hilbert_of_shear, potentials
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+NEAR, NEAR_OF_MANY = (
+    0.05,
+    1.0,
+)  # g of a mark: this fraction of the smaller gap beside it, more where there are many marks
+FINEST = 1e-12  # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is rounding
+RESOLVED = 1e-8  # half-widths: how near to each other many marks are looked at
+MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
+SHALLOW = 0.06  # of s: where a column begins
+OUTSIDE = 1.8  # half-widths: how far beside the contact the scan looks, and ...
+FAR = 1e3  # ... the surface
+DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
+LEVELS = 6  # depths between two decisions of what to leave out
+SPACING, CELL = (
+    0.15,
+    0.03,
+)  # of the depth: columns nearer to a mark than that are left out, and others nearer to each other than that
+ALONE = 8.0  # depths: columns farther apart are no neighbours
+HOPELESS, WINDOW = (
+    0.8,
+    4.0,
+)  # what stays below this fraction of the largest value at one scale, on a surface so many depths wide, is left
+WORTH = 0.85  # of the largest value known: maxima of the scan below it, which is off by its curvature over a cell, are not polished
+MOST_STARTS = 48
+CIRCLE, RADIUS = (
+    6,
+    400.0,
+)  # points, and the depth over the radius: the third derivative is still good to seven digits
+PATIENCE, CLOSE = (
+    12,
+    0.99,
+)  # steps after which a start goes on only if it is within that fraction of the highest
+STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
+SETTLED = 1e-7  # of the depth: after it the step to come, its square, is below rounding
+SAME_VALUE, STUCK = (
+    4e-15,
+    1e-9,
+)  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
+TOGETHER = 1e-3  # of the depth
+LEFT = 0.25  # of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the surface
+INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
+ROOT_STEPS, BISECT_AFTER = 80, 12
+AT_MARK = 1e-9  # of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
+BENEATH = 1e-100  # half-widths: so near to where p is infinite that nothing else is left
+ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
+# Maxima this close in value are tied, this close in place (of the half-width) the same.
+TIED, SAME_PLACE = 1e-10, 1e-7
+RISING = 1e-4  # half-widths: so near to a place on the surface one below that is tied with it is the same
+
+
+class Local(NamedTuple):
+    """s, D_r, D_i and their derivatives in units of the depth, each with a first axis (s, D_r, D_i) of length 3."""
+
+    value: Array
+    x: Array
+    y: Array
+    xx: Array
+    xy: Array
+    yy: Array
+
+
+class Measure(NamedTuple):
+    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...): its value, gradient (3, ...), Hessian (3, 3, ...)."""
+
+    value: Callable[[Array], Array]
+    gradient: Callable[[Array], Array]
+    hessian: Callable[[Array], Array]
+
+
+class Maximum(NamedTuple):
+    value: float
+    x: float
+    y: float
+
+
+def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
+    """The largest value in the body, with every place where it is taken (ties within TIED), those on the left first."""
+    mesh = mesh_of(tractions)
+    above = surface_values(tractions, mesh.x)
+    found = [
+        *on_surface(tractions, measure, mesh, above),
+        *beneath_infinite_pressure(tractions, measure),
+    ]
+    found += inside(tractions, measure, mesh, above, found)
+    best = max(m.value for m in found)
+    r = 0.5 * float(np.diff(tractions.pressure.interval)[0])
+    tied = [m for m in found if m.value == best or m.value >= best * (1.0 - TIED)]
+    ties: list[Maximum] = []
+    for m in sorted(tied, key=lambda m: (m.y > 0.0, -m.value)):
+        # Towards a jump of h' the largest value is approached: what is tied with it on the way is not another place
+        apart = (RISING if m.y else SAME_PLACE) * r
+        if all(
+            abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r)
+            for t in ties
+        ):
+            ties.append(Maximum(best, m.x, m.y))
+    return tuple(sorted(ties, key=lambda m: m.x))
+
+
+# -- where the scan looks ----------------------------------------------------------------------------------------------
+
+
+class Mesh(NamedTuple):
+    """Marks with their g, and columns of the scan, marks among them, with their distances from the next mark; all ascending."""
+
+    marks: Array
+    g: Array
+    x: Array
+    distance: Array
+
+    def scale(self, x: Array) -> Array:
+        """s(x) of the module."""
+        left, right, k = _from_marks(self.marks, x)
+        return np.minimum(left + self.g[k - 1], right + self.g[k])
+
+
+def _from_marks(marks: Array, x: Array) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Distances of x from two marks k - 1 and k, one of which is the nearest."""
+    k = np.clip(np.searchsorted(marks, x), 1, len(marks) - 1)
+    return np.abs(x - marks[k - 1]), np.abs(x - marks[k]), k
+
+
+def mesh_of(tractions: Tractions) -> Mesh:
+    marks, singular = tractions.marks, tractions.singular
+    r = 0.5 * float(marks[-1] - marks[0])
+    if len(marks) > MANY_MARKS:  # those that resolve a cusp close in on it for hundreds of octaves
+        marks = np.unique(np.concatenate((_thinned(marks, RESOLVED * r), singular, marks[-1:])))
+    gaps = np.diff(marks)
+    smaller = np.minimum(np.append(gaps, np.inf), np.insert(gaps, 0, np.inf))
+    g = (NEAR if len(marks) <= MANY_MARKS else NEAR_OF_MANY) * smaller
+    highest = singular[np.argsort(-tractions.pressure(singular), kind="stable")[:MOST_SINGULAR]]
+    finest = FINEST * r + 8.0 * np.spacing(np.abs(marks).max())
+    g[np.isin(marks, highest)] = finest
+    # Next to a fine mark others are as fine as their distance from it
+    from_left = np.minimum.accumulate(g - marks) + marks
+    from_right = np.minimum.accumulate((g + marks)[::-1])[::-1] - marks
+    g = np.minimum(g, np.maximum(np.minimum(from_left, from_right), g.min()))
+    half = 0.5 * gaps
+    left, right = (
+        np.append(half, OUTSIDE * r),
+        np.insert(half, 0, OUTSIDE * r),
+    )  # how far columns go on both sides of a mark
+    (k, d), (j, e) = _graded(g, left), _graded(g, right)
+    x = np.unique(np.concatenate((tractions.marks, marks[k] + d, marks[j] - e)))
+    return Mesh(marks, g, x, np.minimum(*_from_marks(marks, x)[:2]))
+
+
+def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
+    """(marks, distances) of columns beside them, in cells that grow in proportion to the distance plus g."""
+    step = 0.5 * np.log(
+        RATIO
+    )  # at every depth the columns beside a mark then lie in the same directions from it
+    count = np.ceil(np.log1p(until / g) / step).astype(np.intp)
+    k = np.repeat(np.arange(len(g)), count)
+    i = np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)
+    d = g[k] * np.expm1((i + 0.47) * step)
+    inside = d < until[k]  # none of two columns midway between marks
+    return k[inside], d[inside]
+
+
+# -- inside ------------------------------------------------------------------------------------------------------------
+
+
+def inside(
+    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: list[Maximum]
+) -> list[Maximum]:
+    """Local maxima below the surface that may be larger than the known ones; `above` are the values over the columns."""
+    best = max(m.value for m in known)
+    if np.isinf(best):
+        return []
+    rows = _rows(tractions, measure, mesh, above, best)
+    floor = WORTH * max(best, *(value.max() for _, _, value in rows))
+    scanned = _starts(rows, floor)
+    starts = np.concatenate(
+        (scanned, _beneath(tractions, measure, mesh, [m.x for m in known if m.value >= floor]))
+    )
+    if not starts.size:
+        return []
+    # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest value is not taken anywhere
+    z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts)))
+    values = measure.value(_values(tractions, z))
+    return [
+        Maximum(*row) for row in zip(values.tolist(), z.real.tolist(), z.imag.tolist(), strict=True)
+    ]
+
+
+def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
+    """The local maxima of the scan and their neighbours left and right."""
+    starts, values = [np.zeros(0, dtype=complex)], [np.zeros(0)]
+    for k, (y, x, value) in enumerate(rows):
+        if value.max() < floor:
+            continue
+        apart = np.concatenate(([True], np.diff(x) > ALONE * y, [True]))
+        left = np.where(apart[:-1], -np.inf, np.append(-np.inf, value[:-1]))
+        right = np.where(apart[1:], -np.inf, np.append(value[1:], -np.inf))
+        top = np.flatnonzero((value >= left) & (value >= right) & (value >= floor))
+        for other, margin in (
+            (k - 1, 0.0),
+            (k + 1, SAME_VALUE),
+        ):  # towards a mark a value may stay the same but for rounding
+            if 0 <= other < len(rows) and top.size:
+                _, x_other, value_other = rows[other]
+                nearest = _nearest(x_other, x[top])
+                seen = np.abs(x_other[nearest] - x[top]) <= y
+                top = top[~seen | (value[top] >= value_other[nearest] * (1.0 + margin))]
+        chosen = np.unique(np.clip(np.concatenate((top - 1, top, top + 1)), 0, len(x) - 1))
+        starts.append(x[chosen] + 1j * y)
+        values.append(value[chosen])
+    z: Complex = np.concatenate(starts)
+    return z[np.argsort(-np.concatenate(values), kind="stable")][:MOST_STARTS]
+
+
+def _rows(
+    tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: float
+) -> list[tuple[float, Array, Array]]:
+    """(depth, abscissae, values) of the scan, the deepest first; a few depths at a time."""
+    columns, shallow, distance = mesh.x, SHALLOW * mesh.scale(mesh.x), mesh.distance
+    y, rows, best = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), [], known
+    while columns.size:
+        levels = y / RATIO ** np.arange(LEVELS)
+        wanted = [
+            (shallow <= y) & ((distance == 0.0) | (distance >= SPACING * y))
+            for y in levels.tolist()
+        ]
+        xs = [
+            _thinned(columns[these], CELL * y)
+            for these, y in zip(wanted, levels.tolist(), strict=True)
+        ]
+        value = measure.value(
+            _values(
+                tractions,
+                np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)]),
+            )
+        )
+        ends = np.cumsum([0, *map(len, xs)])
+        new = [
+            (level, x, value[i:j])
+            for level, x, (i, j) in zip(levels.tolist(), xs, pairwise(ends), strict=True)
+            if len(x)
+        ]
+        if not new:
+            break
+        rows += new
+        best = max(best, value.max())
+        _, x, value = new[-1]
+        k = np.searchsorted(x, columns)
+        beside = np.maximum(value[np.maximum(k - 1, 0)], value[np.minimum(k, len(x) - 1)])
+        bound = measure.value(_bounds(columns, above, WINDOW * levels[-1]))
+        stay = (np.maximum(beside, bound) >= HOPELESS * best) & (shallow < levels[-1])
+        columns, shallow, distance, above = (
+            columns[stay],
+            shallow[stay],
+            distance[stay],
+            above[:, stay],
+        )
+        y /= RATIO**LEVELS
+    return rows
+
+
+def _bounds(x: Array, above: Array, window: float) -> Array:
+    """About how large |s|, |D_r| and |D_i| may be at a depth below the window's width, from the surface within the windows around x.
+
+    s and Fq are harmonic, and y Φ' is not larger than the oscillation of Φ around it, but for a factor of 2/π.
+    """
+    cell = np.floor((x - x[0]) / window)
+    first = np.flatnonzero(np.append(True, cell[1:] != cell[:-1]))
+    low, high = np.minimum.reduceat(above, first, axis=1), np.maximum.reduceat(above, first, axis=1)
+    low, high = (np.pad(v, ((0, 0), (1, 1)), mode="edge") for v in (low, high))
+    low = np.minimum(np.minimum(low[:, :-2], low[:, 2:]), low[:, 1:-1])
+    high = np.maximum(np.maximum(high[:, :-2], high[:, 2:]), high[:, 1:-1])
+    largest_there = np.maximum(-low, high)
+    swing = np.where(np.isinf(largest_there), np.inf, high - np.where(np.isinf(low), 0.0, low)).sum(
+        axis=0
+    )
+    return np.repeat(largest_there + swing, np.diff(np.append(first, len(x))), axis=1)
+
+
+def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[float]) -> Complex:
+    """Starts beneath those maxima of the surface from which the measure grows inwards: each the best of some depths."""
+    x = np.array(places)
+    x = x[~np.isin(x, tractions.marks)]
+    if x.size:
+        x = x[_slope(tractions, measure, x, inwards=True) > 0.0]
+    if not x.size:
+        return np.zeros(0, dtype=complex)
+    z = x[:, None] + 1j * mesh.scale(x)[:, None] * INWARDS
+    value = measure.value(_values(tractions, z.ravel())).reshape(z.shape)
+    starts: Complex = z[np.arange(len(x)), value.argmax(axis=1)]
+    return starts
+
+
+def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> Complex:
+    """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that leave through the surface are dropped."""
+    rest: list[Complex] = []
+    lowest = LEFT * np.minimum(z.imag, SHALLOW * mesh.scale(z.real))
+    before, value, trust = z, np.full(z.shape, -np.inf), np.full(z.shape, LONGEST)
+    highest = -np.inf
+    for k in range(STEPS):
+        if not z.size:
+            break
+        at = _local(tractions, z)
+        here = measure.value(at.value)
+        highest = max(highest, here.max())
+        uphill = here >= value * (1.0 - SAME_VALUE)
+        trust = np.where(uphill, np.minimum(2.0 * trust, LONGEST), 0.25 * trust)
+        step = _newton(measure, at)
+        length = np.abs(step)
+        step *= z.imag
+        done = uphill & (length <= SETTLED)
+        rest.append((z + step)[done])
+        step *= np.minimum(1.0, trust / np.maximum(length, 1e-300))
+        # back to where it was better, and from there half as far as last time
+        new = np.where(uphill, z + step, before + 0.25 * (z - before))
+        before, value = np.where(uphill, z, before), np.where(uphill, here, value)
+        stuck = trust <= STUCK
+        rest.append(before[stuck & ~done])
+        keep = ~done & ~stuck & (new.imag > lowest) & ((k < PATIENCE) | (here >= CLOSE * highest))
+        z, before, value, trust, lowest = _distinct(
+            new[keep], before[keep], value[keep], trust[keep], lowest[keep]
+        )
+    rest.append(z)
+    return np.concatenate(rest)
+
+
+def _distinct(z: Complex, *others: Any) -> tuple[Any, ...]:
+    """Without those that have come together: from there they would go the same way."""
+    same = np.abs(z[:, None] - z) <= TOGETHER * z.imag
+    first = same.argmax(axis=1) == np.arange(len(z)) if z.size else np.zeros(0, dtype=bool)
+    return z[first], *(other[first] for other in others)
+
+
+def _newton(measure: Measure, at: Local) -> Complex:
+    """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as negative: from anywhere it leads uphill."""
+    g, G = measure.gradient(at.value), measure.hessian(at.value)
+    gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
+    Gx, Gy = (G * at.x).sum(axis=1), (G * at.y).sum(axis=1)
+    hxx, hxy, hyy = (
+        (g * second + u * Gv).sum(axis=0)
+        for second, u, Gv in ((at.xx, at.x, Gx), (at.xy, at.x, Gy), (at.yy, at.y, Gy))
+    )
+    mean, half = 0.5 * (hxx + hyy), np.hypot(0.5 * (hxx - hyy), hxy)
+    angle = 0.5 * np.arctan2(2.0 * hxy, hxx - hyy)
+    cos, sin = np.cos(angle), np.sin(angle)
+    along, across = gx * cos + gy * sin, gy * cos - gx * sin
+    least = 1e-12 * (abs(mean) + half) + 1e-300
+    a, b = along / np.maximum(abs(mean + half), least), across / np.maximum(abs(mean - half), least)
+    step = np.empty(gx.shape, dtype=complex)
+    step.real, step.imag = a * cos - b * sin, a * sin + b * cos
+    return step
+
+
+def _values(tractions: Tractions, z: Complex) -> Array:
+    """(s, D_r, D_i) inside the body, (3, n)."""
+    Phi, dPhi, Fq = potentials(tractions, z)
+    D = Fq - z.imag * dPhi
+    half = 0.5 * tractions.bulk_stress
+    return np.stack((Phi.imag + half, D.real - half, D.imag))
+
+
+def _local(tractions: Tractions, z: Complex) -> Local:
+    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d): from the potentials on circles inside."""
+    y = z.imag
+    omega = np.exp(2j * np.pi * np.arange(CIRCLE) / CIRCLE)
+    circle = (z[:, None] + (y / RADIUS)[:, None] * omega).ravel()
+    Phi, dPhi, Fq = (f.reshape(len(z), CIRCLE) for f in potentials(tractions, circle))
+    n = np.arange(3)
+    taylor = omega.conj()[:, None] ** n * (RADIUS**n * (1.0, 1.0, 2.0) / CIRCLE)
+    (P0, P1, P2), (D1, D2, D3), (Q0, Q1, Q2) = (
+        f.T for f in (Phi @ taylor, (y[:, None] * dPhi) @ taylor, Fq @ taylor)
+    )
+    s = (P0.imag, P1.imag, P1.real, P2.imag, P2.real, -P2.imag)
+    D = (Q0 - D1, Q1 - D2, -D1 - 1j * (D2 - Q1), Q2 - D3, -D2 - 1j * (D3 - Q2), -2j * D2 + D3 - Q2)
+    half = 0.5 * tractions.bulk_stress
+    rows = np.empty((len(s), 3, len(z)))
+    for row, a, b in zip(rows, s, D, strict=True):
+        row[0], row[1], row[2] = a, b.real, b.imag
+    rows[0, 0] += half
+    rows[0, 1] -= half
+    return Local(*rows)
+
+
+# -- on the surface ----------------------------------------------------------------------------------------------------
+
+
+def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array) -> list[Maximum]:
+    """Local maxima along the surface that may be the largest; edges and breaks are taken as they are."""
+    far = 0.5 * float(mesh.marks[-1] - mesh.marks[0]) * np.geomspace(OUTSIDE, FAR, 12)
+    far_left, far_right = mesh.marks[0] - far[::-1], mesh.marks[-1] + far
+    x = np.concatenate((far_left, mesh.x, far_right))
+    values = (surface_values(tractions, far_left), above, surface_values(tractions, far_right))
+    value = measure.value(np.concatenate(values, axis=1))
+    padded = np.concatenate(([-np.inf], value, [-np.inf]))
+    best = value.max()
+    if np.isinf(best):
+        return [
+            Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)
+        ]
+    floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
+    top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
+    columns = top
+    # Between columns a concave top rises above the middle one by no more than that falls to a neighbour
+    fall = value[top] - np.minimum(padded[top], padded[top + 2])
+    top = top[(fall > 0.0) & (value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best)]
+    left = np.unique(np.concatenate((top - 1, top)))
+    left = left[(left >= 0) & (left < len(x) - 1)]
+    lo, hi = x[left], x[left + 1]
+    inset = np.maximum(AT_MARK * (hi - lo), np.spacing(np.maximum(np.abs(lo), np.abs(hi))))
+    lo, hi = (
+        lo + np.where(np.isin(lo, tractions.marks), inset, 0.0),
+        hi - np.where(np.isin(hi, tractions.marks), inset, 0.0),
+    )
+    roots = _roots(lambda t: _slope(tractions, measure, t), lo, hi)
+    at_root = measure.value(surface_values(tractions, roots))
+    highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
+    np.maximum.at(highest, np.searchsorted(x, roots), at_root)
+    tops = columns[value[columns] >= np.maximum(highest[columns], highest[columns + 1])]
+    places = ((value[tops], x[tops]), (at_root, roots))
+    return [
+        Maximum(float(v), float(t), 0.0)
+        for values, at in places
+        for v, t in zip(values, at, strict=True)
+    ]
+
+
+def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
+    """What a measure of D alone (an incompressible body) tends to where p is infinite: on the surface itself D knows nothing of it.
+
+    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C sin θ e^(-iθ) in the direction θ, on a
+    circle of diameter |C| through Fq: the largest |D| is |Fq + iC/2| + |C|/2.
+    """
+    x = tractions.marks
+    x = x[np.isinf(tractions.pressure(x))]
+    if not x.size:
+        return []
+    on = surface_values(tractions, x)
+    unseen = np.isfinite(measure.value(on))
+    if not unseen.any():
+        return []
+    x, on = x[unseen], on[:, unseen]
+    Fq = on[1] + 1j * on[2]
+    x1, x2 = tractions.pressure.interval
+    beneath = _values(
+        tractions, np.asarray(x + 1j * (BENEATH * 0.5 * (x2 - x1)), dtype=np.complex128)
+    )
+    C = -1j * (beneath[1] + 1j * beneath[2] - Fq)
+    largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
+    value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
+    return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]
+
+
+def surface_values(tractions: Tractions, x: Array) -> Array:
+    """(s, D_r, D_i) on the surface, (3, n); at the edges of the contact their limits from inside."""
+    p, q = tractions.pressure(x), tractions.shear(x)
+    hilbert = hilbert_of_shear(tractions, x, p)
+    if tractions.shear.interval == tractions.pressure.interval:
+        for x_edge, limit in zip(
+            tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True
+        ):
+            edge = (x == x_edge) & np.isfinite(p)
+            p, q, hilbert = (
+                np.where(edge, 0.0, p),
+                np.where(edge, 0.0, q),
+                np.where(edge, limit, hilbert),
+            )
+    half = 0.5 * tractions.bulk_stress
+    return np.stack((half - p - hilbert, hilbert - half, -q))
+
+
+def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = False) -> Array:
+    """d/dx, or d/dy, of the measure on the surface in units of the half-width, off edges and breaks: the potentials' limit, y Φ' = 0."""
+    x1, x2 = tractions.pressure.interval
+    Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
+    for density, p, q in tractions.combined:
+        F, dF = density.potentials(x + 1j * tractions.depth_of_surface)
+        Phi += (p - 1j * q) * F
+        dPhi += (p - 1j * q) * dF
+        Fq += q * F
+        dFq += q * dF
+    half = 0.5 * tractions.bulk_stress
+    value: Array = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
+    ds, dD = (dPhi.real, 1j * dFq - dPhi) if inwards else (dPhi.imag, dFq)
+    derivative = 0.5 * (x2 - x1) * np.stack((ds, dD.real, dD.imag))
+    return (measure.gradient(value) * derivative).sum(axis=0)
+
+
+def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
+    """Where the slope falls through 0 between lo and hi, of those pairs where it does (Illinois' method with bisection)."""
+    a, b = lo, hi
+    fa, fb = slope(np.stack((a, b)).ravel()).reshape(2, -1)
+    falls = (fa > 0.0) & (fb < 0.0)
+    a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
+    x, enough, last = 0.5 * (a + b), ROOT_SETTLED * (b - a), np.zeros(a.shape)
+    for k in range(ROOT_STEPS if x.size else 0):
+        before = x
+        middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
+        x = np.where(
+            (secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle
+        )
+        f = slope(x)
+        up = f > 0.0
+        again = np.where(
+            last == np.where(up, 1.0, -1.0), 0.5, 1.0
+        )  # an end kept twice loses weight
+        fb, fa, last = (
+            np.where(up, again * fb, f),
+            np.where(up, f, again * fa),
+            np.where(up, 1.0, -1.0),
+        )
+        a, b = np.where(up, x, a), np.where(up, b, x)
+        if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
+            break
+    return x
+
+
+def _thinned(x: Array, spacing: float) -> Array:
+    """A subset of x (ascending) with one of every cell of that width, so that depth decides how many columns there are."""
+    cell = np.floor((x - x[:1]) / spacing)
+    return x[np.append(np.ones(min(len(x), 1), dtype=bool), cell[1:] != cell[:-1])]
+
+
+def _nearest(x: Array, to: Array) -> NDArray[np.intp]:
+    k = np.clip(np.searchsorted(x, to), 1, max(len(x) - 1, 1))
+    if len(x) == 1:
+        return np.zeros(len(to), dtype=np.intp)
+    return k - (to - x[k - 1] < x[k] - to)

@@ -1,0 +1,163 @@
+"""What the contact does to the material: the load at which the body yields first, and the largest tension on its surface.
+
+    von Mises   J2 = ½ s:s = |D|² + (s - σ_zz)²/3 = k²               (k: yield stress in shear)
+    Tresca      max( |D|, (|D| + |s - σ_zz|)/2 ) = k
+
+with s and D of `field`. Stresses grow in proportion to the load in a contact of given edges (stiffer bodies under more load), so that
+P/k = P/√J2 is what one solution tells; charts show P/(bk). The largest J2 may be taken twice (either side of the centre, for a/b > 0.1277
+of the frictionless rounded punch), in a flat valley, or jump to the surface as friction grows: `maxima` finds all, and ties are kept.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .half_plane import Stress, Tractions
+from .peak_search import Maximum, Measure, largest, mesh_of, on_surface, surface_values
+
+Array = NDArray[np.float64]
+Criterion = Literal["mises", "tresca"]
+CRITERIA = ("mises", "tresca")
+
+
+@dataclass(frozen=True)
+class YieldPoint:
+    """Where a body yields first.
+
+    load      P/k, a length: times the yield stress in shear k it is the load under which a contact of these edges begins to yield
+    x, y      where: the leftmost place if there are several; y = 0 on the surface
+    j2        the second invariant there, under the load of the solution
+    stress    what the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca), under that load
+    half_width, places     b, and all places where the largest value is taken
+    ratio     P/(bk), as in charts
+    """
+
+    load: float
+    x: float
+    y: float
+    j2: float
+    stress: float
+    half_width: float
+    places: tuple[tuple[float, float], ...]
+    criterion: Criterion = "mises"
+
+    @property
+    def ratio(self) -> float:
+        return self.load / self.half_width
+
+    @property
+    def on_surface(self) -> bool:
+        return self.y == 0.0
+
+
+class Peak(NamedTuple):
+    """The largest tension on the surface and where it is."""
+
+    value: float
+    x: float
+
+
+def elastic_limit(
+    tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
+) -> YieldPoint:
+    """The yield point of a body under these tractions. ValueError for an unknown criterion, or if Poisson's ratio is needed and missing."""
+    if criterion not in CRITERIA:
+        raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
+    kappa = tractions.out_of_plane
+    found: list[tuple[float, tuple[Maximum, ...]]] = []
+    if criterion == "mises":
+        maxima = largest(tractions, _quadratic(kappa / np.sqrt(3.0)))
+        found.append((float(np.sqrt(maxima[0].value)), maxima))
+    else:
+        in_plane, across = (
+            largest(tractions, _quadratic(0.0)),
+            largest(tractions, _sum_of_shears(kappa)),
+        )
+        found += [(float(np.sqrt(in_plane[0].value)), in_plane), (0.5 * across[0].value, across)]
+    stress, maxima = max(found, key=lambda f: f[0])
+    x1, x2 = tractions.pressure.interval
+    x, y = maxima[0].x, maxima[0].y
+    j2 = stress * stress if criterion == "mises" or not kappa else float(Stress(tractions, x, y).j2)
+    places = tuple((m.x, m.y) for m in maxima)
+    return YieldPoint(normal_load / stress, x, y, j2, stress, 0.5 * (x2 - x1), places, criterion)
+
+
+def peak_tension(tractions: Tractions) -> Peak:
+    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it.
+
+    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
+    """
+    for edge, x, outward in zip(
+        tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True
+    ):
+        q = float(tractions.shear(np.array([edge]))[0])
+        if q * outward == np.inf:
+            return Peak(np.inf, x)
+    mesh = mesh_of(tractions)
+    found = on_surface(tractions, _tension(), mesh, surface_values(tractions, mesh.x))
+    best = max(m.value for m in found)
+    middle = 0.5 * sum(tractions.pressure.interval)
+    # Where nothing pulls, the whole free surface is tied
+    x = min((m.x for m in found if m.value == best), key=lambda x: abs(x - middle))
+    return Peak(max(best, tractions.bulk_stress) + 0.0, x)
+
+
+# -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------
+
+
+def _quadratic(factor: float) -> Measure:
+    """|D|² + (factor s)²; J2 for factor = (1 - 2ν)/√3."""
+    weights = np.array([factor * factor, 1.0, 1.0])
+
+    def hessian(v: Array) -> Array:
+        H = np.zeros((3, 3, *v.shape[1:]))
+        for i in range(3):
+            H[i, i] = 2.0 * weights[i]
+        return H
+
+    used = slice(None) if factor else slice(1, None)  # s may be infinite
+    return Measure(
+        lambda v: np.tensordot(weights[used], v[used] * v[used], 1),
+        lambda v: 2.0 * weights.reshape(3, *[1] * (v.ndim - 1)) * v,
+        hessian,
+    )
+
+
+def _sum_of_shears(kappa: float) -> Measure:
+    """|D| + κ|s|, twice the shear stress between the in-plane and the out-of-plane direction."""
+
+    def parts(v: Array) -> tuple[Any, Any]:
+        d = np.hypot(v[1], v[2])
+        return d, np.stack((np.zeros_like(d), v[1], v[2])) / np.maximum(d, 1e-300)
+
+    def value(v: Array) -> Array:
+        d: Array = np.hypot(v[1], v[2])
+        return d + kappa * np.abs(v[0]) if kappa else d
+
+    def gradient(v: Array) -> Array:
+        n: Array = parts(v)[1]
+        n[0] = kappa * np.sign(v[0])
+        return n
+
+    def hessian(v: Array) -> Array:
+        d, n = parts(v)
+        H = -np.einsum("i...,j...->ij...", n, n)
+        H[1, 1] += 1.0
+        H[2, 2] += 1.0
+        return H / np.maximum(d, 1e-300)
+
+    return Measure(value, gradient, hessian)
+
+
+def _tension() -> Measure:
+    """σ_xx = s - D_r, linear."""
+    direction = np.array([1.0, -1.0, 0.0])
+    return Measure(
+        lambda v: v[0] - v[1],
+        lambda v: np.broadcast_to(direction.reshape(3, *[1] * (v.ndim - 1)), v.shape),
+        lambda v: np.zeros((3, 3, *v.shape[1:])),
+    )

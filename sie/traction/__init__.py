@@ -1,0 +1,1 @@
+"""A traction on an interval: its values, its resultant and its Cauchy potential."""

@@ -1,0 +1,232 @@
+"""A traction on a contact: its value, resultant, moment and Cauchy integral.
+
+    p(x)                                                       0 outside the contact, inf where it is infinite
+    hilbert(x)    =  1/π PV∫ p(t)/(x - t) dt                   on the whole surface
+    cauchy(z)     =  1/π ∫ p(t)/(z - t) dt                     the potential Fp of the half-plane; at x ± i0: hilbert ∓ i p (Plemelj)
+    cauchy_derivative(z) = Fp'(z);  potentials(z) = both, which share their logarithms
+
+Those whose slope is known are in `slope_density`, sums in `superposition`, solutions of Cauchy equations in `jacobi_density`.
+(Muskhelishvili, Singular Integral Equations, 1953, §§ 16-17.)
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# The derivative on the surface is its value at this depth, in half-widths: closed forms keep all digits there, and 1/depth is finite.
+# However small the contact, that depth is no underflow: at a depth of 0 the side of the surface would be lost.
+SHALLOW, SHALLOWEST = 1e-290, 1e-300
+# Sizes of a traction at which it is a point force to all digits, and squares are no overflow yet.
+FAR_AWAY, LARGEST = 1e100, 1e308
+
+
+def shallow(half_width: float) -> float:
+    """A depth that no value but 1/depth can tell from the surface."""
+    return max(SHALLOW * half_width, SHALLOWEST)
+
+
+def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
+    """function(x) of a function of finite x (1-d), in the shape of x: 0 where x is infinite, nan where it is nan."""
+    x = arguments.reals("x", x)
+    flat = x.ravel()
+    out, finite = zero_or_nan(flat), np.isfinite(flat)
+    out[finite] = function(flat[finite])
+    values: Array = out.reshape(x.shape)
+    return values
+
+
+def zero_or_nan(z: Any) -> Any:
+    """What a traction and its integrals are where it does not act, infinitely far away included: 0, but nan at nan."""
+    nan = complex(np.nan, np.nan) if np.iscomplexobj(z) else np.nan
+    return np.where(np.isnan(z), nan, 0.0)
+
+
+def on_surface(hilbert: Array, p: Array, side: int) -> Complex:
+    """F at real x by Plemelj's formula, hilbert - i side p, part by part: p may be infinite."""
+    F = np.empty(hilbert.shape, dtype=complex)
+    F.real, F.imag = hilbert, -side * p if side else 0.0
+    return F
+
+
+def reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
+    """function(z) of a function known for Im z > 0 that has conjugate values at conjugate points."""
+    lower = z.imag < 0.0
+    if not lower.any():
+        return function(z)
+    values = function(np.where(lower, z.conj(), z))
+    values.imag[lower] *= -1.0
+    return values
+
+
+def in_order(function: Callable[[Array], Any], x: Array) -> Any:
+    """function(x) for a function that wants x ascending and returns one array or several of its shape."""
+    if x.size < 2 or (x[1:] >= x[:-1]).all():
+        return function(x)
+    order = np.argsort(x, kind="stable")
+    back = np.empty_like(order)
+    back[order] = np.arange(len(order))
+    values = function(x[order])
+    return tuple(v[back] for v in values) if isinstance(values, tuple) else values[back]
+
+
+def refuse_side(side: int) -> None:
+    if side not in (-1, 0, 1):
+        raise ValueError(
+            f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side"
+        )
+
+
+class Density(ABC):
+    """A traction p(x) on the surface, in units of stress; x and z in units of length. Far away all is 0; at nan it is nan.
+
+    Attributes: `interval` (the two edges), `resultant` = ∫p dx, `moment` = ∫p x dx about x = 0.
+    """
+
+    resultant: float
+    moment: float
+
+    @property
+    @abstractmethod
+    def interval(self) -> tuple[float, float]: ...
+    @abstractmethod
+    def __call__(self, x: ArrayLike) -> Array:
+        """p(x), same shape as x."""
+
+    @abstractmethod
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        """F(z) = 1/π ∫ p(t)/(z - t) dt, same shape as z.
+
+        `side` says where a real z inside the contact is approached from: +1 the body (y > 0), -1 the other half-plane, 0 the
+        principal value. Elsewhere it has no effect.
+        """
+
+    @abstractmethod
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        """F'(z), same shape as z; in the contact, at x + i0, that is hilbert' - i p'. Infinite at an edge and where p' is."""
+
+    @abstractmethod
+    def hilbert(self, x: ArrayLike) -> Array:
+        """1/π PV∫ p(t)/(x - t) dt at real x, same shape as x."""
+
+    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares overflow. There F is that of a force.
+
+    def _on_line(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        values: Array = self._everywhere(function, x.ravel(), self._of_force).reshape(x.shape)
+        return values
+
+    def _in_plane(
+        self,
+        function: Callable[[Complex], Complex],
+        z: ArrayLike,
+        side: int,
+        derivative: bool = False,
+    ) -> Complex:
+        refuse_side(side)
+        z = arguments.complexes("z", z)
+        values: Complex = self._everywhere(
+            function, z.ravel(), self._steepness_of_force if derivative else self._of_force
+        ).reshape(z.shape)
+        return values
+
+    def _everywhere(
+        self, function: Callable[[Any], Any], z: Any, tail: Callable[[Any], Any]
+    ) -> Any:
+        near = np.abs(z) <= self.horizon
+        if near.all():
+            return function(z)
+        values = function(z[near])
+        out = zero_or_nan(z).astype(values.dtype)
+        far = ~near & np.isfinite(z)
+        out[near], out[far] = values, tail(z[far])
+        return out
+
+    @cached_property
+    def horizon(self) -> float:
+        """From here on the force is all that is left of a traction, and nothing of where it acts."""
+        lo, hi = self.interval
+        size = max(abs(lo), abs(hi), hi - lo)
+        return min(FAR_AWAY * size, LARGEST) if math.isfinite(abs(self.resultant)) else LARGEST
+
+    def _of_force(self, z: Any) -> Any:
+        return (self.resultant / math.pi) / z
+
+    def _steepness_of_force(self, z: Any) -> Any:
+        return -self._of_force(z) / z
+
+    def strength(self, x: float) -> float:
+        """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
+        return 0.0
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        """(F, F') at z: what a stress needs, at the cost of little more than F where a form shares their logarithms."""
+        return self.cauchy(z, side), self.cauchy_derivative(z, side)
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        """(factor, density) whose sum this is: potentials are computed once for each density, however often it occurs."""
+        return ((1.0, self),)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where p or its derivatives are not smooth: the edges and what lies between them, ascending."""
+        return self.interval
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        """Those breaks at which the slope of the density is, or may be, infinite."""
+        return self.breaks
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        """The limits of `hilbert` at both edges, from inside: where it peaks, and rounding of an edge would show."""
+        left, right = self.hilbert(np.array(self.interval)).tolist()
+        return left, right
+
+
+@dataclass(frozen=True)
+class Zero(Density):
+    """No traction."""
+
+    resultant: float = 0.0
+    moment: float = 0.0
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return 0.0, 0.0
+
+    def __call__(self, x: ArrayLike) -> Array:
+        return on_line(np.zeros_like, x)
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._in_plane(np.zeros_like, z, side)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._in_plane(np.zeros_like, z, side)
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        return ()
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        return on_line(np.zeros_like, x)
+
+
+ZERO = Zero()

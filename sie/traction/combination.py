@@ -1,0 +1,179 @@
+"""Tractions made of others: a multiple, a sum. Full sliding is friction times pressure; nothing is solved twice.
+
+Potentials are linear, so that a stress asks each density underneath once (`Density.bases`), however often it occurs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+
+from .base import ZERO, Density
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# How far beside a place where infinite terms cancel their finite sum is looked at: the difference of both sides is the square of this.
+BESIDE = 1e-7
+CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
+
+
+@dataclass(frozen=True, eq=False)
+class Combination(Density):
+    """Σ factor × density, each zero outside its own interval; `resultant` and `moment` are theirs, summed. `superposed` builds it.
+
+    >>> Combination(((2.0, ZERO),)).resultant
+    0.0
+    """
+
+    terms: tuple[tuple[float, Density], ...]
+
+    @cached_property
+    def resultant(self) -> float:  # type: ignore[override]
+        return sum(factor * density.resultant for factor, density in self.terms)
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        return sum(factor * density.moment for factor, density in self.terms)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        lows, highs = zip(*(density.interval for _, density in self.terms), strict=True)
+        return min(lows), max(highs)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return tuple(sorted({b for _, density in self.terms for b in density.breaks}))
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        return tuple(sorted({b for _, density in self.terms for b in density.singular}))
+
+    @property
+    def bases(self) -> tuple[tuple[float, Density], ...]:
+        return tuple(
+            (factor * inner, part)
+            for factor, density in self.terms
+            for inner, part in density.bases
+        )
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        x1, x2 = self.interval
+        return self._limit(x1, 0), self._limit(x2, 1)
+
+    def _limit(self, x: float, end: int) -> float:
+        return sum(
+            factor
+            * (
+                d.hilbert_at_edges[end]
+                if d.interval[end] == x
+                else float(d.hilbert(np.array([x]))[0])
+            )
+            for factor, d in self.terms
+        )
+
+    def __call__(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        flat = x.ravel()
+        with np.errstate(invalid="ignore"):  # infinities that cancel are looked at below
+            total: Array = self._total([density(flat) for _, density in self.terms])
+        for k in np.flatnonzero(~np.isfinite(total) & ~np.isnan(flat)):
+            total[k] = self._at_infinity(float(flat[k]))
+        return total.reshape(x.shape)
+
+    def _at_infinity(self, x: float) -> float:
+        """The sum where terms are infinite: finite where their strengths cancel."""
+        total, size = (
+            self.strength(x),
+            sum(abs(factor * density.strength(x)) for factor, density in self.terms),
+        )
+        if abs(total) > CANCELLED * size:
+            return math.copysign(math.inf, total)
+        return float(np.mean(self(self._beside(x))))
+
+    def _steepness(self, x: float) -> float:
+        """The derivative where those of terms are infinite: finite where they cancel, each in proportion to its strength if it has one."""
+        steep = [
+            (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
+            for factor, d in self.terms
+        ]
+        infinite = [
+            math.copysign(factor * strength, factor * slope)
+            for factor, strength, slope in steep
+            if math.isinf(slope)
+        ]
+        if abs(sum(infinite)) > CANCELLED * sum(map(abs, infinite)):
+            return math.copysign(math.inf, sum(infinite))
+        return float(np.mean(self.cauchy_derivative(self._beside(x)).imag))
+
+    def _beside(self, x: float) -> Array:
+        lo, hi = self.interval
+        step = BESIDE * (hi - lo)
+        return np.array([y for y in (x - step, x + step) if lo < y < hi])
+
+    def strength(self, x: float) -> float:
+        return sum(factor * density.strength(x) for factor, density in self.terms)
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        total: Array = self._total([density.hilbert(x) for _, density in self.terms])
+        return total
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        values = [density.cauchy(z, side) for _, density in self.terms]
+        return self._without_nan(values, z, lambda x: -side * float(self(x)))
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        values = [density.cauchy_derivative(z, side) for _, density in self.terms]
+        return self._without_nan(values, z, lambda x: side * self._steepness(x))
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        pairs = [density.potentials(z, side) for _, density in self.terms]
+        F = self._without_nan([F for F, _ in pairs], z, lambda x: -side * float(self(x)))
+        return F, self._without_nan([dF for _, dF in pairs], z, lambda x: side * self._steepness(x))
+
+    def _without_nan(
+        self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]
+    ) -> Complex:
+        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are infinite."""
+        with np.errstate(invalid="ignore"):
+            total: Complex = self._total(values)
+        lost = np.isnan(total)
+        if lost.any():
+            for place in zip(*np.nonzero(np.atleast_1d(lost & ~np.isnan(z))), strict=True):
+                np.atleast_1d(total.imag)[place] = imaginary(
+                    float(np.atleast_1d(np.real(z))[place])
+                )
+        return total
+
+    def _total(self, values: list[Any]) -> Any:
+        """Σ factor × value, part by part: a real factor times inf + 0j would be nan."""
+        total = np.zeros_like(values[0])
+        for (factor, _), value in zip(self.terms, values, strict=True):
+            if np.iscomplexobj(value):
+                total.real += factor * value.real
+                total.imag += factor * value.imag
+            else:
+                total += factor * value
+        return total
+
+
+def superposed(*terms: tuple[float, Density]) -> Density:
+    """Σ factor × density: zeros left out, and the density itself where that is all there is."""
+    kept = tuple((float(factor), d) for factor, d in terms if factor != 0.0 and d is not ZERO)
+    if not kept:
+        return ZERO
+    return kept[0][1] if len(kept) == 1 and kept[0][0] == 1.0 else Combination(kept)
+
+
+def scaled(factor: float, density: Density) -> Density:
+    """factor × density."""
+    return superposed((factor, density))
