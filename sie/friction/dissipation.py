@@ -58,6 +58,7 @@ NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
 FEW = 8  # so many breaks are cut at without trial
 MANY = 24  # a profile of so many breaks is a trace
+SAME = 16.0 * EPS  # loads that rounding tells apart
 WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
 HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
 LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
@@ -160,8 +161,9 @@ class Growth:
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
         """2/E* ∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
         ends: list[tuple[float, float, int]] = []
-        for P, L, _, *surface in rows:
-            self._cover(min(P + L, P * (1.0 - THIN)), P + max(surface))
+        spans = [(min(P + L, P * (1.0 - THIN)), P + max(surface)) for P, L, _, *surface in rows]
+        for together in _merged(spans):
+            self._cover(*together)
         cuts = self._cuts()
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
@@ -294,19 +296,21 @@ class Growth:
     def _cover(self, lo: float, hi: float) -> None:
         """Panels for every load from lo to hi, where there are none yet."""
         lo, hi = max(lo, LOWEST * self.top), min(hi, self.top)
-        gaps, below = [], 0.0
-        for p in self._panels:
-            if p.hi > lo and p.lo < hi:
-                if p.lo > lo:
-                    gaps.append((lo, p.lo, below))
-                lo = p.hi
-            below = p.hi if p.hi <= lo else below
-        if lo < hi:
-            gaps.append((lo, hi, below))
+        panels, gaps = self._panels, []
+        k = bisect_right(panels, lo, key=lambda p: p.hi)
+        below = panels[k - 1].hi if k else 0.0
+        while lo < hi:
+            until = panels[k].lo if k < len(panels) else hi
+            if lo < until:
+                gaps.append((lo, min(until, hi), below))
+            if until >= hi:
+                break
+            lo = below = panels[k].hi
+            k += 1
         for start, end, limit in gaps:
             at_break = self._break_below(start, end, limit)
-            self._panels += self._resolved(at_break or start, end, at_break > 0.0)
-        self._panels.sort(key=lambda p: p.lo)
+            k = bisect_right(panels, end, key=lambda p: p.hi)
+            panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
 
     def _break_below(self, level: float, top: float, limit: float) -> float:
         """The level at which an edge passed the nearest break, where that is not far below, nor below `limit`; otherwise 0."""
@@ -511,3 +515,17 @@ class Growth:
             if not contact.r > 0.0:
                 return 0.0
         return 0.0
+
+
+def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The union of ranges, as those that do not meet.
+
+    Small steps of a path ask for short ranges, each of which would be a panel.
+    """
+    out: list[tuple[float, float]] = []
+    for lo, hi in sorted(ranges):
+        if out and lo <= out[-1][1] * (1.0 + SAME):
+            out[-1] = out[-1][0], max(hi, out[-1][1])
+        else:
+            out.append((lo, hi))
+    return out
