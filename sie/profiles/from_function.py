@@ -53,7 +53,8 @@ class FromFunction(Profile):
     values at some points. The polynomials that resolve it are compared with it at 2584 points of
     the contact, which depend on the edges; a jump, a kink, a cusp or a narrow feature that the
     comparison shows is resolved like a declared one. Sampling cannot detect a feature narrower
-    than 5e-4 of the contact (a bump, a dent, two jumps, nan), nor one below 32 ulp of the largest
+    than 5e-4 of the contact (a bump, a dent, two jumps, nan), except for one kink or jump beside an
+    edge, down to 1e-12 of the contact from it. Nor can it detect one below 32 ulp of the largest
     slope or 8 times the roughness of the function's own rounding. The place of a jump is known to
     one ulp of x. Declare breaks around such places.
 
@@ -84,7 +85,7 @@ class FromFunction(Profile):
                 "give a function of an array, or an expression in x as text"
             )
         ends = _ends(domain)
-        if parity not in ("even", "none"):
+        if not arguments.among(parity, ("even", "none")):
             raise ValueError(f"parity = {parity!r} is neither 'even' nor 'none'")
         object.__setattr__(self, "function", function)
         object.__setattr__(self, "declared", _inner(breaks, ends))
@@ -145,9 +146,10 @@ class FromFunction(Profile):
 
 
 def _ends(domain: tuple[float, float]) -> tuple[float, float]:
-    if len(tuple(domain)) != 2:
+    pair = arguments.listed("domain", domain, "(lo, hi)")
+    if len(pair) != 2:
         raise ValueError(f"domain = {domain!r} is not a pair: give (lo, hi)")
-    lo, hi = (arguments.real("domain", end) for end in domain)
+    lo, hi = (arguments.real("domain", end) for end in pair)
     if not lo < hi:
         raise ValueError(f"domain = ({lo:g}, {hi:g}) is empty: give lo < hi")
     for end in (lo, hi):
@@ -161,7 +163,8 @@ def _ends(domain: tuple[float, float]) -> tuple[float, float]:
 def _inner(breaks: Sequence[float], ends: tuple[float, float]) -> tuple[float, ...]:
     """The declared breaks between the ends, ascending."""
     lo, hi = ends
-    inner = sorted({arguments.measure("breaks", b) for b in breaks})
+    given = arguments.listed("breaks", breaks, "the places where h' is not smooth")
+    inner = sorted({arguments.measure("breaks", b) for b in given})
     for b in inner:
         if not lo <= b <= hi:
             raise ValueError(

@@ -56,7 +56,9 @@ class Polynomial(Profile):
     coefficients: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        c = _coefficients("coefficients", self.coefficients, HIGHEST_DEGREE)
+        c = _coefficients(
+            "coefficients", self.coefficients, HIGHEST_DEGREE, "the coefficients of 1, x, x², ..."
+        )
         if not any(map(_with_digits, c[2:])):
             raise ValueError(
                 f"coefficients = {c} describe a straight line: contact needs a curved profile, "
@@ -118,9 +120,13 @@ class Piecewise(Profile):
     coefficients: tuple[tuple[float, ...], ...]
 
     def __init__(self, breaks: Sequence[float], pieces: Sequence[Sequence[float]]) -> None:
+        what = "the coefficients of h' there, low order first"
+        given = arguments.listed("pieces", pieces, "the coefficients of h' on each piece")
         rows = tuple(
-            _coefficients(f"pieces[{k}]", row, HIGHEST_OF_PIECE) for k, row in enumerate(pieces)
+            _coefficients(f"pieces[{k}]", row, HIGHEST_OF_PIECE, what)
+            for k, row in enumerate(given)
         )
+        breaks = arguments.listed("breaks", breaks, "the ends of the pieces")
         object.__setattr__(self, "ends", _ends(breaks, len(rows)))
         object.__setattr__(self, "coefficients", rows)
         for k, row in enumerate(rows):
@@ -174,11 +180,12 @@ class Piecewise(Profile):
         return bool(rising) and all(b >= a - rounding for a, b in zip(left, right, strict=True))
 
 
-def _coefficients(name: str, values: Sequence[float], highest: int) -> tuple[float, ...]:
-    """The coefficients of a polynomial whose degree is at most `highest`."""
+def _coefficients(name: str, values: Sequence[float], highest: int, what: str) -> tuple[float, ...]:
+    """The coefficients of a polynomial whose degree is at most `highest`; `what` says which."""
+    largest = arguments.LARGEST_COEFFICIENT
     c = tuple(
-        arguments.measure(f"{name}[{k}]", v, arguments.LARGEST_COEFFICIENT)
-        for k, v in enumerate(values)
+        arguments.measure(f"{name}[{k}]", v, largest)
+        for k, v in enumerate(arguments.listed(name, values, what))
     )
     if len(c) > highest + 1:
         raise ValueError(

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie import files
+from sie import arguments, files
 
 Array = NDArray[np.float64]
 Column = int | str
@@ -52,14 +52,15 @@ def read_trace(
     Raises ValueError where the file holds no trace, and OSError where it cannot be read.
     """
     path = Path(path)
-    if len(tuple(columns)) != 2:
+    pair = arguments.listed("columns", columns, "those of x and of h")
+    if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):
         raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
     if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
         raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
     data = files.content(path, TRACE.size)
     if path.suffix.lower() not in TEXT:
         return _line_scan(path)
-    x, h = _table(path.name, data, int(skip), TRACE).columns(tuple(columns), keep_missing)
+    x, h = _table(path.name, data, int(skip), TRACE).columns(pair, keep_missing)
     return x, h
 
 
@@ -241,7 +242,9 @@ def _decimal_commas(body: list[str]) -> bool:
 
 
 def _bare(line: str) -> str:
-    return re.split(r"[#%]", line, maxsplit=1)[0].strip()
+    if "#" in line or "%" in line:
+        line = re.split(r"[#%]", line, maxsplit=1)[0]
+    return line.strip()
 
 
 def _cells(line: str, separator: str) -> list[str]:

@@ -117,7 +117,7 @@ def _numbers(name: str, values: Any) -> Array:
 
 def smoothing_of(smoothing: Any, points: Array) -> Smoothing:
     """0, λ > 0 or "gcv". ValueError for anything else."""
-    if smoothing == "gcv":
+    if arguments.among(smoothing, ("gcv",)):
         return "gcv"
     if isinstance(smoothing, str):
         raise ValueError(
