@@ -20,24 +20,7 @@ from sie.io.sample_points import abscissae, ceiling
 from sie.io.scene_file import UNITS, Units
 from sie.solution import Solution
 
-from .style import (
-    BLUE,
-    DPI,
-    HEADROOM,
-    POINTS,
-    SMALL,
-    VERMILLION,
-    WIDTH,
-    curve,
-    edge_lines,
-    font,
-    heading,
-    legend,
-    plain,
-    scaled,
-    x_axis,
-    zero_line,
-)
+from . import style
 
 Array = NDArray[np.float64]
 
@@ -60,12 +43,14 @@ def overlay(
 ) -> Figure:
     """Two panels for each quantity of the comparison. `units` are labels."""
     names = list(comparison.differences)
-    figure = Figure(figsize=(WIDTH, 0.5 + 2.5 * len(names)), dpi=DPI, layout="constrained")
+    figure = Figure(
+        figsize=(style.WIDTH, 0.5 + 2.5 * len(names)), dpi=style.DPI, layout="constrained"
+    )
     panels = figure.subplots(2 * len(names), 1, sharex=True, height_ratios=(1.6, 1.0) * len(names))
-    factor, length = scaled(solution.half_width, units.length)
+    factor, length = style.scaled(solution.half_width, units.length)
     for name, upper, lower in zip(names, panels[::2], panels[1::2], strict=True):
         both = _both(solution, comparison, name)
-        scale, stress = scaled(both.largest, units.stress)
+        scale, stress = style.scaled(both.largest, units.stress)
         label = f"{LABELS[name]} ({stress})"
         if comparison.mesh.scattered(name):
             for axes, values, text in (
@@ -73,16 +58,16 @@ def overlay(
                 (lower, both.percent, DIFFERENCE),
             ):
                 _draw_points(figure, axes, (both.x * factor, both.y * factor), values, text)
-                axes.set_ylabel(f"$y$ ({length})", fontproperties=font())
+                axes.set_ylabel(f"$y$ ({length})", fontproperties=style.font())
         else:
             _draw_curves((upper, lower), solution, name, both, (factor, scale))
-            upper.set_ylabel(label, fontproperties=font())
+            upper.set_ylabel(label, fontproperties=style.font())
         for axes in (upper, lower):
-            plain(axes)
+            style.plain(axes)
             axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-    x_axis(panels[-1], length)
+    style.x_axis(panels[-1], length)
     figure.align_ylabels()
-    heading(figure, title)
+    style.heading(figure, title)
     return figure
 
 
@@ -115,22 +100,27 @@ def _draw_curves(
 ) -> None:
     """The exact curve, the mesh's dots and, below, the difference; dotted lines at the edges."""
     (upper, lower), (factor, scale) = panels, scales
-    fine = np.unique(np.concatenate((abscissae(solution, POINTS), both.x)))
+    fine = np.unique(np.concatenate((abscissae(solution, style.POINTS), both.x)))
     fine = fine[(fine >= both.x[0]) & (fine <= both.x[-1])]
-    bound = 2.0 * HEADROOM * both.largest
+    bound = 2.0 * style.HEADROOM * both.largest
     exact = np.clip(QUANTITIES[name](solution, fine, np.full_like(fine, both.y[0])), -bound, bound)
-    curve(upper, fine * factor, exact * scale, BLUE, 1.0, zorder=2, label="exact")
-    dots: dict[str, Any] = {"color": VERMILLION, "markersize": 1.8, "zorder": 3, "label": "mesh"}
+    style.curve(upper, fine * factor, exact * scale, style.BLUE, 1.0, zorder=2, label="exact")
+    dots: dict[str, Any] = {
+        "color": style.VERMILLION,
+        "markersize": 1.8,
+        "zorder": 3,
+        "label": "mesh",
+    }
     upper.plot(both.x * factor, both.mesh * scale, "o", **dots)
     finite = both.exact[np.isfinite(both.exact)]
-    low, high = (HEADROOM * float(end) * scale for end in (finite.min(), finite.max()))
+    low, high = (style.HEADROOM * float(end) * scale for end in (finite.min(), finite.max()))
     upper.set_ylim(min(0.0, low), max(0.0, high) or None)
-    legend(upper, columns=2)
-    zero_line(lower)
-    curve(lower, both.x * factor, both.percent, VERMILLION, 0.9, zorder=2)
-    lower.set_ylabel(DIFFERENCE, fontproperties=font())
+    style.legend(upper, columns=2)
+    style.zero_line(lower)
+    style.curve(lower, both.x * factor, both.percent, style.VERMILLION, 0.9, zorder=2)
+    lower.set_ylabel(DIFFERENCE, fontproperties=style.font())
     for axes in panels:
-        edge_lines(axes, solution.edges, factor, zorder=0.5)
+        style.edge_lines(axes, solution.edges, factor, zorder=0.5)
 
 
 def _draw_points(
@@ -143,8 +133,8 @@ def _draw_points(
         *at, c=values, s=size, cmap="RdBu_r", vmin=-bound, vmax=bound, linewidths=0.0
     )
     bar = figure.colorbar(drawn, ax=axes, pad=0.02, aspect=14)
-    bar.set_label(label, fontproperties=font(SMALL))
+    bar.set_label(label, fontproperties=style.font(style.SMALL))
     for text in bar.ax.get_yticklabels():
-        text.set_fontproperties(font(SMALL))
+        text.set_fontproperties(style.font(style.SMALL))
     if not axes.yaxis_inverted():
         axes.invert_yaxis()

@@ -32,29 +32,7 @@ from sie.io.scene_file import UNITS, Units
 from sie.problem.load_path import Path
 from sie.solution import Solution
 
-from .style import (
-    BLUE,
-    DASHED,
-    DPI,
-    HEADROOM,
-    INK,
-    PALE_BLUE,
-    POINTS,
-    SMALL,
-    VERMILLION,
-    WIDTH,
-    curve,
-    edge_lines,
-    font,
-    heading,
-    legend,
-    plain,
-    quantity,
-    scaled,
-    ticks,
-    x_axis,
-    zero_line,
-)
+from . import style
 
 Array = NDArray[np.float64]
 
@@ -62,7 +40,7 @@ HEIGHT = 1.75  # inches, of a panel
 INDENTER, HALF_PLANE = "#ececec", "#d4d4d4"
 ARROW = {
     "arrowstyle": "-|>",
-    "color": BLUE,
+    "color": style.BLUE,
     "linewidth": 0.9,
     "shrinkA": 0,
     "shrinkB": 0,
@@ -83,7 +61,7 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
     looped = _has_loop(solution)
     count = 2 + sheared + looped
-    figure = Figure(figsize=(WIDTH, HEIGHT * count), dpi=DPI, layout="constrained")
+    figure = Figure(figsize=(style.WIDTH, HEIGHT * count), dpi=style.DPI, layout="constrained")
     grid = figure.add_gridspec(count, 1, height_ratios=[1.2, *[1.0] * (count - 1)])
     upper = figure.add_subplot(grid[0])
     panels = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 2 + sheared))]
@@ -94,16 +72,16 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     if looped:
         loop = figure.add_subplot(grid[-1])
         _draw_loop(loop, solution, units)
-        plain(loop)
+        style.plain(loop)
     for axes in panels:
-        edge_lines(axes, solution.edges, view.factor, zorder=2.5)
-        plain(axes)
+        style.edge_lines(axes, solution.edges, view.factor, zorder=2.5)
+        style.plain(axes)
     panels[-1].set_xlim(view.left * view.factor, view.right * view.factor)
-    x_axis(panels[-1], view.length)
+    style.x_axis(panels[-1], view.length)
     for axes in panels[:-1]:
         axes.tick_params(labelbottom=False)
     figure.align_ylabels()
-    heading(figure, title)
+    style.heading(figure, title)
     return figure
 
 
@@ -119,7 +97,7 @@ class _View:
 
     @cached_property
     def x(self) -> Array:
-        return abscissae(self.solution, POINTS)
+        return abscissae(self.solution, style.POINTS)
 
     @cached_property
     def unloaded(self) -> Array:
@@ -157,34 +135,34 @@ class _View:
     @property
     def factor(self) -> float:
         """From the scene's unit of length to that of the axis."""
-        return scaled(self.solution.half_width, self.units.length)[0]
+        return style.scaled(self.solution.half_width, self.units.length)[0]
 
     @property
     def length(self) -> str:
-        return scaled(self.solution.half_width, self.units.length)[1]
+        return style.scaled(self.solution.half_width, self.units.length)[1]
 
 
 def _draw_pressure(axes: Axes, view: _View) -> None:
-    (x1, x2), (scale, stress) = view.solution.edges, scaled(view.shown, view.units.stress)
+    (x1, x2), (scale, stress) = view.solution.edges, style.scaled(view.shown, view.units.stress)
     x = view.x[(view.x >= x1) & (view.x <= x2)]
     # What rises above the panel is cut off by it, but an infinite value would not be drawn at all.
     p = np.minimum(view.solution.pressure(x), 4.0 * view.shown)
-    top = HEADROOM * view.shown * scale
-    axes.fill_between(x * view.factor, p * scale, color=PALE_BLUE, linewidth=0.0, zorder=2)
-    curve(axes, x * view.factor, p * scale, BLUE, 1.2, zorder=3, label="pressure")
+    top = style.HEADROOM * view.shown * scale
+    axes.fill_between(x * view.factor, p * scale, color=style.PALE_BLUE, linewidth=0.0, zorder=2)
+    style.curve(axes, x * view.factor, p * scale, style.BLUE, 1.2, zorder=3, label="pressure")
     axes.set_ylim(0.0, top)
-    axes.set_yticks(ticks(top))
-    axes.set_ylabel(f"$p$ ({stress})", fontproperties=font())
+    axes.set_yticks(style.ticks(top))
+    axes.set_ylabel(f"$p$ ({stress})", fontproperties=style.font())
     _mark_peak(axes, view, scale)
     _label_peak(axes, view)
     _label_edges(axes, view)
 
 
 def _draw_gap(axes: Axes, view: _View) -> None:
-    scale, length = scaled(view.highest, view.units.length)
+    scale, length = style.scaled(view.highest, view.units.length)
     top = 1.08 * view.highest * scale
     axes.axhspan(-GROUND * top, 0.0, color=HALF_PLANE, linewidth=0.0, zorder=0)
-    zero_line(axes, zorder=2)
+    style.zero_line(axes, zorder=2)
     axes.fill_between(
         view.x * view.factor,
         view.loaded * scale,
@@ -194,14 +172,14 @@ def _draw_gap(axes: Axes, view: _View) -> None:
         zorder=0,
     )
     before = "$h(x)$, unloaded" if view.solution.tilt == 0.0 else "$h(x)$ + tilt, unloaded"
-    dashed: dict[str, Any] = {"linestyle": DASHED, "zorder": 4, "label": before}
-    _draw_surface(axes, view, view.unloaded * scale, INK, 0.8, **dashed)
+    dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 4, "label": before}
+    _draw_surface(axes, view, view.unloaded * scale, style.INK, 0.8, **dashed)
     under = {"zorder": 3, "label": "under load"}
-    _draw_surface(axes, view, view.loaded * scale, VERMILLION, 1.3, **under)
+    _draw_surface(axes, view, view.loaded * scale, style.VERMILLION, 1.3, **under)
     axes.set_ylim(-GROUND * top, top)
-    axes.set_yticks(ticks(top))
-    axes.set_ylabel(f"gap ({length})", fontproperties=font())
-    legend(axes, columns=2, length=2.4)
+    axes.set_yticks(style.ticks(top))
+    axes.set_ylabel(f"gap ({length})", fontproperties=style.font())
+    style.legend(axes, columns=2, length=2.4)
     _name_bodies(axes, view)
 
 
@@ -209,7 +187,7 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     """q between ± f p; where |q| leaves the panel (sharp edges) it is cut like the pressure."""
     solution, (x1, x2) = view.solution, view.solution.edges
     f, largest = solution.scene.friction, solution.scene.friction * view.shown
-    scale, stress = scaled(largest, view.units.stress)
+    scale, stress = style.scaled(largest, view.units.stress)
     inner = [end for lo, hi in solution.stick for end in (lo, hi)]
     x = np.unique(np.concatenate((view.x[(view.x >= x1) & (view.x <= x2)], inner)))
     limit = np.minimum(f * solution.pressure(x), 4.0 * largest)
@@ -217,18 +195,18 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     for k, zone in enumerate(solution.stick):
         ends = np.array(zone) * view.factor
         label = "" if k else "stick"
-        axes.axvspan(*ends, color=PALE_BLUE, linewidth=0.0, zorder=0, label=label)
+        axes.axvspan(*ends, color=style.PALE_BLUE, linewidth=0.0, zorder=0, label=label)
     # Below an axis that ends under 0 the other limit would show two stubs.
     both = bool(q.min() < -1e-9 * largest)
     for sign, label in ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]:
-        dashed: dict[str, Any] = {"linestyle": DASHED, "zorder": 2, "label": label}
-        curve(axes, x * view.factor, sign * limit * scale, INK, 0.8, **dashed)
-    curve(axes, x * view.factor, q * scale, VERMILLION, 1.3, zorder=3, label="$q$")
-    zero_line(axes)
-    top = HEADROOM * largest * scale
+        dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 2, "label": label}
+        style.curve(axes, x * view.factor, sign * limit * scale, style.INK, 0.8, **dashed)
+    style.curve(axes, x * view.factor, q * scale, style.VERMILLION, 1.3, zorder=3, label="$q$")
+    style.zero_line(axes)
+    top = style.HEADROOM * largest * scale
     axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
-    axes.set_ylabel(f"$q$ ({stress})", fontproperties=font())
-    legend(axes, columns=3)
+    axes.set_ylabel(f"$q$ ({stress})", fontproperties=style.font())
+    style.legend(axes, columns=3)
 
 
 def _has_loop(solution: Solution) -> bool:
@@ -246,30 +224,32 @@ def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
     path = Path([start, *history.path.points]).subdivided(LOOP_POINTS)
     solutions = follow(history.scene, path, history.tol, history.economy)
     shift, Q = np.array([one.shift for one in solutions]), np.array(path.points)[:, 1]
-    along, length = scaled(float(np.abs(shift).max()) or 1.0, units.length)
-    up, force = scaled(float(np.abs(Q).max()), units.force)
-    zero_line(axes)
-    axes.axvline(0.0, color=INK, linewidth=0.6, zorder=1)
-    curve(axes, shift * along, Q * up, BLUE, 1.2, zorder=3)
+    along, length = style.scaled(float(np.abs(shift).max()) or 1.0, units.length)
+    up, force = style.scaled(float(np.abs(Q).max()), units.force)
+    style.zero_line(axes)
+    axes.axvline(0.0, color=style.INK, linewidth=0.6, zorder=1)
+    style.curve(axes, shift * along, Q * up, style.BLUE, 1.2, zorder=3)
     dots = slice(LOOP_POINTS, None, LOOP_POINTS)
-    axes.plot(shift[dots] * along, Q[dots] * up, "o", color=BLUE, markersize=2.2, zorder=4)
-    axes.plot(shift[-1:] * along, Q[-1:] * up, "o", color=VERMILLION, markersize=3.0, zorder=5)
-    axes.set_xlabel(f"shift of the indenter by slip ({length})", fontproperties=font())
-    axes.set_ylabel(f"$Q$ ({force})", fontproperties=font())
+    axes.plot(shift[dots] * along, Q[dots] * up, "o", color=style.BLUE, markersize=2.2, zorder=4)
+    axes.plot(
+        shift[-1:] * along, Q[-1:] * up, "o", color=style.VERMILLION, markersize=3.0, zorder=5
+    )
+    axes.set_xlabel(f"shift of the indenter by slip ({length})", fontproperties=style.font())
+    axes.set_ylabel(f"$Q$ ({force})", fontproperties=style.font())
 
 
 def _draw_surface(
-    axes: Axes, view: _View, y: Array, color: str, width: float, **style: Any
+    axes: Axes, view: _View, y: Array, color: str, width: float, **given: Any
 ) -> None:
     """The indenter's surface, with a vertical side where the indenter ends inside the window."""
     lo, hi = view.solution.scene.profile.domain
-    x, wall = view.x, [4.0 * view.highest * scaled(view.highest, view.units.length)[0]]
+    x, wall = view.x, [4.0 * view.highest * style.scaled(view.highest, view.units.length)[0]]
     corners = view.solution.scene.profile.ends_are_corners  # a trace just ends
     if view.left < lo and corners[0]:
         x, y = np.concatenate((x[:1], x)), np.concatenate((wall, y))
     if view.right > hi and corners[1]:
         x, y = np.concatenate((x, x[-1:])), np.concatenate((y, wall))
-    curve(axes, x * view.factor, y, color, width, **style)
+    style.curve(axes, x * view.factor, y, color, width, **given)
 
 
 # -- labels --------------------------------------------------------------------------------------
@@ -288,7 +268,7 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
             np.array(where) * view.factor,
             np.full(len(where), largest * scale),
             "o",
-            color=BLUE,
+            color=style.BLUE,
             markersize=2.2,
             zorder=4,
         )
@@ -298,7 +278,7 @@ def _label_peak(axes: Axes, view: _View) -> None:
     """The peak in words, above it: towards the middle of the panel, and beside an arrow."""
     largest, where = peak(view.solution)
     text = (
-        rf"$p_{{\max}}$ = {quantity(largest, largest, view.units.stress)}"
+        rf"$p_{{\max}}$ = {style.quantity(largest, largest, view.units.stress)}"
         if math.isfinite(largest)
         else r"$p \to \infty$"
     )
@@ -319,15 +299,15 @@ def _label_peak(axes: Axes, view: _View) -> None:
         transform=axes.transAxes,
         ha=side,
         va="top",
-        color=BLUE,
-        fontproperties=font(SMALL),
+        color=style.BLUE,
+        fontproperties=style.font(style.SMALL),
     )
 
 
 def _label_edges(axes: Axes, view: _View) -> None:
     frame = axes.get_xaxis_transform()
     for name, edge in zip(("x_1", "x_2"), view.solution.edges, strict=True):
-        text = f"${name}$ = {quantity(edge, view.solution.half_width, view.units.length)}"
+        text = f"${name}$ = {style.quantity(edge, view.solution.half_width, view.units.length)}"
         axes.text(
             edge * view.factor,
             1.02,
@@ -335,7 +315,7 @@ def _label_edges(axes: Axes, view: _View) -> None:
             transform=frame,
             ha="center",
             va="bottom",
-            fontproperties=font(SMALL),
+            fontproperties=style.font(style.SMALL),
         )
 
 
@@ -352,8 +332,8 @@ def _name_bodies(axes: Axes, view: _View) -> None:
             text,
             ha="center",
             va="center",
-            color=INK,
+            color=style.INK,
             style="italic",
-            fontproperties=font(SMALL),
+            fontproperties=style.font(style.SMALL),
             zorder=5,
         )

@@ -18,20 +18,7 @@ from sie.io.scene_file import UNITS, Units
 from sie.io.stress_grid import Grid
 from sie.solution import Solution
 
-from .style import (
-    DPI,
-    FAMILY,
-    INK,
-    SMALL,
-    TITLE_COLUMNS,
-    VERMILLION,
-    WIDTH,
-    font,
-    heading,
-    plain,
-    quantity,
-    scaled,
-)  # fmt: skip
+from . import style
 
 LEVELS = np.arange(1, 11) / 10.0
 NX, NY = 321, 161
@@ -50,29 +37,32 @@ def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figur
         if math.isfinite(weakest.stress)
         else float(np.quantile(root[np.isfinite(root)], 0.999))
     )
-    factor, length = scaled(solution.half_width, units.length)
-    height = HEIGHT + LINE * len(textwrap.wrap(title, TITLE_COLUMNS))
-    figure = Figure(figsize=(WIDTH, height), dpi=DPI, layout="constrained")
+    factor, length = style.scaled(solution.half_width, units.length)
+    height = HEIGHT + LINE * len(textwrap.wrap(title, style.TITLE_COLUMNS))
+    figure = Figure(figsize=(style.WIDTH, height), dpi=style.DPI, layout="constrained")
     axes = figure.subplots()
     x, y = grid.x * factor, grid.y * factor
     filled = axes.contourf(x, y, np.minimum(root, top) / top, levels=[0.0, *LEVELS], cmap=COLOURS)
-    axes.contour(x, y, np.minimum(root, top) / top, levels=LEVELS[:-1], colors=INK, linewidths=0.35)
+    axes.contour(
+        x, y, np.minimum(root, top) / top, levels=LEVELS[:-1], colors=style.INK, linewidths=0.35
+    )
     _mark(axes, solution, factor, float(y[-1]))
-    cross: dict[str, Any] = {"color": VERMILLION, "markersize": 5.0, "markeredgewidth": 1.3}
+    cross: dict[str, Any] = {"color": style.VERMILLION, "markersize": 5.0, "markeredgewidth": 1.3}
     axes.plot(*(np.array(weakest.places).T * factor), "x", **cross, clip_on=False, zorder=6)
-    axes.set_xlabel(f"$x$ ({length})", fontproperties=font())
-    axes.set_ylabel(f"depth $y$ ({length})", fontproperties=font())
+    axes.set_xlabel(f"$x$ ({length})", fontproperties=style.font())
+    axes.set_ylabel(f"depth $y$ ({length})", fontproperties=style.font())
     axes.set_aspect("equal")
-    plain(axes)
+    style.plain(axes)
     bar = figure.colorbar(
         filled, ax=axes, shrink=0.8, pad=0.02, ticks=[0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
     )
-    bar.ax.tick_params(labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5)
+    bar.ax.tick_params(labelsize=style.SMALL, labelfontfamily=style.FAMILY, width=0.6, length=2.5)
     bar.set_label(
-        rf"$\sqrt{{J_2}}$ / {quantity(top, top, units.stress)}", fontproperties=font(SMALL)
+        rf"$\sqrt{{J_2}}$ / {style.quantity(top, top, units.stress)}",
+        fontproperties=style.font(style.SMALL),
     )
-    axes.set_title(_caption(weakest.ratio), fontproperties=font(SMALL), loc="left")
-    heading(figure, title)
+    axes.set_title(_caption(weakest.ratio), fontproperties=style.font(style.SMALL), loc="left")
+    style.heading(figure, title)
     return figure
 
 
@@ -87,10 +77,12 @@ def _caption(ratio: float) -> str:
 def _mark(axes: Any, solution: Solution, factor: float, depth: float) -> None:
     """The surface, and above it the contact and where it sticks."""
     level = -0.4 * ABOVE * depth
-    axes.axhline(0.0, color=INK, linewidth=0.6)
-    bars = [(solution.edges, INK, BAR, "contact")]
-    bars += [(zone, VERMILLION, STICK_BAR, "stick") for zone in getattr(solution, "stick", ())]
+    axes.axhline(0.0, color=style.INK, linewidth=0.6)
+    bars = [(solution.edges, style.INK, BAR, "contact")]
+    bars += [
+        (zone, style.VERMILLION, STICK_BAR, "stick") for zone in getattr(solution, "stick", ())
+    ]
     for ends, color, width, label in bars:
-        style: dict[str, Any] = {"color": color, "linewidth": width, "solid_capstyle": "butt"}
-        axes.plot(np.array(ends) * factor, [level] * 2, **style, label=label)
+        bar: dict[str, Any] = {"color": color, "linewidth": width, "solid_capstyle": "butt"}
+        axes.plot(np.array(ends) * factor, [level] * 2, **bar, label=label)
     axes.set_ylim(depth, -ABOVE * depth)
