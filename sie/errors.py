@@ -58,7 +58,7 @@ class LoadError(ContactError):
     >>> import sie
     >>> sie.solve(sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=1.0, tilt=0.2)).edges
     Traceback (most recent call last):
-    sie.errors.LoadError: the profile falls without bound to the left: no lowest point, no contact; ...
+    sie.errors.LoadError: the profile falls without bound to the left: no lowest point, ...
     """
 
 
