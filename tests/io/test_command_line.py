@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import __main__ as command
+from sie import cli as command
 from sie.certificate.pressure_check import Certificate
 from sie.cli import main
 from sie.io import files, report, sample_points, scene_file
