@@ -14,10 +14,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from sie.io.files import write_files
-
-from . import readme
-from .report import Section, machine, number, page
-from .running import run
+from validation import readme
+from validation.harness.report import Section, machine, number, page
+from validation.harness.running import run
 
 # Modules of this package, in the order of the page.
 TOPICS = (

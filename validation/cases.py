@@ -7,9 +7,8 @@ from functools import cache
 import numpy as np
 
 import sie
-
-from . import reference
-from .reference import Pieces, mp, polynomials, smooth
+from validation import reference
+from validation.reference import Pieces, mp, polynomials, smooth
 
 INF = float("inf")
 

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from . import cases, pressure, speed
+from validation import cases
+from validation.topics import pressure, speed
 
 ROOT = Path(__file__).parent.parent
 README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"

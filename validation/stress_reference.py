@@ -12,7 +12,7 @@ and, written apart from the package under test (Muskhelishvili 1953, § 93), wit
 
 from dataclasses import dataclass
 
-from .reference import Contact, Number, mp
+from validation.reference import Contact, Number, mp
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from sie.profiles import unresolved
 from sie.traction import of_slope
 from validation import reference
 from validation.reference import mp
-from validation.wrong import with_pressure
+from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
 SLIGHT = 1e-15  # of the peak

@@ -1,6 +1,6 @@
 """Where an edge lies on or beside a break of the slope: where h'' jumps, or h' itself.
 
-The truth is `validation.kinks`: the conditions of the edges in 100 digits, with exact integrals of polynomial pieces.
+The truth is `validation.topics.kinks`: the conditions of the edges in 100 digits, with exact integrals of polynomial pieces.
 """
 
 import contextlib
@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 import sie
 from sie.contact import edge_refinement, edges, normal
 from sie.contact.edges import Search
-from validation import kinks
-from validation.kinks import Shape, Trial, mp
+from validation.topics import kinks
+from validation.topics.kinks import Shape, Trial, mp
 
 EPS = float(np.finfo(float).eps)
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from strategies import between, log_between
 
-from validation.appendix import CASES, DIGITS, EQUATIONS, WRONG, Setting, agreed, digits, mp
 from validation.principal import principal_value
+from validation.topics.appendix import CASES, DIGITS, EQUATIONS, WRONG, Setting, agreed, digits, mp
 
 
 @settings(max_examples=4)

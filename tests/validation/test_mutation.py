@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.mutation import BAR, MUTANTS
+from validation.wrong_programs.mutants import BAR, MUTANTS
 
 
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.name)

@@ -13,29 +13,20 @@ import sie
 from sie import charts
 from sie.io import files
 from sie.numerics import cauchy_sums
-from validation import (
-    cases,
-    certificate,
-    economy,
-    measures,
-    paper,
-    peers,
-    pressure,
-    readme,
-    speed,
-    stability,
-    sweeps,
-)
+from validation import cases, readme
 from validation.__main__ import TOPICS, main, summary
-from validation.figures import Figure, axes, draw, drawn, heat, labelled
-from validation.measures import largest, smallest
-from validation.problems import kinked, sliding, wavy
-from validation.progress import Progress
-from validation.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
-from validation.report import Section, number, page
-from validation.running import run, workers
-from validation.sweeps import SPOILED, Outcome
-from validation.timing import medians
+from validation.harness import measures
+from validation.harness.drawing import Figure, axes, draw, drawn, heat, labelled
+from validation.harness.measures import largest, smallest
+from validation.harness.progress import Progress
+from validation.harness.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
+from validation.harness.report import Section, number, page
+from validation.harness.running import run, workers
+from validation.harness.timing import medians
+from validation.rivals import solvers
+from validation.rivals.problems import kinked, sliding, wavy
+from validation.topics import certificate, economy, paper, pressure, speed, stability, sweeps
+from validation.topics.sweeps import SPOILED, Outcome
 
 
 def claim(measured, control, **given):
@@ -217,7 +208,7 @@ def test_every_topic_says_what_it_is():
     import importlib  # noqa: PLC0415
 
     for name in TOPICS:
-        topic = importlib.import_module(f"validation.{name}")
+        topic = importlib.import_module(f"validation.topics.{name}")
         assert topic.__doc__
         assert topic.TITLE
         assert len(topic.SECONDS) == 2
@@ -270,12 +261,12 @@ def test_the_peers_are_right_where_they_should_be():
     """Hertz, p = sqrt(1 - x²)/2 for E* = R = 1."""
     x = np.linspace(-0.95, 0.95, 41)
     exact = 0.5 * np.sqrt(1 - x * x)
-    assert peers.gauss_chebyshev(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-14)
-    assert peers.erdogan_gupta(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-13)
+    assert solvers.gauss_chebyshev(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-14)
+    assert solvers.erdogan_gupta(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-13)
     errors = []
     for n in (128, 512):
         t = ((np.arange(n) + 0.5) / n - 0.5) * 3.2
-        p = peers.boundary_elements(0.5 * t * t, 3.2 / n, np.pi / 4)
+        p = solvers.boundary_elements(0.5 * t * t, 3.2 / n, np.pi / 4)
         inner = np.abs(t) < 0.9
         errors.append(np.abs(p - 0.5 * np.sqrt(np.maximum(1 - t * t, 0)))[inner].max())
     assert errors[1] < errors[0] / 3 < 0.01
@@ -285,9 +276,9 @@ def test_the_periodic_elements_reach_westergaards_wave():
     problem, n = wavy(), 256
     x = (np.arange(n) + 0.5) / n - 0.5
     exact = np.where(np.abs(x) < 0.19, problem.closed(np.tan(np.pi * np.clip(x, -0.19, 0.19))), 0.0)
-    from validation.work_precision import _closed_load  # noqa: PLC0415
+    from validation.topics.work_precision import _closed_load  # noqa: PLC0415
 
-    p = peers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
+    p = solvers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
     assert np.abs(p - exact)[np.abs(x) < 0.19].max() < 0.02 * exact.max()
     assert _closed_load(problem) == pytest.approx(
         np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13
@@ -296,13 +287,13 @@ def test_the_periodic_elements_reach_westergaards_wave():
 
 def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(monkeypatch):
     """A module that is always there stands for an installed code, with a wrong answer that the race must see."""
-    from validation import work_precision  # noqa: PLC0415
+    from validation.topics import work_precision  # noqa: PLC0415
 
     def flat(gap, spacing, load):
         return np.full(len(gap), load / (len(gap) * spacing))
 
     monkeypatch.setattr(
-        peers,
+        solvers,
         "INSTALLABLE",
         {"Tamaas": ("math", flat), "ContactMechanics": ("no_such_module", flat)},
     )
@@ -325,7 +316,7 @@ def test_a_race_measures_the_error_it_says(problem):
 
 def test_the_truth_of_sliding_agrees_with_the_closed_form():
     from analytic import sliding_rounded_flat  # noqa: PLC0415
-    from validation.problems import Sliding  # noqa: PLC0415
+    from validation.rivals.problems import Sliding  # noqa: PLC0415
 
     truth, scene = Sliding(0.3), sliding().scene
     P = sie.solve(scene).normal_load
@@ -339,7 +330,7 @@ def test_the_truth_of_sliding_agrees_with_the_closed_form():
 def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
     """On a clock that only the two programs move; every third call is disturbed."""
     now, calls = [0.0], [0]
-    monkeypatch.setattr("validation.timing.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("validation.harness.timing.time.perf_counter", lambda: now[0])
 
     def work(seconds):
         calls[0] += 1
@@ -487,7 +478,7 @@ def test_the_bar_moves_forward_and_never_beyond_the_end():
 
 def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("validation.progress.time.perf_counter", lambda: now[0])
+    monkeypatch.setattr("validation.harness.progress.time.perf_counter", lambda: now[0])
     monkeypatch.setenv("COLUMNS", "40")
 
     class Terminal(StringIO):
@@ -511,7 +502,7 @@ def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
 
 
 def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
-    monkeypatch.setattr("validation.running.os.cpu_count", lambda: 2)
+    monkeypatch.setattr("validation.harness.running.os.cpu_count", lambda: 2)
     with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
         left = [pool.submit(time.sleep, 60.0) for _ in range(4)]
         raise KeyboardInterrupt

@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 
 import sie
-
-from .cases import CASES, Case, chosen, solved
-from .figures import Figure, axes, labelled
-from .records import Claim, Curve, Doing, Found, Record, Table, checked
-from .timing import compared
+from validation.cases import CASES, Case, chosen, solved
+from validation.harness.drawing import Figure, axes, labelled
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.timing import compared
 
 TITLE = "Time of a pressure over that of its closed form"
 SECONDS = (1.5, 7.0)

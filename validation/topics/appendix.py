@@ -17,11 +17,10 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat
-
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import largest, smallest
-from .principal import GUARD, context, integral, principal_value
-from .records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.principal import GUARD, context, integral, principal_value
 
 TITLE = "The appendix: (24) to (35)"
 SECONDS = (1.5, 3.0)

@@ -9,7 +9,7 @@ are polynomials, whose integrals over a contact are exact here: with t = m + r s
 The edges are the roots of the conditions in 100 digits, by Newton's method from those of the solver, with what is left of them
 verified; the root of the distance from the break stands for the distance where h' jumps.
 
-`python -m validation.kinks 3000` prints the table of so many contacts.
+`python -m validation.topics.kinks 3000` prints the table of so many contacts.
 """
 
 from __future__ import annotations
@@ -26,9 +26,8 @@ import numpy as np
 import sie
 from sie.contact.edge_refinement import MAX_POLISHING
 from sie.numerics.interval import Interval
-
-from .measures import largest
-from .records import Claim, Doing, Record, Table
+from validation.harness.measures import largest
+from validation.harness.records import Claim, Doing, Record, Table
 
 TITLE = "Edges on the kinks of a slope"
 SECONDS = (6.0, 70.0)

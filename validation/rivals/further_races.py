@@ -9,12 +9,11 @@ import numpy as np
 
 import sie
 from analytic import cattaneo_rounded, rounded_flat
-
-from . import peers
-from .principal import context
-from .race import PATIENCE, PROMISE, Point, closed_form, curve
-from .records import Doing, Record, checked
-from .timing import compared
+from validation.harness.records import Doing, Record, checked
+from validation.harness.timing import compared
+from validation.principal import context
+from validation.rivals import solvers
+from validation.rivals.race import PATIENCE, PROMISE, Point, closed_form, curve
 
 DEPTH = 0.01  # half-widths
 NODES = (8, 32, 128, 512, 2048)
@@ -109,9 +108,9 @@ def partial_slip(quick: bool) -> Iterator[Record]:
 
     def series(n: int) -> Callable[[], Any]:
         def run() -> Any:
-            q = peers.gauss_chebyshev(slope, -b, b, n, x)
+            q = solvers.gauss_chebyshev(slope, -b, b, n, x)
             inside = np.abs(x) < c
-            q[inside] -= peers.gauss_chebyshev(slope, -c, c, n, x[inside])
+            q[inside] -= solvers.gauss_chebyshev(slope, -c, c, n, x[inside])
             return f * q
 
         return run
@@ -167,7 +166,7 @@ def sampled(quick: bool) -> Iterator[Record]:
 
     def elements(n: int) -> Callable[[], Any]:
         t, h = profile(n)
-        return lambda: np.interp(x, t, peers.boundary_elements(h, float(t[1] - t[0]), load))
+        return lambda: np.interp(x, t, solvers.boundary_elements(h, float(t[1] - t[0]), load))
 
     def error(values: Any) -> float:
         return float(np.abs(values - truth).max() / truth.max())

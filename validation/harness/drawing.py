@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .records import Curve, Map
+from validation.harness.records import Curve, Map
 
 WIDTH, HEIGHT = 5.0, 3.7  # inches, as are all that follow
 LETTER, LINE, MARGIN = 0.083, 0.22, 0.15  # of a letter, of a line of them, of what stays free

@@ -17,12 +17,11 @@ import numpy as np
 
 import sie
 from analytic import cattaneo, cattaneo_rounded, hertz
-
-from .figures import HEIGHT, Figure, axes, draw, labelled, legend, legend_above
-from .measures import apart, largest, relative
-from .principal import context
-from .records import Claim, Curve, Doing, Found, Record, Table, checked
-from .timing import fastest
+from validation.harness.drawing import HEIGHT, Figure, axes, draw, labelled, legend, legend_above
+from validation.harness.measures import apart, largest, relative
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.timing import fastest
+from validation.principal import context
 
 TITLE = "Partial slip: zones, shear, slip, energy, cycles"
 SECONDS = (3.5, 9.0)

@@ -15,10 +15,10 @@ from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
 
-from .figures import Drawn, drawn
-from .progress import Progress
-from .records import Found, kept
-from .report import Section
+from validation.harness.drawing import Drawn, drawn
+from validation.harness.progress import Progress
+from validation.harness.records import Found, kept
+from validation.harness.report import Section
 
 TICK = 0.5  # seconds between two looks of the progress bar
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -123,4 +123,4 @@ class Here(Executor):
 
 
 def _topic(name: str) -> ModuleType:
-    return importlib.import_module(f"validation.{name}")
+    return importlib.import_module(f"validation.topics.{name}")

@@ -13,11 +13,10 @@ import numpy as np
 
 import sie
 from sie.contact.normal import ECONOMY
-
-from .figures import Figure, axes, labelled, legend_above
-from .measures import largest, smallest
-from .records import Claim, Curve, Doing, Found, Record, Table, checked
-from .timing import medians
+from validation.harness.drawing import Figure, axes, labelled, legend_above
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.timing import medians
 
 TITLE = "Economy: what a scene does not need is not computed"
 SECONDS = (2.0, 5.0)

@@ -15,9 +15,8 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat, wedge
-
-from . import cases
-from .principal import context
+from validation import cases
+from validation.principal import context
 
 Array = np.ndarray[Any, Any]
 POINTS = 1001

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cases import Case, chosen, exact, points, solved
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import largest, smallest
-from .records import Claim, Curve, Doing, Found, Record, Table
+from validation.cases import Case, chosen, exact, points, solved
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
 
 TITLE = "Pressure, edges and load against 40 digits"
 SECONDS = (2.5, 13.0)

@@ -25,12 +25,11 @@ from analytic import (
     sliding_rounded_flat,
     wedge,
 )
-
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import largest, smallest
-from .principal import context
-from .records import Claim, Curve, Doing, Found, Record, Table
-from .wrong import with_pressure, with_shear
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.principal import context
+from validation.wrong_programs.pressures import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"
 SECONDS = (1.5, 50.0)

@@ -17,11 +17,10 @@ import numpy as np
 
 import sie
 from analytic import bonded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
-
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import apart, largest, relative
-from .principal import context
-from .records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import apart, largest, relative
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.principal import context
 
 TITLE = "Dissimilar bodies: sliding, and full stick"
 SECONDS = (2.0, 3.0)

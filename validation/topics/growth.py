@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 import sie
-
-from .figures import HEIGHT, Figure, axes, draw, labelled, legend_above
-from .records import Claim, Curve, Doing, Found, Record
-from .timing import fastest
+from validation.harness.drawing import HEIGHT, Figure, axes, draw, labelled, legend_above
+from validation.harness.records import Claim, Curve, Doing, Found, Record
+from validation.harness.timing import fastest
 
 TITLE = "Growth with pieces and points"
 SECONDS = (2.5, 10.0)

@@ -19,11 +19,10 @@ import numpy as np
 
 import sie
 from sie.cauchy.system import System
-
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import largest
-from .peers import erdogan_gupta_matrix
-from .records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import largest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.rivals.solvers import erdogan_gupta_matrix
 
 mp = mpmath.mp.clone()
 mp.dps = 40

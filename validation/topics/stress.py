@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from .cases import SMOOTH_CASES, Case, exact, solved
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import largest
-from .records import Claim, Curve, Doing, Found, Record, Table
-from .reference import mp
-from .stress_reference import stresses
-from .timing import compared
+from validation.cases import SMOOTH_CASES, Case, exact, solved
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import largest
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.timing import compared
+from validation.reference import mp
+from validation.stress_reference import stresses
 
 TITLE = "The stress inside, against 40 digits"
 SECONDS = (2.0, 29.0)

@@ -17,9 +17,8 @@ import numpy as np
 import sie
 from analytic import rounded_flat
 from sie.problem.material import SIMILAR
-
-from .measures import largest
-from .principal import context
+from validation.harness.measures import largest
+from validation.principal import context
 
 mp = context(50)
 SPOILED = 1e-10  # an answer off by so much must be seen

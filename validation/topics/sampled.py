@@ -19,13 +19,12 @@ from scipy.interpolate import CubicSpline
 
 import sie
 from analytic import hertz
-
-from . import reference
-from .figures import Figure, axes, draw, labelled, legend
-from .measures import apart
-from .records import Claim, Curve, Doing, Found, Record, Table, checked
-from .reference import Pieces, contact, mp
-from .timing import fastest
+from validation import reference
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import apart
+from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.timing import fastest
+from validation.reference import Pieces, contact, mp
 
 TITLE = "Sampled profiles: splines, growth, noise"
 SECONDS = (3.0, 9.0)

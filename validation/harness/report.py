@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import scipy
 
-from .figures import Drawn
-from .records import Claim, Found, Table
+from validation.harness.drawing import Drawn
+from validation.harness.records import Claim, Found, Table
 
 CSS = """
 :root { color-scheme: light; --line: #d8dee4; --soft: #57606a }

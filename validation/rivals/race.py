@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from analytic import rounded_flat
-
-from .records import Curve
+from validation.harness.records import Curve
 
 PATIENCE = 0.04  # seconds for each point of a curve, about
 PROMISE = 1e-13

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .figures import Figure, axes, labelled, legend
-from .records import Found
+from validation.harness.drawing import Figure, axes, labelled, legend
+from validation.harness.records import Found
 
 
 def figures(found: Found) -> Iterator[Figure]:

@@ -15,10 +15,9 @@ from scipy.optimize import brentq, minimize, minimize_scalar
 import sie
 from analytic import interior, rounded_flat
 from sie import charts
-
-from .measures import largest, smallest
-from .paper_figures import figures
-from .records import Claim, Curve, Doing, Map, Record, Table, checked
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Map, Record, Table, checked
+from validation.topics.figures.paper import figures
 
 TITLE = "The paper: Figs 2 to 8 and its statements"
 SECONDS = (5.0, 14.0)

@@ -18,15 +18,14 @@ from typing import Any
 import numpy as np
 
 import sie
-
-from . import peers
-from .figures import Figure, axes, draw, labelled, legend
-from .further_races import further
-from .measures import smallest
-from .problems import Problem, problems
-from .race import PATIENCE, PROMISE, closed_form, curve
-from .records import Claim, Doing, Found, Record, Table, checked
-from .timing import compared
+from validation.harness.drawing import Figure, axes, draw, labelled, legend
+from validation.harness.measures import smallest
+from validation.harness.records import Claim, Doing, Found, Record, Table, checked
+from validation.harness.timing import compared
+from validation.rivals import solvers
+from validation.rivals.further_races import further
+from validation.rivals.problems import Problem, problems
+from validation.rivals.race import PATIENCE, PROMISE, closed_form, curve
 
 TITLE = "Error against run time"
 SECONDS = (1.5, 28.0)
@@ -55,11 +54,11 @@ def _package(problem: Problem, n: int) -> Callable[[], Any]:
 
 
 def _chebyshev(problem: Problem, n: int) -> Callable[[], Any]:
-    return lambda: peers.gauss_chebyshev(problem.slope, *problem.edges, n, problem.x)
+    return lambda: solvers.gauss_chebyshev(problem.slope, *problem.edges, n, problem.x)
 
 
 def _dense(problem: Problem, n: int) -> Callable[[], Any]:
-    return lambda: peers.erdogan_gupta(problem.slope, *problem.edges, n, problem.x)
+    return lambda: solvers.erdogan_gupta(problem.slope, *problem.edges, n, problem.x)
 
 
 def _collocation(problem: Problem, n: int) -> Callable[[], Any]:
@@ -86,7 +85,7 @@ def _elements(solver: Callable[..., Any]) -> Callable[[Problem, int], Callable[[
 
 def _own_elements(problem: Problem, n: int) -> Callable[[], Any]:
     x, gap, load = _grid(problem, n)
-    return lambda: peers.boundary_elements(
+    return lambda: solvers.boundary_elements(
         gap, float(x[1] - x[0]), load, periodic=bool(problem.period)
     )
 
@@ -146,7 +145,7 @@ def methods() -> tuple[Method, ...]:
     """Those of this package and of textbooks, and the codes of others that are installed."""
     others = (
         Method(name, (32, 128, 512, 2048), _elements(solver), lambda problem: bool(problem.period))
-        for name, (module, solver) in peers.INSTALLABLE.items()
+        for name, (module, solver) in solvers.INSTALLABLE.items()
         if installed(module)
     )
     return (*OURS_AND_TEXTBOOKS, *others)
@@ -211,7 +210,7 @@ def compute(quick: bool) -> Iterator[Record]:
 def _absent() -> list[str]:
     return [
         f"{name} (not installed)"
-        for name, (module, _) in peers.INSTALLABLE.items()
+        for name, (module, _) in solvers.INSTALLABLE.items()
         if not installed(module)
     ]
 
@@ -219,13 +218,13 @@ def _absent() -> list[str]:
 def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[Claim]:
     yield checked(
         problem.error, problem.solution.pressure(problem.x),
-        peers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x),
+        solvers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x),
         what=f"{problem.name}: error of this package's pressure / peak", by="README: to machine precision",
         named="one Chebyshev series of 6 terms", high=PROMISE,
     )  # fmt: skip
     rivals = {name: e for name, (e, _) in best.items() if name != "this package"}
     if problem.scene.profile.breaks:
-        series = problem.error(peers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x))
+        series = problem.error(solvers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x))
         yield checked(
             lambda ours: smallest(rivals.values()) / ours, best["this package"][0], series,
             what=f"{problem.name}: the nearest rival's smallest error over this package's", by="this project: what no peer has",

@@ -15,13 +15,12 @@ from typing import Any
 import numpy as np
 
 import sie
-
-from . import sweeps
-from .figures import Figure, axes, draw, heat, labelled, legend, legend_above
-from .measures import largest, smallest
-from .peers import erdogan_gupta_matrix
-from .records import Claim, Curve, Doing, Found, Map, Record, Table, checked
-from .sweeps import Outcome, Sweep, logit, near_ends
+from validation.harness.drawing import Figure, axes, draw, heat, labelled, legend, legend_above
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Found, Map, Record, Table, checked
+from validation.rivals.solvers import erdogan_gupta_matrix
+from validation.topics import sweeps
+from validation.topics.sweeps import Outcome, Sweep, logit, near_ends
 
 TITLE = "Stability: error maps and the frontier"
 SECONDS = (4.0, 25.0)
