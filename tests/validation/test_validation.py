@@ -2,6 +2,7 @@
 
 import json
 import math
+import pkgutil
 import re
 import time
 from io import StringIO
@@ -213,6 +214,14 @@ def test_every_topic_says_what_it_is():
         assert topic.TITLE
         assert len(topic.SECONDS) == 2
         assert topic.TIMED in (False, True)
+
+
+def test_every_module_of_figures_is_named_after_a_topic():
+    from validation.topics import figures  # noqa: PLC0415
+
+    drawn_topics = {module.name for module in pkgutil.iter_modules(figures.__path__)}
+    assert drawn_topics < set(TOPICS)
+    assert set(TOPICS) - drawn_topics == {"kinks"}  # a table says it all
 
 
 def test_the_economy_measures_a_difference_and_a_footprint():

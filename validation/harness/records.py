@@ -1,11 +1,14 @@
 """What a topic finds: claims with a verdict, tables, curves and maps. Values that JSON can hold; nothing here computes or draws.
 
-A topic is a module of this package with
+A topic is a module of `validation.topics` with
 
     TITLE                         the heading; its docstring is the introduction
     SECONDS                       about how long (quick, whole) takes, for the progress bar
     compute(quick) -> records     an iterator; a `Doing` says what comes next and is not kept
-    figures(found) -> figures     drawn from the records alone (see `figures`)
+
+and may have a module of the same name in `validation.topics.figures` with
+
+    figures(found) -> figures     drawn from the records alone (see `validation.harness.drawing`)
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ A ratio of times measured in turns is no such time: what runs beside slows both.
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import multiprocessing
 import os
 import time
@@ -21,6 +22,8 @@ from validation.harness.records import Found, kept
 from validation.harness.report import Section
 
 TICK = 0.5  # seconds between two looks of the progress bar
+TOPICS = "validation.topics"
+FIGURES = f"{TOPICS}.figures"
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -68,11 +71,12 @@ def computed(
 
 
 def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
-    """A topic's figures as SVG, and the seconds they took; none of a topic that broke off."""
+    """A topic's figures as SVG, and the seconds they took; none if the topic broke off or has none."""
     start = time.perf_counter()
-    if found.broken:
+    if found.broken or importlib.util.find_spec(f"{FIGURES}.{name}") is None:
         return [], 0.0
-    return [drawn(figure) for figure in _topic(name).figures(found)], time.perf_counter() - start
+    figures = importlib.import_module(f"{FIGURES}.{name}").figures(found)
+    return [drawn(figure) for figure in figures], time.perf_counter() - start
 
 
 @contextmanager
@@ -123,4 +127,4 @@ class Here(Executor):
 
 
 def _topic(name: str) -> ModuleType:
-    return importlib.import_module(f"validation.topics.{name}")
+    return importlib.import_module(f"{TOPICS}.{name}")

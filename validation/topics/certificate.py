@@ -25,9 +25,8 @@ from analytic import (
     sliding_rounded_flat,
     wedge,
 )
-from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.records import Claim, Curve, Doing, Record, Table
 from validation.principal import context
 from validation.wrong_programs.pressures import with_pressure, with_shear
 
@@ -300,24 +299,4 @@ def claims(found: list[Judged]) -> Iterator[Claim]:
     yield Claim(
         "median of estimate over true error, where the error is above 1e-11: it does not cry wolf", "this page",
         float(np.median(alarm)), float(np.median(alarm)) * 1e4, "an estimate ten thousand times too large", high=100.0,
-    )  # fmt: skip
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    drawing, ax = axes()
-    curves = found.curves("judged")
-    for curve in curves:
-        ax.plot(
-            np.maximum(curve.x, 1e-18), curve.y, "o", ms=2.5, label=curve.label, alpha=0.6, mew=0
-        )
-    line = np.array([1e-18, 1e-1])
-    draw(
-        ax,
-        [Curve("", "a third of the true error", line, line / 3, "dashed", {"colour": "tab:red"})],
-    )
-    labelled(ax, "true error of the pressure / peak", "the certificate's estimate", log="xy")
-    legend(ax)
-    yield Figure(
-        "judged", drawing,
-        "Each dot is a random contact. Below the line the certificate would have claimed too much. Errors of nothing are drawn at 1e-18.",
     )  # fmt: skip

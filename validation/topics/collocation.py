@@ -19,9 +19,8 @@ import numpy as np
 
 import sie
 from sie.cauchy.system import System
-from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.measures import largest
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.records import Claim, Curve, Doing, Record, Table
 from validation.rivals.solvers import erdogan_gupta_matrix
 
 mp = mpmath.mp.clone()
@@ -248,25 +247,3 @@ def _agreement(found: list[Row]) -> Claim:
     apart = largest(r.error or 0.0 for r in found if r.case.startswith("thin layer"))
     return Claim("thin layer: largest difference of elimination and iteration", "this project: two ways, one answer", apart,
                  float(np.abs(right - wrong).max() / np.abs(right).max()), f"right-hand side off by {SPOILED:.0e}", high=BAR)  # fmt: skip
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    for key, x, y, caption in (
-        (
-            "ligament",
-            "ligament / length of the cracks",
-            "relative error",
-            "Two collinear cracks that nearly touch, against 40 digits.",
-        ),
-        (
-            "layer",
-            "unknowns n",
-            "time [s]",
-            "The same system solved by elimination and by iteration.",
-        ),
-    ):
-        drawing, ax = axes()
-        draw(ax, found.curves(key), floor=1e-17)
-        labelled(ax, x, y, log="xy")
-        legend(ax)
-        yield Figure("collocation-" + key, drawing, caption)

@@ -13,9 +13,8 @@ import numpy as np
 
 import sie
 from sie.contact.normal import ECONOMY
-from validation.harness.drawing import Figure, axes, labelled, legend_above
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
 from validation.harness.timing import medians
 
 TITLE = "Economy: what a scene does not need is not computed"
@@ -215,20 +214,3 @@ def compute(quick: bool) -> Iterator[Record]:
         "economy", "with the skips", with_skips, list(range(len(names))), "points", {"names": names}
     )
     yield Curve("economy", "without", without, list(range(len(names))), "points")
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    saving, bare = found.curves("economy")
-    drawing, ax = axes(height=3.0, head=0.4)
-    place = np.array(saving.y, dtype=float)
-    ax.barh(place - 0.18, saving.x, height=0.34, label=saving.label)
-    ax.barh(place + 0.18, bare.x, height=0.34, label=bare.label)
-    ax.set_yticks(place, saving.about["names"])
-    ax.invert_yaxis()
-    labelled(ax, "solve, 1001 pressures and shears [ms]", "", log="x")
-    legend_above(ax, 2)
-    yield Figure(
-        "economy",
-        drawing,
-        "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.",
-    )

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 import sie
-from validation.harness.drawing import HEIGHT, Figure, axes, draw, labelled, legend_above
-from validation.harness.records import Claim, Curve, Doing, Found, Record
+from validation.harness.records import Claim, Curve, Doing, Record
 from validation.harness.timing import fastest
 
 TITLE = "Growth with pieces and points"
@@ -131,17 +130,4 @@ def compute(quick: bool) -> Iterator[Record]:
         )
         yield Claim(
             f"{what}: exponent of memory", by, memory[name], memory["pairs"], wrong, high=LINEAR
-        )
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    for name, label in (("time", "time [ms]"), ("memory", "peak of memory taken [MiB]")):
-        drawing, ax = axes(height=HEIGHT + 0.8, head=1.2)
-        draw(ax, found.curves(name))
-        labelled(ax, "n", label, log="xy")
-        legend_above(ax, 1)
-        yield Figure(
-            "growth-" + name,
-            drawing,
-            f"{label.split(' [')[0].capitalize()} against size; a slope of one is linear growth.",
         )

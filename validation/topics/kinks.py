@@ -516,11 +516,6 @@ def measured(number: int) -> Iterator[Record]:
     )
 
 
-def figures(found: Any) -> Iterator[Any]:
-    """None: the table says it all."""
-    yield from ()
-
-
 if __name__ == "__main__":
     for record in measured(-(-int(sys.argv[1]) // len(ASKED))):
         if isinstance(record, Claim):

@@ -17,12 +17,10 @@ from analytic import interior, rounded_flat
 from sie import charts
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Map, Record, Table, checked
-from validation.topics.figures.paper import figures
 
 TITLE = "The paper: Figs 2 to 8 and its statements"
 SECONDS = (5.0, 14.0)
 TIMED = False
-__all__ = ["SECONDS", "TIMED", "TITLE", "compute", "figures"]
 
 NU = charts.POISSON
 BAR = 1e-13

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from validation.cases import Case, chosen, exact, points, solved
-from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.records import Claim, Curve, Doing, Record, Table
 
 TITLE = "Pressure, edges and load against 40 digits"
 SECONDS = (2.5, 13.0)
@@ -122,16 +121,4 @@ def row(case: Case) -> Row:
     return Row(
         str(case), error(1.0), load(1.0), solution.check().error, solution.normal.edges.evaluations,
         error(1.0 + SPOILED), load(1.0 + SPOILED), unexplained(1.0), unexplained(1.0 + SPOILED),
-    )  # fmt: skip
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    drawing, ax = axes()
-    draw(ax, found.curves("certificate"), floor=1e-18)
-    ax.axhline(PROMISE, color="tab:red", linewidth=1)
-    labelled(ax, "case, in the order of the table", "error of the pressure / peak", log="y")
-    legend(ax)
-    yield Figure(
-        "certificate", drawing,
-        "The true error of each case, and what the certificate says of it without knowing the truth. The line is the promise, 1e-13."
     )  # fmt: skip

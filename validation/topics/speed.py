@@ -12,8 +12,7 @@ import numpy as np
 
 import sie
 from validation.cases import CASES, Case, chosen, solved
-from validation.harness.drawing import Figure, axes, labelled
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table, checked
+from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
 from validation.harness.timing import compared
 
 TITLE = "Time of a pressure over that of its closed form"
@@ -76,17 +75,3 @@ def closed_form(a: float = 0.5, x: Any = _X) -> np.ndarray:
         np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2))
     )
     return ((np.pi - 2 * phi0) * np.cos(phi) + logarithms) / (2 * np.pi)
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    (ratios,) = found.curves("ratio")
-    drawing, ax = axes(height=0.9 + 0.19 * len(ratios.y))
-    ax.plot(ratios.x, ratios.y, "o", markersize=4)
-    ax.set_yticks(list(ratios.y), ratios.about["names"])
-    ax.invert_yaxis()
-    labelled(ax, "time over that of the closed form (32)", "", log="x")
-    yield Figure(
-        "ratio",
-        drawing,
-        "Solving a case and 1001 pressures, as a multiple of 1001 values of the rounded punch's formula.",
-    )

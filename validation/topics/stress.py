@@ -14,9 +14,8 @@ from typing import Any
 import numpy as np
 
 from validation.cases import SMOOTH_CASES, Case, exact, solved
-from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.measures import largest
-from validation.harness.records import Claim, Curve, Doing, Found, Record, Table
+from validation.harness.records import Claim, Curve, Doing, Record, Table
 from validation.harness.timing import compared
 from validation.reference import mp
 from validation.stress_reference import stresses
@@ -128,17 +127,3 @@ def compute(quick: bool = False) -> Iterator[Record]:
     yield Table("Each case", header, [(r.case, *r.errors, r.milliseconds, r.ratio) for r in found])
     for r in found:
         yield Curve("depth", r.case, DEPTHS, r.errors, "both")
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    drawing, ax = axes()
-    draw(ax, found.curves("depth"), floor=1e-17)
-    ax.axhline(BAR, color="tab:red", linewidth=0.8)
-    labelled(ax, "depth / b", "error of the stress / peak pressure", log="xy")
-    if len(found.curves("depth")) < 6:
-        legend(ax)
-    yield Figure(
-        "stress-depth",
-        drawing,
-        "Each case of the table, from next to the surface to far away. The line is the bar, 1e-13.",
-    )

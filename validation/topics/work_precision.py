@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 
 import sie
-from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.measures import smallest
-from validation.harness.records import Claim, Doing, Found, Record, Table, checked
+from validation.harness.records import Claim, Doing, Record, Table, checked
 from validation.harness.timing import compared
 from validation.rivals import solvers
 from validation.rivals.further_races import further
@@ -230,19 +229,3 @@ def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[
             what=f"{problem.name}: the nearest rival's smallest error over this package's", by="this project: what no peer has",
             named="one Chebyshev series of 6 terms in its place", low=100.0,
         )  # fmt: skip
-
-
-def figures(found: Found) -> Iterator[Figure]:
-    for key in found.keys("race: "):
-        curves = found.curves(key)
-        drawing, ax = axes()
-        draw(ax, curves, floor=1e-17)
-        labelled(ax, "time [ms]", "error / peak", key.removeprefix("race: "), log="xy")
-        ax.set_ylim(1e-17, 10)
-        legend(ax)
-        name = "".join(c if c.isalnum() else "-" for c in key)
-        yield Figure(
-            name,
-            drawing,
-            f"{curves[0].about['says']}. Each mark is one size; lower and further left is better.",
-        )
