@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 
 import sie
-from validation import reference
-from validation.reference import Pieces, mp, polynomials, smooth
+from oracles import normal_contact
+from oracles.normal_contact import Pieces, mp, polynomials, smooth
 
 INF = float("inf")
 
@@ -47,13 +47,13 @@ def solved(case: Case) -> sie.Solution:
 
 
 @cache
-def exact(case: Case) -> reference.Contact:
+def exact(case: Case) -> normal_contact.Contact:
     """The answer in 40 digits; the solver's edges are only where Newton starts."""
     pieces = case.pieces.tilted(case.tilt) if case.tilt else case.pieces
     if all(case.sharp):
-        return reference.sharp_contact(pieces, 1.0, case.load)
+        return normal_contact.sharp_contact(pieces, 1.0, case.load)
     start = solved(case).edges
-    return reference.contact(
+    return normal_contact.contact(
         pieces,
         1.0,
         start,

@@ -1,6 +1,6 @@
 """What every solution of a Cauchy equation obeys, and manufactured ones: exponents, kernels, intervals and poles drawn at random.
 
-The reference (`manufactured`) is in 40 digits and knows nothing of orthogonal polynomials.
+The reference (`oracles.manufactured`) is in 40 digits and knows nothing of orthogonal polynomials.
 """
 
 from typing import NamedTuple
@@ -12,10 +12,10 @@ import pytest
 import scipy.special
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from manufactured import Manufactured, exact, exponents, mp, needed, right_hand_side
 from strategies import between
 
 import sie
+from oracles.manufactured import Manufactured, exact, exponents, mp, needed, right_hand_side
 
 PROMISE = 1e-13  # of the peak
 KINDS = [(False, False), (True, False), (False, True), (True, True)]

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 import sie
+from oracles import normal_contact
+from oracles.normal_contact import mp
 from sie.certificate import pressure_check, quadrature
 from sie.certificate.pressure_check import PROMISE
 from sie.contact import gap, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
 from sie.traction import of_slope
-from validation import reference
-from validation.reference import mp
 from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
@@ -64,8 +64,8 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
         rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load, tilt=tilt))
-    truth = reference.contact(
-        reference.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
+    truth = normal_contact.contact(
+        normal_contact.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
     )
     x1, x2, r = float(truth.x1), float(truth.x2), float(truth.r)
     away = r * np.array([1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.3, 0.9])

@@ -5,7 +5,7 @@ import pytest
 
 import sie
 from analytic import interior, rounded_flat
-from validation.reference import mp
+from oracles.normal_contact import mp
 
 X, Y = np.meshgrid([-2.0, -0.97, 0.0, 0.3, 1.0, 5.0], [1e-9, 1e-3, 0.2, 1.0, 4.0])
 HERTZ = {"half_width": 1.0, "radius": 1.0, "modulus": 2.0}  # p0 = 1

@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from analytic import interior, rounded_flat
+from oracles.normal_contact import mp
 from sie import charts
-from validation.reference import mp
 
 
 def limit(ratio, friction=0.0):

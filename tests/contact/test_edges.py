@@ -6,8 +6,8 @@ import strategies
 from hypothesis import given
 
 import sie
+from oracles.normal_contact import mp
 from validation.cases import CASES, SHARP_CASES, Case, exact, solved
-from validation.reference import mp
 
 PROMISE = 1e-13
 

@@ -8,6 +8,8 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import sie
+from oracles import normal_contact
+from oracles.normal_contact import mp
 from sie.certificate.quadrature import NODES, composite_rule
 from sie.contact.edge_integrals import moments
 from sie.numerics.cauchy_sums import LEAF, KernelSums
@@ -16,8 +18,6 @@ from sie.profiles.slope import Slope
 from sie.traction import many_panels, panels
 from sie.traction.piece_quadrature import Geometry
 from sie.traction.sliding_panels import SlidingGeometry, SlidingPanels
-from validation import reference
-from validation.reference import mp
 
 CONTACT = Interval(-1.01, 0.97)
 
@@ -185,7 +185,7 @@ class ExactSpline:
         x1, x2 = mp.mpf(x1), mp.mpf(x2)
         self.m, self.r = (x1 + x2) / 2, (x2 - x1) / 2
         self.pieces = []  # ends, their angles, origin, coefficients, and the nodes (t, sin φ, weight)
-        g, w = reference.gauss_legendre(12)
+        g, w = normal_contact.gauss_legendre(12)
         rows = zip(
             pairwise(slope.breaks.tolist()),
             slope.origins.tolist(),

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kalker import Mesh
 
 import sie
+from oracles.kalker import Mesh
 from sie.friction.memory import Ladder
 from sie.friction.slip_zones import zone
 from sie.friction.states import rims

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sie
-from validation import reference
+from oracles import normal_contact
+from oracles.normal_contact import mp
 from validation.cases import CASES, Case, exact, points, solved
-from validation.reference import mp
 
 PROMISE = 1e-13  # of the peak
 
@@ -293,10 +293,10 @@ def test_the_slope_of_the_gap_is_what_the_pressure_leaves_of_the_profile(scene, 
 def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
     """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to 30 digits."""
     a, b = mp.mpf(1) / 2, mp.mpf(1)
-    pieces = reference.Pieces(
+    pieces = normal_contact.Pieces(
         (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)
     )
-    contact = reference.contact(pieces, 1.0, (-1.0, 1.0), half_width=1.0, symmetric=True)
+    contact = normal_contact.contact(pieces, 1.0, (-1.0, 1.0), half_width=1.0, symmetric=True)
     theta = mp.acos(a / b)
     assert abs(contact.P - (theta - mp.sin(theta) * mp.cos(theta)) / 2) < mp.mpf(10) ** -30
     assert abs(contact.pressure(0) - (b * theta - a * mp.acosh(b / a)) / mp.pi) < mp.mpf(10) ** -30
@@ -307,9 +307,11 @@ def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
 
 
 def test_the_two_forms_of_the_reference_agree_where_the_edges_are_smooth():
-    pieces = reference.polynomials((-10.0, 0.0, 10.0), ((0.0, 1.0), (0.0, 3.0)))
-    smooth = reference.contact(pieces, 1.0, (-0.4, 0.3), load=0.7)
-    general = reference.Contact(smooth.pieces, smooth.G, smooth.x1, smooth.x2, smooth.P, sharp=True)
+    pieces = normal_contact.polynomials((-10.0, 0.0, 10.0), ((0.0, 1.0), (0.0, 3.0)))
+    smooth = normal_contact.contact(pieces, 1.0, (-0.4, 0.3), load=0.7)
+    general = normal_contact.Contact(
+        smooth.pieces, smooth.G, smooth.x1, smooth.x2, smooth.P, sharp=True
+    )
     for x in (0.1, -0.2):
         assert abs(smooth.pressure(x) - general.pressure(x)) < mp.mpf(10) ** -28
     z = mp.mpc(0.1, 0.01)

@@ -8,8 +8,8 @@ from strategies import between, log_between
 
 import sie
 from analytic import rounded_flat
-from validation import reference
-from validation.reference import mp
+from oracles import normal_contact
+from oracles.normal_contact import mp
 
 PROMISE = 1e-13
 
@@ -116,10 +116,10 @@ def test_the_pressure_agrees_with_the_closed_form_of_the_rounded_punch(
 def test_a_nearly_flat_punch_agrees_with_quadrature_too(delta):
     """The 40-digit reference knows no closed form; the rim is the double b - 1."""
     b = 1.0 + delta
-    slope = reference.Pieces(
+    slope = normal_contact.Pieces(
         (-mp.inf, -mp.one, mp.one, mp.inf), (lambda t: t + 1, lambda t: 0 * t, lambda t: t - 1)
     )
-    truth = reference.contact(slope, 1.0, (-b, b), half_width=b, symmetric=True)
+    truth = normal_contact.contact(slope, 1.0, (-b, b), half_width=b, symmetric=True)
     solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 1.0), modulus=1.0, half_width=b))
     assert solution.normal_load == pytest.approx(float(truth.P), rel=1e-12)
     for x in (0.0, 0.9, 1.0 + 0.5 * (b - 1.0)):

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import sie
 from analytic import rounded_flat
+from oracles.normal_contact import mp
 from sie.stress import peak_search
-from validation.reference import mp
 
 NU = 0.3
 # P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed form

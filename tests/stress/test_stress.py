@@ -10,11 +10,11 @@ from hypothesis import given
 
 import sie
 from analytic import rounded_flat
+from oracles import half_plane_stress
+from oracles.normal_contact import mp
 from sie.stress.half_plane import Stress, Tractions
 from sie.traction.base import Density
-from validation import stress_reference as reference
 from validation.cases import CASES, SMOOTH_CASES, exact, solved
-from validation.reference import mp
 
 DEPTHS = (1e-10, 1e-6, 1e-2, 1.0, 1e3)
 F = 0.3
@@ -77,7 +77,7 @@ def test_every_component_agrees_with_forty_digits_under_kinks_and_edges_too(case
     y = depth * solution.half_width
     for x, x_exact in places(case):
         truth, found = (
-            reference.stresses(exact(case), x_exact, y, F, bulk=0.25),
+            half_plane_stress.stresses(exact(case), x_exact, y, F, bulk=0.25),
             solution.stress(x, y),
         )
         for component in ("xx", "yy", "xy"):

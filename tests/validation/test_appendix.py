@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from strategies import between, log_between
 
-from validation.principal import principal_value
+from oracles.principal_value import principal_value
 from validation.topics.appendix import CASES, DIGITS, EQUATIONS, WRONG, Setting, agreed, digits, mp
 
 

@@ -9,9 +9,9 @@ import numpy as np
 
 import sie
 from analytic import cattaneo_rounded, rounded_flat
+from oracles.principal_value import context
 from validation.harness.records import Doing, Record, checked
 from validation.harness.timing import compared
-from validation.principal import context
 from validation.rivals import solvers
 from validation.rivals.race import PATIENCE, PROMISE, Point, closed_form, curve
 

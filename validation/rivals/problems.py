@@ -15,8 +15,8 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat, wedge
+from oracles.principal_value import context
 from validation import cases
-from validation.principal import context
 
 Array = np.ndarray[Any, Any]
 POINTS = 1001

@@ -17,9 +17,9 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat
+from oracles.principal_value import GUARD, context, integral, principal_value
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Record, Table
-from validation.principal import GUARD, context, integral, principal_value
 
 TITLE = "The appendix: (24) to (35)"
 SECONDS = (1.5, 3.0)

@@ -25,9 +25,9 @@ from analytic import (
     sliding_rounded_flat,
     wedge,
 )
+from oracles.principal_value import context
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Record, Table
-from validation.principal import context
 from validation.wrong_programs.pressures import with_pressure, with_shear
 
 TITLE = "The certificate against the truth, on random contacts"

@@ -19,11 +19,11 @@ from scipy.interpolate import CubicSpline
 
 import sie
 from analytic import hertz
-from validation import reference
+from oracles import normal_contact
+from oracles.normal_contact import Pieces, contact, mp
 from validation.harness.measures import apart
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
 from validation.harness.timing import fastest
-from validation.reference import Pieces, contact, mp
 
 TITLE = "Sampled profiles: splines, growth, noise"
 SECONDS = (3.0, 9.0)
@@ -82,7 +82,9 @@ def spline(n: int) -> Iterator[Record]:
     )
     x1, x2 = solution.edges
     at = np.array([x1 + 1e-3, -0.3, float(x[n // 2]) + 1e-9, 0.123456, x2 - 1e-3])
-    with patch.object(reference, "gauss_legendre", partial(reference.gauss_legendre, NODES)):
+    with patch.object(
+        normal_contact, "gauss_legendre", partial(normal_contact.gauss_legendre, NODES)
+    ):
         truth = contact(exact_slope(x, heights(x)), 1.0, solution.edges, load=0.5)
         exact = [truth.pressure(v) for v in at.tolist()]
     yield checked(

@@ -17,9 +17,9 @@ import numpy as np
 
 import sie
 from analytic import bonded_flat, sliding_flat, sliding_hertz, sliding_rounded_flat
+from oracles.principal_value import context
 from validation.harness.measures import apart, largest, relative
 from validation.harness.records import Claim, Curve, Doing, Record, Table
-from validation.principal import context
 
 TITLE = "Dissimilar bodies: sliding, and full stick"
 SECONDS = (2.0, 3.0)

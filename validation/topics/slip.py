@@ -17,10 +17,10 @@ import numpy as np
 
 import sie
 from analytic import cattaneo, cattaneo_rounded, hertz
+from oracles.principal_value import context
 from validation.harness.measures import apart, largest, relative
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
 from validation.harness.timing import fastest
-from validation.principal import context
 
 TITLE = "Partial slip: zones, shear, slip, energy, cycles"
 SECONDS = (3.5, 9.0)

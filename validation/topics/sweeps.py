@@ -16,9 +16,9 @@ import numpy as np
 
 import sie
 from analytic import rounded_flat
+from oracles.principal_value import context
 from sie.problem.material import SIMILAR
 from validation.harness.measures import largest
-from validation.principal import context
 
 mp = context(50)
 SPOILED = 1e-10  # an answer off by so much must be seen

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from oracles.principal_value import GUARD
 from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.records import Found
-from validation.principal import GUARD
 from validation.topics.appendix import DIGITS
 
 

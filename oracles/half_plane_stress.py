@@ -1,6 +1,7 @@
-"""Stresses in 40 digits, by quadrature of the slope alone: what `sie.stress.half_plane` is measured against.
+"""Stresses in 40 digits, by quadrature of the slope alone: what the stress of the solver is measured against.
 
-From the potential F(z) = 1/π ∫p/(z - t) of `reference` (smooth edges; e the piece next to z, continued), differentiated under the integral:
+From the potential F(z) = 1/π ∫p/(z - t) of `oracles.normal_contact` (smooth edges; e the piece
+next to z, continued), differentiated under the integral:
 
     F  = G H_e - G/π R I0,      F' = G H_e' - G/π ( (z - m)/R I0 + R I1 ),
     I0 = ∫ q dφ,      I1 = ∫ (q - H_e'(z))/(t - z) dφ,      q = (H(t) - H_e(z))/(t - z)
@@ -12,7 +13,7 @@ and, written apart from the package under test (Muskhelishvili 1953, § 93), wit
 
 from dataclasses import dataclass
 
-from validation.reference import Contact, Number, mp
+from oracles.normal_contact import Contact, Number, mp
 
 
 @dataclass(frozen=True)
