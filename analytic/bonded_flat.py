@@ -14,40 +14,21 @@ not rotate. Towards the corners p and q oscillate, ever faster, between bounds t
 bond must carry tension, under P alone where tanh(pi/(4 eta)) b < |x|, which is 2.5e-4 b from the corner for beta = 1/2.
 """
 
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    everywhere,
-    first_where,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    seen_from,
-    side_of_cut,
-    sign,
-)
-from analytic._slant import singular, singular_remainder
+from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.edge_exponents import singular, singular_remainder
+from analytic._core.numbers import Library, Number, as_result, cartesian, sign
+from analytic._core.parameters import point, positive, positives, real, refuse
+from analytic._core.piecewise import nothing, pick
 
 
 def pressure(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    dundurs: Number,
-    shear_load: Number = 0,
-    moment: Number = 0,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
+    moment: Number = 0, lib: Library = np,
+) -> Number:  # fmt: skip
     """The pressure p(x), negative where the bond pulls; inf at the corners, 0 outside.
 
     (At a corner p has no limit for beta ≠ 0, and inf stands for its growing bounds.) `x` and the parameters broadcast.
@@ -56,25 +37,15 @@ def pressure(
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)), 12)
     1.25
     """
-    x, contact = (
-        real("x", x, lib),
-        _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib),
-    )
-    return as_result(
-        pick(lib, abs(x) < contact.b, _pressure_inside, _pressure_not_inside, x, contact)
-    )
+    x = real("x", x, lib)
+    contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
+    return as_result(_pressure(lib, x, contact))
 
 
 def shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    dundurs: Number,
-    shear_load: Number = 0,
-    moment: Number = 0,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
+    moment: Number = 0, lib: Library = np,
+) -> Number:  # fmt: skip
     """The shear q(x) on the half-plane, with ∫ q dx = Q; inf at the corners as the pressure is, 0 outside.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning.
@@ -82,22 +53,15 @@ def shear(
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25
     """
-    x, contact = (
-        real("x", x, lib),
-        _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib),
-    )
-    return as_result(pick(lib, abs(x) < contact.b, _shear_inside, _shear_not_inside, x, contact))
+    x = real("x", x, lib)
+    contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
+    return as_result(_shear(lib, x, contact))
 
 
 def tilt(
-    *,
-    half_width: Number,
-    dundurs: Number,
-    modulus: Number,
-    shear_load: Number = 0,
-    moment: Number = 0,
-    lib: Library = np,
-) -> Number:
+    *, half_width: Number, dundurs: Number, modulus: Number, shear_load: Number = 0,
+    moment: Number = 0, lib: Library = np,
+) -> Number:  # fmt: skip
     """The rotation h' = -4 (M + 2 eta b Q)/(pi E* b² (1 + 4 eta²)); the normal load does not rotate the flat.
 
     >>> round(float(tilt(half_width=1.0, dundurs=0.0, modulus=1.0, moment=np.pi / 4)), 12)
@@ -108,16 +72,9 @@ def tilt(
 
 
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    dundurs: Number,
-    shear_load: Number = 0,
-    moment: Number = 0,
-    side: int = +1,
-    lib: Library = np,
-) -> Number:
+    z: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
+    moment: Number = 0, side: int = +1, lib: Library = np,
+) -> Number:  # fmt: skip
     """The potential Fp + i Fq = (1/pi) ∫ (p + iq)(t)/(z-t) dt, complex; ~ (P + iQ)/(pi z) far away.
 
     Fp(z) alone is the mean of this at z and of its conjugate at the conjugate of z. Real z in the contact are on the cut:
@@ -126,18 +83,10 @@ def potential(
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)).imag
     -1.25
     """
-    z, side = point(z, lib), side_of_cut(side)
+    z = point(z, lib)
     contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
-    return as_result(
-        pick(
-            lib,
-            on_cut(lib, z, contact.b),
-            partial(_potential_on_cut, side=side),
-            _potential,
-            z,
-            contact,
-        )
-    )
+    cut = on_cut(lib, z, contact.b)
+    return as_result(in_plane(lib, cut, side, _potential_on_cut, _potential, z, contact))
 
 
 class _Contact(NamedTuple):
@@ -150,26 +99,14 @@ class _Contact(NamedTuple):
 
 
 def _contact_of(
-    half_width: Number,
-    normal_load: Number,
-    dundurs: Number,
-    shear_load: Number,
-    moment: Number,
-    *,
+    half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number, moment: Number, *,
     lib: Library,
-) -> _Contact:
-    b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
-    Q, M, beta = (
-        real("shear_load", shear_load, lib),
-        real("moment", moment, lib),
-        real("dundurs", dundurs, lib),
-    )
-    possible = abs(beta) <= 0.5
-    if not everywhere(possible):
-        (bad,) = first_where(~possible if isinstance(possible, np.ndarray) else True, beta)
-        raise ValueError(
-            f"dundurs = {bad} is beyond 1/2, which no pair of bodies reaches; give -1/2 <= beta <= 1/2."
-        )
+) -> _Contact:  # fmt: skip
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
+    Q, M = real("shear_load", shear_load, lib), real("moment", moment, lib)
+    beta = real("dundurs", dundurs, lib)
+    message = "dundurs = {} is beyond 1/2, which no pair of bodies reaches; give |beta| <= 1/2."
+    refuse(abs(beta) > 0.5, message, beta)
     eta = lib.atanh(beta) / lib.pi
     A = 2 * (M / b + 2 * eta * Q) / (lib.pi * b * (1 + 4 * eta * eta))
     return _Contact(b, beta, eta, P, Q, A)
@@ -191,6 +128,14 @@ def _phase(lib: Library, x: Number, contact: _Contact) -> Number:
     return contact.eta * lib.log((contact.b + x) / (contact.b - x))
 
 
+def _pressure(lib: Library, x: Number, contact: _Contact) -> Number:
+    return pick(lib, abs(x) < contact.b, _pressure_inside, _pressure_not_inside, x, contact)
+
+
+def _shear(lib: Library, x: Number, contact: _Contact) -> Number:
+    return pick(lib, abs(x) < contact.b, _shear_inside, _shear_not_inside, x, contact)
+
+
 def _pressure_inside(lib: Library, x: Number, contact: _Contact) -> Number:
     phase, (envelope, u, v) = _phase(lib, x, contact), _normal_and_shear(lib, x, contact)
     return envelope * (u * lib.cos(phase) - v * lib.sin(phase))
@@ -202,11 +147,11 @@ def _shear_inside(lib: Library, x: Number, contact: _Contact) -> Number:
 
 
 def _pressure_not_inside(lib: Library, x: Number, contact: _Contact) -> Number:
-    return pick(lib, abs(x) == contact.b, _pressure_at_corner, _nothing, x, contact)
+    return pick(lib, abs(x) == contact.b, _pressure_at_corner, nothing, x, contact)
 
 
 def _shear_not_inside(lib: Library, x: Number, contact: _Contact) -> Number:
-    return pick(lib, abs(x) == contact.b, _shear_at_corner, _nothing, x, contact)
+    return pick(lib, abs(x) == contact.b, _shear_at_corner, nothing, x, contact)
 
 
 def _pressure_at_corner(lib: Library, x: Number, contact: _Contact) -> Number:
@@ -219,16 +164,12 @@ def _shear_at_corner(lib: Library, x: Number, contact: _Contact) -> Number:
 
 def _infinite(lib: Library, eta: Number, amplitude: Number) -> Number:
     """inf, or without oscillation inf with the sign of the amplitude, and 0 without either."""
-    return pick(lib, (eta == 0) & (amplitude == 0), _nothing, _signed_infinity, amplitude, eta)
+    return pick(lib, (eta == 0) & (amplitude == 0), nothing, _signed_infinity, amplitude, eta)
 
 
 def _signed_infinity(lib: Library, amplitude: Number, eta: Number) -> Number:
     oscillates = (eta != 0) * 1
     return lib.inf * (oscillates + (1 - oscillates) * sign(amplitude))
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
 
 
 def _exponent(lib: Library, contact: _Contact) -> Number:
@@ -245,6 +186,5 @@ def _potential(lib: Library, z: Number, contact: _Contact) -> Number:
 
 def _potential_on_cut(lib: Library, z: Number, contact: _Contact, *, side: int) -> Number:
     x, factor = z.real, contact.beta + seen_from(z, side)
-    p = pick(lib, abs(x) < contact.b, _pressure_inside, _pressure_not_inside, x, contact)
-    q = pick(lib, abs(x) < contact.b, _shear_inside, _shear_not_inside, x, contact)
+    p, q = _pressure(lib, x, contact), _shear(lib, x, contact)
     return cartesian(factor * q - contact.A, -factor * p, lib)

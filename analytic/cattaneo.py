@@ -21,69 +21,43 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic._artanh import B
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    first_where,
-    pick,
-    positive,
-    real,
-)
-from analytic._partial_slip import Traction, traction, turned, turned_twice
+from analytic._core.arc_functions import B
+from analytic._core.numbers import Library, Number, as_result
+from analytic._core.parameters import positive, positives, real, refuse
+from analytic._core.piecewise import nothing, pick
+from analytic._core.tangential_load import Traction, traction, turned, turned_twice
 
 
 def stick_half_width(
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
+    *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The half-width c = b sqrt(1 - Q/(fP)) of the stick zone; 0 at Q = fP.
 
     >>> float(stick_half_width(half_width=1.0, normal_load=4.0, friction=0.5, tangential_load=1.5))
     0.5
     """
-    return as_result(
-        positive("half_width", half_width, lib)
-        * lib.sqrt(traction(lib, friction, normal_load, tangential_load).left)
-    )
+    b = positive("half_width", half_width, lib)
+    return as_result(b * lib.sqrt(traction(lib, friction, normal_load, tangential_load).left))
 
 
 def slip_width(
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
+    *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The length b - c of each slip zone, to full relative accuracy.
 
     >>> float(slip_width(half_width=1.0, normal_load=4.0, friction=0.5, tangential_load=1.5))
     0.5
     """
-    return as_result(
-        _slip_width(
-            lib,
-            positive("half_width", half_width, lib),
-            traction(lib, friction, normal_load, tangential_load),
-        )
-    )
+    b = positive("half_width", half_width, lib)
+    return as_result(_slip_width(lib, b, traction(lib, friction, normal_load, tangential_load)))
 
 
 def shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number,
+    tangential_load: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The shear q(x) while Q rises from 0: f p in the slip zones, f (p_b - p_c) in the stick zone.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning and for Q > f P.
@@ -92,21 +66,14 @@ def shear(
     0.5
     """
     x, b, scale = _traction_of_hertz(x, half_width, normal_load, friction, lib)
-    return as_result(
-        scale * _ellipses(lib, x, b, traction(lib, friction, normal_load, tangential_load))
-    )
+    used = traction(lib, friction, normal_load, tangential_load)
+    return as_result(scale * _ellipses(lib, x, b, used))
 
 
 def unloading_shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    largest_load: Number,
-    tangential_load: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number, largest_load: Number,
+    tangential_load: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The shear q(x) when Q has fallen from Q_max to Q >= -Q_max.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
@@ -121,16 +88,9 @@ def unloading_shear(
 
 
 def reloading_shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    largest_load: Number,
-    least_load: Number,
-    tangential_load: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number, largest_load: Number,
+    least_load: Number, tangential_load: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <= Q_max.
 
     `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
@@ -140,29 +100,17 @@ def reloading_shear(
     0.5
     """
     x, b, scale = _traction_of_hertz(x, half_width, normal_load, friction, lib)
-    top, down, up = turned_twice(
-        lib, friction, normal_load, (largest_load, least_load, tangential_load)
+    loads = (largest_load, least_load, tangential_load)
+    first, down, up = (
+        _ellipses(lib, x, b, used) for used in turned_twice(lib, friction, normal_load, loads)
     )
-    return as_result(
-        scale
-        * (
-            _ellipses(lib, x, b, top)
-            - 2 * _ellipses(lib, x, b, down)
-            + 2 * _ellipses(lib, x, b, up)
-        )
-    )
+    return as_result(scale * (first - 2 * down + 2 * up))
 
 
 def slip(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    modulus: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number,
+    tangential_load: Number, modulus: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q rose from 0.
 
     s' = sign(x) (4fP/(pi E* b²)) sqrt(x² - c²), s = 0 where they stick, and, by agreement, where they do not touch.
@@ -175,19 +123,15 @@ def slip(
     used = traction(lib, friction, normal_load, tangential_load)
     beyond = _slip_width(lib, b, used) - (b - abs(x))
     value = pick(
-        lib, (beyond > 0) & (abs(x) <= b), _slip, _nothing, abs(x), beyond, b * lib.sqrt(used.left)
+        lib, (beyond > 0) & (abs(x) <= b), _slip, nothing, abs(x), beyond, b * lib.sqrt(used.left)
     )
     return as_result(scale / positive("modulus", modulus, lib) * value)
 
 
 def excess_shift(
-    *,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    modulus: Number,
+    *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """How much farther than without slip the bodies shift: (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
 
     The shift itself depends on the bodies' depth, as the approach does: only this part is the contact's own. It is
@@ -197,23 +141,15 @@ def excess_shift(
     0.5
     """
     used, left = traction(lib, friction, normal_load, tangential_load)
-    P, f, E = (
-        positive("normal_load", normal_load, lib),
-        positive("friction", friction, lib),
-        positive("modulus", modulus, lib),
-    )
+    P, f, E = positives(lib, normal_load=normal_load, friction=friction, modulus=modulus)
     y = used / (1 + left)
     return as_result(f * (P / E) / lib.pi * used * (1 + left) / 2 * (y + _B(lib, used, left)))
 
 
 def dissipation(
-    *,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    modulus: Number,
+    *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The energy (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP), lost in each cycle between Q and -Q per unit length.
 
     ValueError for input that has no meaning and for Q > f P.
@@ -222,23 +158,14 @@ def dissipation(
     1.0
     """
     used, left = traction(lib, friction, normal_load, tangential_load)
-    P, f, E = (
-        positive("normal_load", normal_load, lib),
-        positive("friction", friction, lib),
-        positive("modulus", modulus, lib),
-    )
+    P, f, E = positives(lib, normal_load=normal_load, friction=friction, modulus=modulus)
     return as_result(2 * f * P * (f * P / E) / lib.pi * used * (1 + left) * _B(lib, used, left))
 
 
 def bulk_stick(
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    bulk_stress: Number,
-    lib: Library = np,
-) -> tuple[Number, Number]:
+    *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
+    bulk_stress: Number, lib: Library = np,
+) -> tuple[Number, Number]:  # fmt: skip
     """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q, e = pi sigma b²/(8fP).
 
     Nowell & Hills 1987. ValueError for input that has no meaning, for Q > f P, and where |e| > b - c: there the bulk
@@ -254,15 +181,9 @@ def bulk_stick(
 
 
 def bulk_shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    bulk_stress: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number,
+    tangential_load: Number, bulk_stress: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The shear q(x) under Q and a bulk tension sigma that rises with it, (1/pi) PV∫ q(t)/(x-t) dt = sigma/4 in stick.
 
     `x` and the parameters broadcast. ValueError as in `bulk_stick`.
@@ -281,35 +202,24 @@ def _traction_of_hertz(
     x: Number, half_width: Number, normal_load: Number, friction: Number, lib: Library
 ) -> tuple[Number, ...]:
     """x, b, and 2fP/(pi b²), what f p is times sqrt(b² - x²)."""
-    x, b = real("x", x, lib), positive("half_width", half_width, lib)
-    P, f = positive("normal_load", normal_load, lib), positive("friction", friction, lib)
-    return x, b, 2 * f * (P / b) / b / lib.pi
+    b, P, f = positives(lib, half_width=half_width, normal_load=normal_load, friction=friction)
+    return real("x", x, lib), b, 2 * f * (P / b) / b / lib.pi
 
 
 def _moved(
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    tangential_load: Number,
-    bulk_stress: Number,
-    *,
-    lib: Library,
-) -> tuple[Number, Traction, Number]:
+    half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
+    bulk_stress: Number, *, lib: Library,
+) -> tuple[Number, Traction, Number]:  # fmt: skip
     """b, the traction, and e."""
-    b, used = (
-        positive("half_width", half_width, lib),
-        traction(lib, friction, normal_load, tangential_load),
-    )
-    P, f = positive("normal_load", normal_load, lib), positive("friction", friction, lib)
+    b, P, f = positives(lib, half_width=half_width, normal_load=normal_load, friction=friction)
+    used = traction(lib, friction, normal_load, tangential_load)
     e = lib.pi / 8 * (real("bulk_stress", bulk_stress, lib) * b / P) * (b / f)
     room = _slip_width(lib, b, used)
-    reversed_slip = abs(e) > room
-    if np.any(reversed_slip):
-        shift, limit = first_where(reversed_slip, abs(e) + 0 * room, room)
-        raise ValueError(
-            f"bulk_stress moves the stick zone by {shift}, more than the slip zones' {limit}: slip reverses at one edge; "
-            "give a smaller bulk_stress or a larger tangential_load."
-        )
+    message = (
+        "bulk_stress moves the stick zone by {}, more than the slip zones' {}: slip reverses at "
+        "one edge; give a smaller bulk_stress or a larger tangential_load."
+    )
+    refuse(abs(e) > room, message, abs(e) + 0 * room, room)
     return b, used, e
 
 
@@ -361,7 +271,3 @@ def _B(lib: Library, used: Number, left: Number) -> Number:
     """B(r/(2-r)), r = used."""
     y = used / (1 + left)
     return B(lib, y * y, 4 * left / ((1 + left) * (1 + left)))
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x

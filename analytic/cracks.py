@@ -14,8 +14,9 @@ K_I = lim sqrt(2 pi r) sigma_yy(r), r the distance ahead of the tip.
 
 import numpy as np
 
-from analytic._agm import ratio_D
-from analytic._lib import Library, Number, as_result, everywhere, first_where, positive, real
+from analytic._core.elliptic import ratio_D
+from analytic._core.numbers import Library, Number, as_result
+from analytic._core.parameters import patch_ends, positives, real, refuse
 
 
 def pair(
@@ -28,16 +29,7 @@ def pair(
     >>> tuple(round(float(K), 9) for K in pair(inner=1e9, outer=1e9 + 2.0, tension=1.0) / np.sqrt(np.pi))
     (1.0, 1.0)
     """
-    a, b, sigma = (
-        positive("inner", inner, lib),
-        positive("outer", outer, lib),
-        real("tension", tension, lib),
-    )
-    if not everywhere(a < b):
-        near, far = first_where(np.logical_not(a < b) if lib is np else True, a, b)
-        raise ValueError(
-            f"outer = {far} is not more than inner = {near}; give inner < outer, the tips of one crack."
-        )
+    (a, b), sigma = patch_ends(inner, outer, lib), real("tension", tension, lib)
     k = lib.sqrt((b - a) / b) * lib.sqrt((b + a) / b)
     D_K, scale = ratio_D(lib, k, a / b), sigma * lib.sqrt(lib.pi * b) * k
     return as_result(scale * lib.sqrt(b / a) * (1 - D_K)), as_result(scale * D_K)
@@ -51,16 +43,12 @@ def row(*, half_length: Number, period: Number, tension: Number, lib: Library = 
     >>> round(float(row(half_length=1.0, period=4.0, tension=1.0)), 12)
     2.0
     """
-    a, W, sigma = (
-        positive("half_length", half_length, lib),
-        positive("period", period, lib),
-        real("tension", tension, lib),
+    a, W = positives(lib, half_length=half_length, period=period)
+    sigma = real("tension", tension, lib)
+    message = (
+        "half_length = {} is not less than period/2 = {}; give cracks with bridges between them."
     )
-    if not everywhere(2 * a < W):
-        half, whole = first_where(np.logical_not(2 * a < W) if lib is np else True, a, W)
-        raise ValueError(
-            f"half_length = {half} is not less than period/2 = {whole / 2}; give cracks with bridges between them."
-        )
+    refuse(2 * a >= W, message, a, W / 2)
     angle = lib.pi * (a / W)
     return as_result(sigma * lib.sqrt(W) * lib.sqrt(lib.sin(angle) / _cosine(lib, a, W)))
 

@@ -14,28 +14,22 @@ The functions of that contact carry the word `partial`. Fp(z) = (1/pi) ∫ p(t)/
 """
 
 import sys
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic._lib import (
+from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.numbers import (
     Library,
     Number,
     as_result,
     cartesian,
-    first_where,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    root,
+    not_below_zero,
     scaled,
-    seen_from,
-    side_of_cut,
     sign,
 )
+from analytic._core.parameters import point, positive, positives, real, refuse
+from analytic._core.piecewise import infinite, nothing, pick
 
 # A moment or tilt that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
 ROUNDING = 8 * sys.float_info.epsilon
@@ -80,24 +74,15 @@ def moment(
     >>> round(float(moment(half_width=1.0, normal_load=np.pi, tilt=-1.0, modulus=1.0) / np.pi), 12)
     0.25
     """
-    b, E, angle = (
-        positive("half_width", half_width, lib),
-        positive("modulus", modulus, lib),
-        real("tilt", tilt, lib),
-    )
+    (b, E), angle = positives(lib, half_width=half_width, modulus=modulus), real("tilt", tilt, lib)
     M = -lib.pi / 4 * (E * b * angle) * b
     return as_result(_checked(b, normal_load, M, lib)[2])
 
 
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    moment: Number = 0,
-    side: int = +1,
+    z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp = [P + (2M/b) rho]/(pi sqrt(z² - b²)) of a complete contact, complex; ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
@@ -106,26 +91,15 @@ def potential(
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi)).imag
     -1.25
     """
-    z, side, (b, corners) = (
-        point(z, lib),
-        side_of_cut(side),
-        _complete(half_width, normal_load, moment, lib),
-    )
-    value = pick(
-        lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b, corners
-    )
+    z, (b, corners) = point(z, lib), _complete(half_width, normal_load, moment, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _potential_on_cut, _potential, z, b, corners)
     return as_result(scaled(1 / (lib.pi * b), value, lib))
 
 
 def potential_derivative(
-    z: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    moment: Number = 0,
-    side: int = +1,
+    z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The derivative Fp' of the potential of a complete contact; on the contact - i p' on the side +1.
 
     At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning and for
@@ -134,14 +108,8 @@ def potential_derivative(
     >>> round(complex(potential_derivative(0.6, half_width=1.0, normal_load=np.pi)).imag, 12)
     -1.171875
     """
-    z, side, (b, corners) = (
-        point(z, lib),
-        side_of_cut(side),
-        _complete(half_width, normal_load, moment, lib),
-    )
-    value = pick(
-        lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b, corners
-    )
+    z, (b, corners) = point(z, lib), _complete(half_width, normal_load, moment, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _derivative_on_cut, _derivative, z, b, corners)
     return as_result(scaled(1 / (lib.pi * b) / b, value, lib))
 
 
@@ -177,7 +145,7 @@ def partial_pressure(
     from_corner = b - s * x
     from_edge = 2 * r - from_corner
     value = pick(
-        lib, (from_corner >= 0) & (from_edge > 0), _one_sided, _nothing, from_corner, from_edge
+        lib, (from_corner >= 0) & (from_edge > 0), _one_sided, nothing, from_corner, from_edge
     )
     return as_result(P / lib.pi / r * value)
 
@@ -204,23 +172,18 @@ def partial_moment(
     >>> round(float(partial_moment(half_width=1.0, normal_load=np.pi, tilt=-4.0, modulus=1.0) / np.pi), 12)
     0.75
     """
-    b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
-    angle, E = real("tilt", tilt, lib), positive("modulus", modulus, lib)
+    b, P, E = positives(lib, half_width=half_width, normal_load=normal_load, modulus=modulus)
+    angle = real("tilt", tilt, lib)
     least = 2 * (P / E / b) / lib.pi
     remedy = "|tilt| = {} is less than 2P/(pi E* b) = {}: both corners touch; use moment, or a larger tilt."
-    _refuse(abs(angle) * (1 + ROUNDING) < least, remedy, abs(angle), least)
+    refuse(abs(angle) * (1 + ROUNDING) < least, remedy, abs(angle), least)
     return as_result(-sign(angle) * P * (b - P / E / lib.pi / abs(angle)))
 
 
 def partial_potential(
-    z: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    moment: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, normal_load: Number, moment: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp of a tilted flat that touches with one corner, complex; ~ P/(pi z) far away.
 
     It is that of a complete contact of half-width r about its own middle, with the moment s P r/2. `side` as in
@@ -245,11 +208,11 @@ class _Corners(NamedTuple):
 def _checked(
     half_width: Number, normal_load: Number, moment: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
     M = real("moment", moment, lib)
     lever, half = abs(M) / P, b / 2
     remedy = "|M|/P = {} exceeds half_width/2 = {}: one corner lifts off; use partial_pressure, ..., or a smaller M."
-    _refuse(lever > half * (1 + ROUNDING), remedy, lever, half)
+    refuse(lever > half * (1 + ROUNDING), remedy, lever, half)
     return b, P, M
 
 
@@ -258,30 +221,21 @@ def _complete(
 ) -> tuple[Number, "_Corners"]:
     """b and the corners' shares of the load."""
     b, P, M = _checked(half_width, normal_load, moment, lib)
-    return b, _Corners(_not_below_zero(P / 2 + M / b), _not_below_zero(P / 2 - M / b))
+    return b, _Corners(not_below_zero(P / 2 + M / b), not_below_zero(P / 2 - M / b))
 
 
 def _one_corner(
     half_width: Number, normal_load: Number, moment: Number, lib: Library
 ) -> tuple[Number, Number, Number, Number]:
     """b, P, the sign s of the corner that touches, and the contact's half-width r."""
-    b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
     M = real("moment", moment, lib)
     lever, half = abs(M) / P, b / 2
     few = "|M|/P = {} is less than half_width/2 = {}: both corners touch; use pressure, ..., or a larger M."
-    _refuse(lever * (1 + ROUNDING) < half, few, lever, half)
+    refuse(lever * (1 + ROUNDING) < half, few, lever, half)
     many = "|M|/P = {} is not less than half_width = {}: the flat would tip over its corner; use a smaller M."
-    _refuse(lever >= b, many, lever, b)
-    return b, P, sign(M), b - _not_below_zero(2 * lever - b)
-
-
-def _refuse(bad: Number, message: str, *numbers: Number) -> None:
-    if np.any(bad):
-        raise ValueError(message.format(*first_where(bad, *numbers)))
-
-
-def _not_below_zero(number: Number) -> Number:
-    return (number + abs(number)) / 2
+    refuse(lever >= b, many, lever, b)
+    return b, P, sign(M), b - not_below_zero(2 * lever - b)
 
 
 def _inner(lib: Library, b: Number, r: Number) -> Number:
@@ -290,10 +244,6 @@ def _inner(lib: Library, b: Number, r: Number) -> Number:
 
 def _corner(lib: Library, b: Number, r: Number) -> Number:
     return -b
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
 
 
 def _pressure(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
@@ -308,15 +258,11 @@ def _pressure_inside(lib: Library, x: Number, b: Number, corners: _Corners) -> N
 
 def _pressure_not_inside(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
     pressed = ((x == b) & (corners.right > 0)) | ((x == -b) & (corners.left > 0))
-    return pick(lib, pressed, _infinite, _nothing, x, b, corners)
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
+    return pick(lib, pressed, infinite, nothing, x, b, corners)
 
 
 def _one_sided(lib: Library, from_corner: Number, from_edge: Number) -> Number:
-    return pick(lib, from_corner > 0, _one_sided_inside, _infinite, from_corner, from_edge)
+    return pick(lib, from_corner > 0, _one_sided_inside, infinite, from_corner, from_edge)
 
 
 def _one_sided_inside(lib: Library, from_corner: Number, from_edge: Number) -> Number:

@@ -9,26 +9,13 @@ Fp(z) = (1/L) ∫ p(t) cot(pi (z-t)/L) dt over one period is the potential: it s
 each is L times the mean pressure. For L >> a this is a single flat.
 """
 
-from functools import partial
-
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    first_where,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    scaled,
-    seen_from,
-    side_of_cut,
-)
-from analytic._period import cotangent, in_period, one_minus_square, sine
+from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled
+from analytic._core.parameters import point, positive, positives, real, refuse
+from analytic._core.periodic_sines import cotangent, in_period, one_minus_square, sine
+from analytic._core.piecewise import infinite, nothing, pick
 
 
 def pressure(
@@ -46,14 +33,9 @@ def pressure(
 
 
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    period: Number,
-    mean_pressure: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
 
     Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i p, and -1 its conjugate.
@@ -62,26 +44,18 @@ def potential(
     >>> round(complex(potential(0.0, half_width=1.0, period=4.0, mean_pressure=1.0)).imag, 12)
     -1.414213562373
     """
-    z, side, (a, L, p) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, period, mean_pressure, lib),
-    )
+    z, (a, L, p) = point(z, lib), _contact(half_width, period, mean_pressure, lib)
     z = cartesian(in_period(lib, z.real, L), z.imag, lib)
-    value = pick(lib, on_cut(lib, z, a), partial(_potential_on_cut, side=side), _potential, z, a, L)
+    value = in_plane(lib, on_cut(lib, z, a), side, _potential_on_cut, _potential, z, a, L)
     return as_result(scaled(p, value, lib))
 
 
 def _contact(
     half_width: Number, period: Number, mean_pressure: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    a, L = positive("half_width", half_width, lib), positive("period", period, lib)
-    wide = 2 * a >= L
-    if np.any(wide):
-        half, whole = first_where(wide, a, L)
-        raise ValueError(
-            f"half_width = {half} is not less than period/2 = {whole / 2}; give flats with gaps between them."
-        )
+    a, L = positives(lib, half_width=half_width, period=period)
+    message = "half_width = {} is not less than period/2 = {}; give flats with gaps between them."
+    refuse(2 * a >= L, message, a, L / 2)
     return a, L, positive("mean_pressure", mean_pressure, lib)
 
 
@@ -97,15 +71,7 @@ def _pressure_inside(lib: Library, r: Number, a: Number, L: Number) -> Number:
 
 
 def _pressure_not_inside(lib: Library, r: Number, a: Number, L: Number) -> Number:
-    return pick(lib, r == a, _infinite, _nothing, r)
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
-
-
-def _nothing(lib: Library, r: Number) -> Number:
-    return 0 * r
+    return pick(lib, r == a, infinite, nothing, r)
 
 
 def _potential(lib: Library, z: Number, a: Number, L: Number) -> Number:

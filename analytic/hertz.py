@@ -5,26 +5,12 @@
 (Johnson, Contact Mechanics, 1985, section 4.2(c)). Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure.
 """
 
-from functools import partial
-
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    root,
-    scaled,
-    seen_from,
-    side_of_cut,
-    sign,
-)
+from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
+from analytic._core.parameters import point, positive, positives, real
+from analytic._core.piecewise import pick
 
 
 def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
@@ -78,7 +64,7 @@ def half_width(
     >>> float(half_width(normal_load=np.pi, radius=1.0, modulus=1.0))
     2.0
     """
-    P, R, E = positive("normal_load", normal_load, lib), *_stiffness(radius, modulus, lib)
+    P, R, E = positives(lib, normal_load=normal_load, radius=radius, modulus=modulus)
     return as_result(2 * (lib.sqrt(P / E) * lib.sqrt(R)) / lib.sqrt(lib.pi))
 
 
@@ -95,14 +81,9 @@ def peak_pressure(
 
 
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp = E* b/(2R) rho, rho = b/(z + sqrt(z² - b²)), complex; ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
@@ -111,24 +92,15 @@ def potential(
     >>> complex(potential(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     (0.6-0.8j)
     """
-    z, side, (b, R, E) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, radius, modulus, lib),
-    )
-    value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b)
+    z, (b, R, E) = point(z, lib), _contact(half_width, radius, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _potential_on_cut, _potential, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
 def potential_derivative(
-    z: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side +1.
 
     At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning.
@@ -136,23 +108,15 @@ def potential_derivative(
     >>> complex(potential_derivative(0.8, half_width=1.0, radius=1.0, modulus=1.5).round(12))
     (0.75+1j)
     """
-    z, side, (b, R, E) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, radius, modulus, lib),
-    )
-    value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b)
+    z, (b, R, E) = point(z, lib), _contact(half_width, radius, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _derivative_on_cut, _derivative, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
 def _contact(
     half_width: Number, radius: Number, modulus: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    return positive("half_width", half_width, lib), *_stiffness(radius, modulus, lib)
-
-
-def _stiffness(radius: Number, modulus: Number, lib: Library) -> tuple[Number, Number]:
-    return positive("radius", radius, lib), positive("modulus", modulus, lib)
+    return positives(lib, half_width=half_width, radius=radius, modulus=modulus)
 
 
 def _ellipse(lib: Library, x: Number, b: Number) -> Number:

@@ -18,18 +18,9 @@ import numpy as np
 
 from analytic import hertz as _hertz
 from analytic import rounded_flat as _rounded_flat
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    everywhere,
-    first_where,
-    not_negative,
-    positive,
-    real,
-    root,
-)
+from analytic._core.cut import root
+from analytic._core.numbers import Library, Number, as_result, cartesian
+from analytic._core.parameters import not_negative, positive, positives, real, refuse
 
 
 class Stresses(NamedTuple):
@@ -41,15 +32,9 @@ class Stresses(NamedTuple):
 
 
 def hertz(
-    x: Number,
-    y: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    friction: Number = 0,
-    lib: Library = np,
-) -> Stresses:
+    x: Number, y: Number, *, half_width: Number, radius: Number, modulus: Number,
+    friction: Number = 0, lib: Library = np,
+) -> Stresses:  # fmt: skip
     """The stresses under a parabola, normal (friction = 0) or sliding, q = f p (Hills, Nowell & Sackfield 1993, § 3.4).
 
     `x`, `y` and the parameters broadcast. ValueError for y < 0 and input that has no meaning.
@@ -62,17 +47,9 @@ def hertz(
 
 
 def rounded_flat(
-    x: Number,
-    y: Number,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    friction: Number = 0,
-    lib: Library = np,
-) -> Stresses:
+    x: Number, y: Number, *, half_flat: Number, radius: Number, modulus: Number,
+    half_width: Number = None, rim: Number = None, friction: Number = 0, lib: Library = np,
+) -> Stresses:  # fmt: skip
     """The stresses under a flat with rounded edges, normal or sliding, from Fp and Fp' in closed form (see `rounded_flat`).
 
     >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)]
@@ -102,7 +79,7 @@ def mcewen(
     [-0.12132034356, -0.707106781187, 0.0]
     """
     x, y = real("x", x, lib), positive("y", y, lib)
-    b, p0 = positive("half_width", half_width, lib), positive("peak_pressure", peak_pressure, lib)
+    b, p0 = positives(lib, half_width=half_width, peak_pressure=peak_pressure)
     w = root(lib, cartesian(x, y, lib), b)
     n, m = w.real, w.imag
     share = (y * y + n * n) / (m * m + n * n)
@@ -116,14 +93,9 @@ def mcewen(
 
 
 def chebyshev(
-    x: Number,
-    y: Number,
-    *,
-    coefficients: Number,
-    half_width: Number,
-    friction: Number = 0,
+    x: Number, y: Number, *, coefficients: Number, half_width: Number, friction: Number = 0,
     lib: Library = np,
-) -> Stresses:
+) -> Stresses:  # fmt: skip
     """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs 22 and 23), y > 0:
 
         F = sum_n b_n rho^(2n+1),      F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²),      rho = b/(z + sqrt(z² - b²))
@@ -209,8 +181,5 @@ def _combined(F: Number, dF: Number, y: Number, f: Number) -> Stresses:
 
 def _depth(y: Number, lib: Library) -> Number:
     number = real("y", y, lib)
-    if everywhere(number >= 0):
-        return number
-    raise ValueError(
-        f"y = {first_where(number < 0, number)[0]} is above the surface; give depths y >= 0."
-    )
+    refuse(number < 0, "y = {} is above the surface; give depths y >= 0.", number)
+    return number

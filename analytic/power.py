@@ -19,7 +19,9 @@ from functools import partial
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, bits, fraction, pick, positive, real, sign
+from analytic._core.numbers import Library, Number, as_result, bits, fraction, sign
+from analytic._core.parameters import positive, positives, real
+from analytic._core.piecewise import nothing, pick
 
 # xi² = e² at which the two series meet. Both gain one bit a term there.
 MATCH_SQUARE = 1 / 2
@@ -47,14 +49,9 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
 
 
 def pressure(
-    x: Number,
-    *,
-    half_width: Number,
-    exponent: Number,
-    coefficient: Number,
-    modulus: Number,
+    x: Number, *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x = 0.
 
     `x` and the parameters broadcast, but the exponent is one number. ValueError for input that has no meaning.
@@ -62,14 +59,10 @@ def pressure(
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8
     """
-    x, b, E = (
-        abs(real("x", x, lib)),
-        positive("half_width", half_width, lib),
-        positive("modulus", modulus, lib),
-    )
+    x, (b, E) = abs(real("x", x, lib)), positives(lib, half_width=half_width, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     scale = E * m * m * (C * b ** (m - 1)) * _wallis(lib, m) / lib.pi
-    return as_result(scale * pick(lib, x < b, partial(_superposed, m), _nothing, x, b))
+    return as_result(scale * pick(lib, x < b, partial(_superposed, m), nothing, x, b))
 
 
 def load(
@@ -80,25 +73,21 @@ def load(
     >>> round(float(load(half_width=1.0, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)
     0.785398163397
     """
-    b, E = positive("half_width", half_width, lib), positive("modulus", modulus, lib)
+    b, E = positives(lib, half_width=half_width, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     return as_result(E * m * (C * b ** (m - 1)) * b * _wallis(lib, m))
 
 
 def half_width(
-    *,
-    normal_load: Number,
-    exponent: Number,
-    coefficient: Number,
-    modulus: Number,
+    *, normal_load: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The half-width b: the inverse of `load`.
 
     >>> round(float(half_width(normal_load=np.pi, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)
     2.0
     """
-    P, E = positive("normal_load", normal_load, lib), positive("modulus", modulus, lib)
+    P, E = positives(lib, normal_load=normal_load, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     return as_result((P / E / C / (m * _wallis(lib, m))) ** (1 / m))
 
@@ -128,10 +117,6 @@ def _steps(m: Number) -> int:
     """How many times 2 is taken from m to reach 1 <= m <= 3, where the formulas start."""
     steps: int = max(0, math.ceil((m - 3) / 2))
     return steps
-
-
-def _nothing(lib: Library, x: Number, b: Number) -> Number:
-    return 0 * x
 
 
 def _superposed(m: Number, lib: Library, x: Number, b: Number) -> Number:

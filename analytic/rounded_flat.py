@@ -31,27 +31,13 @@ b - a below 1e-15, that of Fp below 2e-14.
 """
 
 import math
-from functools import partial
 
 import numpy as np
 
-from analytic import _rounded as unit
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    bits,
-    most,
-    not_negative,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    scaled,
-    side_of_cut,
-    sign,
-)
+from analytic._core import rounded_contact as unit
+from analytic._core.cut import in_plane, on_cut
+from analytic._core.numbers import Library, Number, as_result, bits, most, scaled, sign
+from analytic._core.parameters import not_negative, point, positive, positives, real
 
 # b - a = length / (HERTZ + THIN_RIM (a/length)^(1/3)), length² = P R/E*, joins the two limits a -> 0 and b -> a; it is
 # only where Newton's method starts.
@@ -66,13 +52,9 @@ def height(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -
     >>> float(height(3.0, half_flat=1.0, radius=4.0))
     0.5
     """
-    x, a, R = (
-        real("x", x, lib),
-        not_negative("half_flat", half_flat, lib),
-        positive("radius", radius, lib),
-    )
+    x, a = real("x", x, lib), not_negative("half_flat", half_flat, lib)
     over = unit.beyond(x, a)
-    return as_result(over * (over / (2 * R)))
+    return as_result(over * (over / (2 * positive("radius", radius, lib))))
 
 
 def slope(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -> Number:
@@ -81,24 +63,14 @@ def slope(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) ->
     >>> float(slope(-3.0, half_flat=1.0, radius=4.0))
     -0.5
     """
-    x, a, R = (
-        real("x", x, lib),
-        not_negative("half_flat", half_flat, lib),
-        positive("radius", radius, lib),
-    )
-    return as_result(unit.beyond(x, a) / R * sign(x))
+    x, a = real("x", x, lib), not_negative("half_flat", half_flat, lib)
+    return as_result(unit.beyond(x, a) / positive("radius", radius, lib) * sign(x))
 
 
 def pressure(
-    x: Number,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
+    rim: Number = None, lib: Library = np,
+) -> Number:  # fmt: skip
     """The contact pressure p(x), and 0 outside the contact (Ciavarella, Hills & Monno 1998, eq. 32).
 
     p is finite everywhere, with p' infinite at the ends of the flat and of the contact; the largest pressure lies
@@ -108,22 +80,15 @@ def pressure(
     0.123732974194
     """
     x = real("x", x, lib)
-    contact, R, E = (
-        unit.contact_of(half_flat, half_width, rim, lib),
-        *_stiffness(radius, modulus, lib),
-    )
+    contact = unit.contact_of(half_flat, half_width, rim, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     return as_result(E * (contact.b / R) / lib.pi * unit.pressure(lib, abs(x), contact))
 
 
 def load(
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    lib: Library = np,
-) -> Number:
+    *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
+    rim: Number = None, lib: Library = np,
+) -> Number:  # fmt: skip
     """The normal load P = E* b²/(2R) (theta - sin(theta) cos(theta)) per unit length, without its cancellation.
 
     Ciavarella, Hills & Monno 1998, eq. (35). ValueError for input that has no meaning.
@@ -131,10 +96,8 @@ def load(
     >>> round(float(load(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)), 12)
     0.307092424652
     """
-    contact, R, E = (
-        unit.contact_of(half_flat, half_width, rim, lib),
-        *_stiffness(radius, modulus, lib),
-    )
+    contact = unit.contact_of(half_flat, half_width, rim, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     return as_result(E * (contact.b / R) * contact.b * unit.load_angle(lib, contact))
 
 
@@ -165,8 +128,8 @@ def rim(
     >>> round(float(rim(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0)), 11)
     0.5
     """
-    P, a = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib)
-    R, E = _stiffness(radius, modulus, lib)
+    P, R, E = positives(lib, normal_load=normal_load, radius=radius, modulus=modulus)
+    a = not_negative("half_flat", half_flat, lib)
     length = lib.sqrt(P / E) * lib.sqrt(R)  # P R/E* itself could overflow
     d = length / (HERTZ + THIN_RIM * lib.cbrt(a / length))
     for _ in range(MOST_STEPS):
@@ -180,16 +143,9 @@ def rim(
 
 
 def potential(
-    z: Number,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    side: int = +1,
-    lib: Library = np,
-) -> Number:
+    z: Number, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
+    rim: Number = None, side: int = +1, lib: Library = np,
+) -> Number:  # fmt: skip
     """The potential Fp(z) = (1/pi) ∫ p(t)/(z-t) dt, complex, at any point z = x + iy off or on the contact.
 
         Fp = E*/(pi R) [ (z-a) atan(tau v) + (z+a) atan(tau/v) - theta sqrt(z²-b²) ],       Fp ~ P/(pi z) far away.
@@ -201,29 +157,19 @@ def potential(
     >>> complex(potential(0.9, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)).real
     0.2
     """
-    z, side = point(z, lib), side_of_cut(side)
-    contact, R, E = (
-        unit.contact_of(half_flat, half_width, rim, lib),
-        *_stiffness(radius, modulus, lib),
-    )
-    on_contact = partial(unit.potential_on_cut, side=side)
-    value = pick(
-        lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.potential_off_cut, z, contact
-    )
+    z = point(z, lib)
+    contact = unit.contact_of(half_flat, half_width, rim, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
+    cut = on_cut(lib, z, contact.b, contact.low)
+    limit, elsewhere = unit.potential_on_cut, unit.potential_off_cut
+    value = in_plane(lib, cut, side, limit, elsewhere, z, contact)
     return as_result(scaled(E * (contact.b / R) / lib.pi, value, lib))
 
 
 def potential_derivative(
-    z: Number,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    side: int = +1,
-    lib: Library = np,
-) -> Number:
+    z: Number, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
+    rim: Number = None, side: int = +1, lib: Library = np,
+) -> Number:  # fmt: skip
     """The derivative Fp'(z) = E*/(pi R) [ atan(tau v) + atan(tau/v) - theta z/sqrt(z²-b²) ].
 
     On the contact it is E*/2 h'' - i p' on the side +1, conjugate on the side -1. At |x| = a and |x| = b, where p'
@@ -233,28 +179,19 @@ def potential_derivative(
     >>> complex(potential_derivative(0.9, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)).real
     0.5
     """
-    z, side = point(z, lib), side_of_cut(side)
-    contact, R, E = (
-        unit.contact_of(half_flat, half_width, rim, lib),
-        *_stiffness(radius, modulus, lib),
-    )
-    on_contact = partial(unit.derivative_on_cut, side=side)
-    value = pick(
-        lib, on_cut(lib, z, contact.b, contact.low), on_contact, unit.derivative_off_cut, z, contact
-    )
+    z = point(z, lib)
+    contact = unit.contact_of(half_flat, half_width, rim, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
+    cut = on_cut(lib, z, contact.b, contact.low)
+    limit, elsewhere = unit.derivative_on_cut, unit.derivative_off_cut
+    value = in_plane(lib, cut, side, limit, elsewhere, z, contact)
     return as_result(scaled(E / R / lib.pi, value, lib))
 
 
 def chebyshev_coefficients(
-    count: int,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    lib: Library = np,
-) -> Number:
+    count: int, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
+    rim: Number = None, lib: Library = np,
+) -> Number:  # fmt: skip
     """The first `count` coefficients b_n of p(x) = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b), an array or a list.
 
     Ciavarella, Hills & Monno 1998, eq. (22). With these, Fp(z) = sum_n b_n rho^(2n+1), rho = b/(z + sqrt(z²-b²)), and
@@ -270,14 +207,8 @@ def chebyshev_coefficients(
     """
     if count != int(count) or count < 0:
         raise ValueError(f"count = {count} is not a number of coefficients; give an integer >= 0.")
-    contact, R, E = (
-        unit.contact_of(half_flat, half_width, rim, lib),
-        *_stiffness(radius, modulus, lib),
-    )
+    contact = unit.contact_of(half_flat, half_width, rim, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     scale = E * (contact.b / R)
     b_n = [scale * unit.coefficient(lib, n, contact) for n in range(int(count))]
     return np.array(b_n) if lib is np else b_n
-
-
-def _stiffness(radius: Number, modulus: Number, lib: Library) -> tuple[Number, Number]:
-    return positive("radius", radius, lib), positive("modulus", modulus, lib)

@@ -14,20 +14,10 @@ x = 0. (For the equations behind: Gladwell, Contact Problems, 1980.)
 
 import numpy as np
 
-from analytic._agm import agm, means, ratio_D, third_kind
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    bits,
-    everywhere,
-    first_where,
-    most,
-    pick,
-    positive,
-    real,
-    sign,
-)
+from analytic._core.elliptic import agm, means, ratio_D, third_kind
+from analytic._core.numbers import Library, Number, as_result, bits, most, sign
+from analytic._core.parameters import patch_ends, positive, positives, real, refuse
+from analytic._core.piecewise import nothing, pick
 
 MOST_STEPS = 60
 # ln(c2/c1) beyond which c1 is next to the least double.
@@ -62,7 +52,7 @@ def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
     >>> round(float(distance(inner=1.0, outer=2.0)), 12)
     1.456791031047
     """
-    c1, c2 = _ends(inner, outer, lib)
+    c1, c2 = patch_ends(inner, outer, lib)
     return as_result(agm(lib, c2, c1))
 
 
@@ -74,8 +64,8 @@ def load(
     >>> round(float(load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0) / np.pi), 12)
     0.126840027595
     """
-    c1, c2 = _ends(inner, outer, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
+    c1, c2 = patch_ends(inner, outer, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     half = (c2 - c1) / 2
     return as_result(lib.pi / 2 * E * (half / R) * half * _gain(lib, half / c2, c1 / c2))
 
@@ -92,11 +82,10 @@ def edges(
     >>> tuple(round(float(c), 12) for c in edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0, modulus=1.0))
     (1.0, 2.0)
     """
-    P, d = positive("normal_load", normal_load, lib), positive("distance", distance, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(
-        R
-    )  # the half-width of each without its neighbour
+    P, d = positives(lib, normal_load=normal_load, distance=distance)
+    R, E = positives(lib, radius=radius, modulus=modulus)
+    # The half-width of each without its neighbour
+    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(R)
     t = 2 * length / d
     for _ in range(MOST_STEPS):
         _refuse_far(t, length / d)
@@ -118,21 +107,11 @@ def pressure(
     >>> round(float(pressure(1.5, inner=1.0, outer=2.0, radius=1.0, modulus=1.0)), 12)
     0.253652979653
     """
-    r, (c1, c2) = abs(real("x", x, lib)), _ends(inner, outer, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
+    r, (c1, c2) = abs(real("x", x, lib)), patch_ends(inner, outer, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     return as_result(
-        E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, _nothing, r, c1, c2)
+        E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, nothing, r, c1, c2)
     )
-
-
-def _ends(inner: Number, outer: Number, lib: Library) -> tuple[Number, Number]:
-    c1, c2 = positive("inner", inner, lib), positive("outer", outer, lib)
-    if not everywhere(c1 < c2):
-        near, far = first_where(np.logical_not(c1 < c2) if lib is np else True, c1, c2)
-        raise ValueError(
-            f"outer = {far} is not more than inner = {near}; give inner < outer, the edges of one patch."
-        )
-    return c1, c2
 
 
 def _gain(lib: Library, c: Number, kc: Number) -> Number:
@@ -156,16 +135,9 @@ def _newton_step(lib: Library, t: Number, length: Number) -> Number:
 
 
 def _refuse_far(t: Number, length: Number) -> None:
-    if not everywhere(t < FARTHEST):
-        far = ~(t < FARTHEST) if isinstance(t, np.ndarray) else True
-        (ratio,) = first_where(far, length * length * np.pi / 2)
-        raise ValueError(
-            f"normal_load = {ratio} E* d²/R leaves c1/c2 < exp(-{FARTHEST}); give a smaller load."
-        )
-
-
-def _nothing(lib: Library, r: Number, *_: Number) -> Number:
-    return 0 * r
+    message = "normal_load = {} E* d²/R leaves c1/c2 < exp(-{}); give a smaller load."
+    far = np.logical_not(t < FARTHEST)  # a step out of the range of doubles leaves a nan
+    refuse(far, message, length * length * np.pi / 2, FARTHEST)
 
 
 def _pressure_inside(lib: Library, r: Number, c1: Number, c2: Number) -> Number:

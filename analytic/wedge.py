@@ -7,26 +7,12 @@ Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contac
 - i arccosh(b/|x|), so that Fp = E*/2 h' - i p, and far away Fp ~ E* A b/(pi z), which together determine it.
 """
 
-from functools import partial
-
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    root,
-    scaled,
-    seen_from,
-    side_of_cut,
-    sign,
-)
+from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
+from analytic._core.parameters import point, positive, positives, real
+from analytic._core.piecewise import infinite, pick
 
 
 def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
@@ -68,19 +54,14 @@ def half_width(*, normal_load: Number, slope: Number, modulus: Number, lib: Libr
     >>> float(half_width(normal_load=2.0, slope=0.1, modulus=10.0))
     2.0
     """
-    P, A, E = positive("normal_load", normal_load, lib), *_stiffness(slope, modulus, lib)
+    P, A, E = positives(lib, normal_load=normal_load, slope=slope, modulus=modulus)
     return as_result(P / E / A)
 
 
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    slope: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp = (E* A/pi) arcsin(b/z), complex; ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
@@ -89,20 +70,15 @@ def potential(
     >>> complex(potential(1.0, half_width=1.0, slope=0.1, modulus=10.0)).real
     0.5
     """
-    z, side, (b, A, E) = point(z, lib), side_of_cut(side), _contact(half_width, slope, modulus, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b)
+    z, (b, A, E) = point(z, lib), _contact(half_width, slope, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _potential_on_cut, _potential, z, b)
     return as_result(scaled(E * A / lib.pi, value, lib))
 
 
 def potential_derivative(
-    z: Number,
-    *,
-    half_width: Number,
-    slope: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The derivative Fp' = -(E* A/pi) b/(z sqrt(z² - b²)); on the contact - i p' on the side +1.
 
     At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit from x > 0).
@@ -111,33 +87,25 @@ def potential_derivative(
     >>> round(complex(potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)).imag, 12)
     2.083333333333
     """
-    z, side, (b, A, E) = point(z, lib), side_of_cut(side), _contact(half_width, slope, modulus, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b)
+    z, (b, A, E) = point(z, lib), _contact(half_width, slope, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _derivative_on_cut, _derivative, z, b)
     return as_result(scaled(E * (A / b) / lib.pi, value, lib))
 
 
 def _contact(
     half_width: Number, slope: Number, modulus: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    return positive("half_width", half_width, lib), *_stiffness(slope, modulus, lib)
-
-
-def _stiffness(slope: Number, modulus: Number, lib: Library) -> tuple[Number, Number]:
-    return positive("slope", slope, lib), positive("modulus", modulus, lib)
+    return positives(lib, half_width=half_width, slope=slope, modulus=modulus)
 
 
 def _arccosh(lib: Library, x: Number, b: Number) -> Number:
     """arccosh(b/x) at x >= 0, inf at 0, and 0 beyond b."""
-    return pick(lib, x > 0, _arccosh_beside_apex, _infinite, x, b)
+    return pick(lib, x > 0, _arccosh_beside_apex, infinite, x, b)
 
 
 def _arccosh_beside_apex(lib: Library, x: Number, b: Number) -> Number:
     """By arccosh(1+2s²) = 2 arsinh(s), which keeps what b - x knows near the edge."""
     return 2 * lib.asinh(lib.sqrt((b - x) * (x < b)) / lib.sqrt(2 * x))
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
 
 
 def _potential(lib: Library, z: Number, b: Number) -> Number:

@@ -897,7 +897,7 @@ def test_an_unloaded_flat_has_no_pressure() -> None:
 def test_the_closed_forms_import_nothing_but_numpy_and_themselves() -> None:
     """No solver, which they are to check, and no mpmath, whose contexts the caller brings."""
     allowed = set(sys.stdlib_module_names) | {"numpy", "analytic"}
-    for path in Path(analytic.__file__).parent.glob("*.py"):
+    for path in Path(analytic.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             names += [str(node.module)] if isinstance(node, ast.ImportFrom) else []

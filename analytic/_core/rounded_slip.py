@@ -6,9 +6,11 @@ The mathematics and the notation are those of `cattaneo_rounded`.
 from typing import NamedTuple
 
 from analytic import rounded_flat
-from analytic._artanh import atan_excess
-from analytic._lib import Library, Number, bits, everywhere, not_negative, pick, positive
-from analytic._partial_slip import Traction, integral
+from analytic._core.arc_functions import atan_excess
+from analytic._core.numbers import Library, Number, bits, everywhere
+from analytic._core.parameters import not_negative, positives
+from analytic._core.piecewise import nothing, pick
+from analytic._core.tangential_load import Traction, integral
 
 MOST_STEPS = 60
 
@@ -28,11 +30,10 @@ class Zones(NamedTuple):
 def contact_of(
     normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library
 ) -> tuple[Number, Contact]:
-    P, a = positive("normal_load", normal_load, lib), not_negative("half_flat", half_flat, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    return P, Contact(
-        a, rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib), R, E
-    )
+    P, R, E = positives(lib, normal_load=normal_load, radius=radius, modulus=modulus)
+    a = not_negative("half_flat", half_flat, lib)
+    rim = rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib)
+    return P, Contact(a, rim, R, E)
 
 
 def zones_of(lib: Library, P: Number, contact: Contact, used: Traction) -> Zones:
@@ -109,10 +110,6 @@ def _load_between_apart(lib: Library, width: Number, a: Number, stick: Number) -
 def _arc_excess(lib: Library, y2: Number) -> Number:
     """atan(y)/y - 1."""
     return pick(lib, y2 > 0, atan_excess, nothing, y2)
-
-
-def nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
 
 
 def slip_at(lib: Library, beyond: Number, stick: Number, a: Number) -> Number:

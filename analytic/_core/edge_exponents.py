@@ -9,7 +9,9 @@ with limits from above and below whose ratio is -exp(-2 pi i eps). In full slidi
 made of X, the singular ones of Y = exp(2 eps t)/S.
 """
 
-from analytic._lib import Library, Number, bits, pick, root
+from analytic._core.cut import root
+from analytic._core.numbers import Library, Number, bits
+from analytic._core.piecewise import pick
 
 # Below this |rho|² functions that decay are summed as series in rho, three bits a term.
 SMALL_SQUARE = 1 / 8

@@ -6,12 +6,13 @@ With 0 < alpha < 1, the exponent of p at an edge being 1 - alpha there,
     A      = (1+V) phi(-V) - 1 = sum_n n! Y^n/(1+alpha)_n,  n >= 1,  Y = V/(1+V)
     B(y)   = 1 - (1-y) phi(y)  = sum_n alpha y^n/((alpha+n-1)(alpha+n)),  n >= 1
 
-for 0 <= y <= 1 and 0 <= Y < 1. All terms are positive. For alpha = 1/2 they are the functions of `_artanh`.
+for 0 <= y <= 1 and 0 <= Y < 1. All terms are positive. For alpha = 1/2 they are the functions of `arc_functions`.
 """
 
 import math
 
-from analytic._lib import Library, Number, bits, fraction, most, pick
+from analytic._core.numbers import Library, Number, bits, fraction, most
+from analytic._core.piecewise import pick
 
 # Below this y the closed form of B loses more than three bits, and its series, three bits a term, takes over.
 SMALL = 1 / 8

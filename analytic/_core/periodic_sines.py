@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from analytic._lib import Library, Number, cartesian, pick
+from analytic._core.numbers import Library, Number, cartesian
+from analytic._core.piecewise import pick
 
 
 def in_period(lib: Library, x: Number, L: Number) -> Number:

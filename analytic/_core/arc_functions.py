@@ -7,7 +7,8 @@ and atan(y)/y - 1, artanh(y)/y - 1. All are even, so that they are given y². Ne
 artanh what counts is 1 - y², which the caller computes from lengths and hands over.
 """
 
-from analytic._lib import Library, Number, bits, fraction, pick
+from analytic._core.numbers import Library, Number, bits, fraction
+from analytic._core.piecewise import pick
 
 # Below this |y|² the closed forms lose more than three bits, and series take over. The power series gain three bits a
 # term there. Halving the argument, artanh(y) = 2 artanh(y/(1 + sqrt(1-y²))), makes it five.

@@ -8,7 +8,7 @@ k'² = (b_0/a_0)² = 1 - k² (Borwein & Borwein, Pi and the AGM, 1987, chapter 1
 
 from collections.abc import Iterator
 
-from analytic._lib import Library, Number, bits, everywhere
+from analytic._core.numbers import Library, Number, bits, everywhere
 
 
 def means(lib: Library, a: Number, b: Number, c: Number) -> Iterator[tuple[Number, Number]]:

@@ -8,24 +8,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from analytic._artanh import BITS_A_TERM, SMALL_SQUARE, A, B, artanh_excess, atan_excess
-from analytic._lib import (
-    Library,
-    Number,
-    bits,
-    cartesian,
-    everywhere,
-    first_where,
-    fraction,
-    larger,
-    not_negative,
-    pick,
-    positive,
-    seen_from,
-    sign,
-    smaller,
-    together,
-)
+from analytic._core.arc_functions import BITS_A_TERM, SMALL_SQUARE, A, B, artanh_excess, atan_excess
+from analytic._core.cut import seen_from
+from analytic._core.numbers import Library, Number, bits, cartesian, fraction, larger, sign, smaller
+from analytic._core.parameters import not_negative, positive, refuse
+from analytic._core.piecewise import nothing, pick, together
 
 
 class Contact(NamedTuple):
@@ -66,23 +53,17 @@ def contact_of(half_flat: Number, half_width: Number, rim: Number, lib: Library)
 
 
 def _refuse_narrow(a: Number, b: Number) -> None:
-    if everywhere(a <= b):
-        return
-    flat, width = first_where(a > b, a, b)
-    raise ValueError(
-        f"half_width = {width} is less than half_flat = {flat}, but the contact covers the whole flat under any load; "
-        "give half_width >= half_flat, or rim = half_width - half_flat in its place."
+    message = (
+        "half_width = {} is less than half_flat = {}, but the contact covers the whole flat under "
+        "any load; give half_width >= half_flat, or rim = half_width - half_flat in its place."
     )
+    refuse(a > b, message, b, a)
 
 
 def beyond(x: Number, a: Number) -> Number:
     """|x| - a outside the flat, 0 on it."""
     over = abs(x) - a
     return (over + abs(over)) / 2
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
 
 
 def pressure(lib: Library, x: Number, contact: Contact) -> Number:
@@ -228,7 +209,7 @@ def derivative_on_cut(lib: Library, z: Number, contact: Contact, *, side: int) -
     """pi R/E* Fp' for real z in the contact."""
     x, a = abs(z.real), contact.a
     curvature = lib.pi / 4 * (((x > a) | (a == 0)) * 1 + (x >= a) * 1)
-    steepness = pick(lib, (x == 0) | (contact.rim == 0), _nothing, _pressure_slope, x, contact)
+    steepness = pick(lib, (x == 0) | (contact.rim == 0), nothing, _pressure_slope, x, contact)
     return cartesian(curvature, -seen_from(z, side) * sign(z.real) * steepness, lib)
 
 

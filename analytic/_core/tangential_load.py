@@ -5,16 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    bits,
-    first_where,
-    not_negative,
-    positive,
-    real,
-)
+from analytic._core.numbers import Library, Number, as_result, bits
+from analytic._core.parameters import not_negative, positives, real, refuse
 
 # Dekker's constant splits a double into two halves whose products are exact.
 SPLITTER = 2.0**27 + 1
@@ -41,18 +33,11 @@ def traction(
     name: str = "tangential_load",
 ) -> Traction:
     """The traction under 0 <= Q <= f P. ValueError for other loads."""
-    f, P, Q = (
-        positive("friction", friction, lib),
-        positive("normal_load", normal_load, lib),
-        not_negative(name, tangential_load, lib),
-    )
+    f, P = positives(lib, friction=friction, normal_load=normal_load)
+    Q = not_negative(name, tangential_load, lib)
     rest = _rest(f, P, Q) if lib is np else f * P - Q
-    sliding = rest < 0
-    if np.any(sliding):
-        bad, most = first_where(sliding, Q, f * P)
-        raise ValueError(
-            f"{name} = {bad} exceeds friction * normal_load = {most}: the bodies slide; give a smaller one."
-        )
+    message = "{} exceeds friction * normal_load = {}: the bodies slide; give a smaller one."
+    refuse(rest < 0, f"{name} = {message}", Q, f * P)
     return Traction(Q / P / f, rest / P / f)
 
 
@@ -69,12 +54,10 @@ def turned(
         real("tangential_load", tangential_load, lib),
         not_negative("largest_load", largest_load, lib),
     )
-    outside = abs(Q) > most
-    if np.any(outside):
-        bad, limit = first_where(outside, Q, most)
-        raise ValueError(
-            f"tangential_load = {bad} is not between ± largest_load = {limit}; give a load on the way back."
-        )
+    message = (
+        "tangential_load = {} is not between ± largest_load = {}; give a load on the way back."
+    )
+    refuse(abs(Q) > most, message, Q, most)
     return top, traction(lib, friction, normal_load, (most - Q) / 2)
 
 
@@ -87,12 +70,11 @@ def turned_twice(
     """
     most, least, Q = (real(name, value, lib) for name, value in zip(NAMES, loads, strict=True))
     top, down = turned(lib, friction, normal_load, most, least)
-    outside = (least > Q) | (most < Q)
-    if np.any(outside):
-        bad, low, high = first_where(outside, Q, least, most)
-        raise ValueError(
-            f"tangential_load = {bad} is not between least_load = {low} and largest_load = {high}; give one that is."
-        )
+    message = (
+        "tangential_load = {} is not between least_load = {} and largest_load = {}; "
+        "give one that is."
+    )
+    refuse((least > Q) | (most < Q), message, Q, least, most)
     return top, down, traction(lib, friction, normal_load, (Q - least) / 2)
 
 
