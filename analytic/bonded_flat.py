@@ -19,20 +19,26 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import JOHNSON, MUSKHELISHVILI, documented
 from analytic._core.edge_exponents import singular, singular_remainder
 from analytic._core.numbers import Library, Number, as_result, cartesian, sign
 from analytic._core.parameters import point, positive, positives, real, refuse
 from analytic._core.piecewise import nothing, pick
 
+SOURCES = (
+    f"{MUSKHELISHVILI}, part V",
+    f"{JOHNSON}, section 2.8",
+)
 
+
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
     moment: Number = 0, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The pressure p(x), negative where the bond pulls; inf at the corners, 0 outside.
 
-    (At a corner p has no limit for beta ≠ 0, and inf stands for its growing bounds.) `x` and the parameters broadcast.
-    ValueError for input that has no meaning.
+    (At a corner p has no limit for beta ≠ 0, and inf stands for its growing bounds.)
 
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)), 12)
     1.25
@@ -42,13 +48,13 @@ def pressure(
     return as_result(_pressure(lib, x, contact))
 
 
+@documented("the shear q, a stress", *SOURCES)
 def shear(
     x: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
     moment: Number = 0, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) on the half-plane, with ∫ q dx = Q; inf at the corners as the pressure is, 0 outside.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
+    """The shear q(x) on the half-plane, with ∫ q dx = Q; inf at the corners as the pressure is, 0
+    outside.
 
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25
@@ -58,11 +64,13 @@ def shear(
     return as_result(_shear(lib, x, contact))
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def tilt(
     *, half_width: Number, dundurs: Number, modulus: Number, shear_load: Number = 0,
     moment: Number = 0, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The rotation h' = -4 (M + 2 eta b Q)/(pi E* b² (1 + 4 eta²)); the normal load does not rotate the flat.
+    """The rotation h' = -4 (M + 2 eta b Q)/(pi E* b² (1 + 4 eta²)); the normal load does not rotate
+    the flat.
 
     >>> round(float(tilt(half_width=1.0, dundurs=0.0, modulus=1.0, moment=np.pi / 4)), 12)
     -1.0
@@ -71,14 +79,15 @@ def tilt(
     return as_result(-2 * contact.A / positive("modulus", modulus, lib))
 
 
+@documented("the potential Fp + i Fq, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
     moment: Number = 0, side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The potential Fp + i Fq = (1/pi) ∫ (p + iq)(t)/(z-t) dt, complex; ~ (P + iQ)/(pi z) far away.
 
-    Fp(z) alone is the mean of this at z and of its conjugate at the conjugate of z. Real z in the contact are on the cut:
-    there it is E*/2 h' - i (beta ± 1) (p + iq), ± the `side`. ValueError for input that has no meaning.
+    Fp(z) alone is the mean of this at z and of its conjugate at the conjugate of z. Real z in the
+    contact are on the cut: there it is E*/2 h' - i (beta ± 1) (p + iq), ± the `side`.
 
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)).imag
     -1.25

@@ -22,12 +22,19 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic._core.arc_functions import B
+from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result
 from analytic._core.parameters import positive, positives, real, refuse
 from analytic._core.piecewise import nothing, pick
 from analytic._core.tangential_load import Traction, traction, turned, turned_twice
 
+SOURCES = (
+    "C. Cattaneo (1938) and R. D. Mindlin (1949)",
+    f"{JOHNSON}, section 7.2",
+)
 
+
+@documented("half the length of the stick zone, a length", *SOURCES)
 def stick_half_width(
     *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     lib: Library = np,
@@ -41,6 +48,7 @@ def stick_half_width(
     return as_result(b * lib.sqrt(traction(lib, friction, normal_load, tangential_load).left))
 
 
+@documented("the length of a slip zone", *SOURCES)
 def slip_width(
     *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     lib: Library = np,
@@ -54,13 +62,14 @@ def slip_width(
     return as_result(_slip_width(lib, b, traction(lib, friction, normal_load, tangential_load)))
 
 
+@documented("the shear q, a stress", *SOURCES)
 def shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number,
     tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The shear q(x) while Q rises from 0: f p in the slip zones, f (p_b - p_c) in the stick zone.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for Q > f P.
+    ValueError for Q > f P.
 
     >>> round(float(shear(0.0, half_width=1.0, normal_load=np.pi, friction=0.5, tangential_load=0.375 * np.pi)), 12)
     0.5
@@ -70,13 +79,14 @@ def shear(
     return as_result(scale * _ellipses(lib, x, b, used))
 
 
+@documented("the shear q, a stress", *SOURCES)
 def unloading_shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number, largest_load: Number,
     tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The shear q(x) when Q has fallen from Q_max to Q >= -Q_max.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
+    ValueError for loads out of order.
 
     >>> given = dict(half_width=1.0, normal_load=np.pi, friction=0.5, largest_load=0.375 * np.pi)
     >>> round(float(unloading_shear(0.0, **given, tangential_load=-0.375 * np.pi)), 12)
@@ -87,13 +97,15 @@ def unloading_shear(
     return as_result(scale * (_ellipses(lib, x, b, top) - 2 * _ellipses(lib, x, b, down)))
 
 
+@documented("the shear q, a stress", *SOURCES)
 def reloading_shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number, largest_load: Number,
     least_load: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <= Q_max.
+    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <=
+    Q_max.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
+    ValueError for loads out of order.
 
     >>> given = dict(half_width=1.0, normal_load=np.pi, friction=0.5, largest_load=0.375 * np.pi, least_load=-0.5)
     >>> round(float(reloading_shear(0.0, **given, tangential_load=0.375 * np.pi)), 12)
@@ -107,14 +119,16 @@ def reloading_shear(
     return as_result(scale * (first - 2 * down + 2 * up))
 
 
+@documented("the slip s, a length >= 0", *SOURCES)
 def slip(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number,
     tangential_load: Number, modulus: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q rose from 0.
+    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q
+    rose from 0.
 
-    s' = sign(x) (4fP/(pi E* b²)) sqrt(x² - c²), s = 0 where they stick, and, by agreement, where they do not touch.
-    ValueError for input that has no meaning and for Q > f P.
+    s' = sign(x) (4fP/(pi E* b²)) sqrt(x² - c²), s = 0 where they stick, and, by agreement, where
+    they do not touch. ValueError for Q > f P.
 
     >>> round(float(slip(1.0, half_width=1.0, normal_load=np.pi, friction=0.5, tangential_load=0.5 * np.pi, modulus=2.0)), 12)
     0.5
@@ -128,14 +142,16 @@ def slip(
     return as_result(scale / positive("modulus", modulus, lib) * value)
 
 
+@documented("the shift, a length", *SOURCES)
 def excess_shift(
     *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """How much farther than without slip the bodies shift: (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
+    """How much farther than without slip the bodies shift: (fP/(pi E*)) [r + (1-r) ln(1-r)], r =
+    Q/(fP).
 
-    The shift itself depends on the bodies' depth, as the approach does: only this part is the contact's own. It is
-    (2/(pi E*)) ∫ ln(b/c) dQ. ValueError for input that has no meaning and for Q > f P.
+    The shift itself depends on the bodies' depth, as the approach does: only this part is the
+    contact's own. It is (2/(pi E*)) ∫ ln(b/c) dQ. ValueError for Q > f P.
 
     >>> round(float(excess_shift(normal_load=np.pi, friction=1.0, tangential_load=np.pi, modulus=2.0)), 12)
     0.5
@@ -146,13 +162,15 @@ def excess_shift(
     return as_result(f * (P / E) / lib.pi * used * (1 + left) / 2 * (y + _B(lib, used, left)))
 
 
+@documented("the energy per cycle and unit length of the line contact, a force", *SOURCES)
 def dissipation(
     *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The energy (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP), lost in each cycle between Q and -Q per unit length.
+    """The energy (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP), lost in each cycle between Q
+    and -Q per unit length.
 
-    ValueError for input that has no meaning and for Q > f P.
+    ValueError for Q > f P.
 
     >>> round(float(dissipation(normal_load=np.pi, friction=1.0, tangential_load=np.pi, modulus=2.0) / np.pi), 12)
     1.0
@@ -162,14 +180,16 @@ def dissipation(
     return as_result(2 * f * P * (f * P / E) / lib.pi * used * (1 + left) * _B(lib, used, left))
 
 
+@documented("the ends of the stick zone, lengths", *SOURCES)
 def bulk_stick(
     *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     bulk_stress: Number, lib: Library = np,
 ) -> tuple[Number, Number]:  # fmt: skip
-    """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q, e = pi sigma b²/(8fP).
+    """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q, e =
+    pi sigma b²/(8fP).
 
-    Nowell & Hills 1987. ValueError for input that has no meaning, for Q > f P, and where |e| > b - c: there the bulk
-    stress reverses the slip at one edge, and the stick zone has no closed form.
+    Nowell & Hills 1987. ValueError for Q > f P, and where |e| > b - c: there the bulk stress
+    reverses the slip at one edge, and the stick zone has no closed form.
 
     >>> given = dict(half_width=1.0, normal_load=np.pi, friction=0.5, tangential_load=0.375 * np.pi, bulk_stress=0.4)
     >>> tuple(round(float(x), 12) for x in bulk_stick(**given))
@@ -180,13 +200,15 @@ def bulk_stick(
     return as_result(e - c), as_result(e + c)
 
 
+@documented("the shear q, a stress", *SOURCES)
 def bulk_shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number,
     tangential_load: Number, bulk_stress: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) under Q and a bulk tension sigma that rises with it, (1/pi) PV∫ q(t)/(x-t) dt = sigma/4 in stick.
+    """The shear q(x) under Q and a bulk tension sigma that rises with it, (1/pi) PV∫ q(t)/(x-t) dt
+    = sigma/4 in stick.
 
-    `x` and the parameters broadcast. ValueError as in `bulk_stick`.
+    ValueError as in `bulk_stick`.
 
     >>> given = dict(half_width=1.0, normal_load=np.pi, friction=0.5, tangential_load=0.375 * np.pi)
     >>> bool(bulk_shear(0.3, **given, bulk_stress=0.0) == shear(0.3, **given))

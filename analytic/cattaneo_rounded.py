@@ -19,6 +19,7 @@ integrated. Loads, not widths, are what is given, since Q and f P must be known 
 
 import numpy as np
 
+from analytic._core.documentation import CIAVARELLA, documented
 from analytic._core.numbers import Library, Number, as_result
 from analytic._core.parameters import not_negative, positive, real, refuse
 from analytic._core.piecewise import nothing, pick
@@ -32,16 +33,20 @@ from analytic._core.rounded_slip import (
 )
 from analytic._core.tangential_load import Traction, integral, traction, turned, turned_twice
 
+SOURCES = (f"{CIAVARELLA}, equations (18) to (20)",)
+
 # A first loading counts once, every turn of the load twice: there and back.
 TURNS = (1, -2, 2)
 
 
+@documented("the ratio Q/(fP), a number from 0 to 1", *SOURCES)
 def loading_ratio(
     *, half_flat: Number, half_width: Number, stick_half_width: Number, lib: Library = np
 ) -> Number:
-    """The part Q/(fP) of the friction at which the stick zone has the half-width c (Ciavarella, Hills & Monno 1998, eq. 20).
+    """The part Q/(fP) of the friction at which the stick zone has the half-width c (Ciavarella,
+    Hills & Monno 1998, eq. 20).
 
-    ValueError for input that has no meaning and unless a <= c <= b.
+    ValueError unless a <= c <= b.
 
     >>> float(loading_ratio(half_flat=0.0, half_width=1.0, stick_half_width=0.5))
     0.75
@@ -57,6 +62,7 @@ def loading_ratio(
     return as_result(load_between(lib, a, c - a, b - c) / whole)
 
 
+@documented("the length c - a", *SOURCES)
 def stick_rim(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number,
     tangential_load: Number, lib: Library = np,
@@ -74,6 +80,7 @@ def stick_rim(
     return as_result(zones_of(lib, P, contact, used).stick)
 
 
+@documented("the length of a slip zone", *SOURCES)
 def slip_width(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number,
     tangential_load: Number, lib: Library = np,
@@ -89,13 +96,14 @@ def slip_width(
     return as_result(zones_of(lib, P, contact, used).slip)
 
 
+@documented("the shear q, a stress", *SOURCES)
 def shear(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     friction: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The shear q(x) while Q rises from 0: f p in the slip zones, f (p_b - p_c) in the stick zone.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for Q > f P.
+    ValueError for Q > f P.
 
     >>> given = dict(normal_load=np.pi / 4, half_flat=0.0, radius=1.0, modulus=1.0, friction=1.0)
     >>> round(float(shear(0.0, **given, tangential_load=3 * np.pi / 16)), 12)
@@ -106,13 +114,14 @@ def shear(
     return _shear(x, P, contact, friction, used, lib=lib)
 
 
+@documented("the shear q, a stress", *SOURCES)
 def unloading_shear(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     friction: Number, largest_load: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The shear q(x) when Q has fallen from Q_max to Q >= -Q_max.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
+    ValueError for loads out of order.
 
     >>> given = dict(normal_load=np.pi / 4, half_flat=0.0, radius=1.0, modulus=1.0, friction=1.0)
     >>> round(float(unloading_shear(0.0, **given, largest_load=3 * np.pi / 16, tangential_load=-3 * np.pi / 16)), 12)
@@ -123,14 +132,16 @@ def unloading_shear(
     return _shear(x, P, contact, friction, used, lib=lib)
 
 
+@documented("the shear q, a stress", *SOURCES)
 def reloading_shear(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     friction: Number, largest_load: Number, least_load: Number, tangential_load: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <= Q_max.
+    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <=
+    Q_max.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for loads out of order.
+    ValueError for loads out of order.
 
     >>> given = dict(normal_load=np.pi / 4, half_flat=0.0, radius=1.0, modulus=1.0, friction=1.0)
     >>> loads = dict(largest_load=3 * np.pi / 16, least_load=0.1, tangential_load=3 * np.pi / 16)
@@ -142,13 +153,15 @@ def reloading_shear(
     return _shear(x, P, contact, friction, used, lib=lib)
 
 
+@documented("the slip s, a length >= 0", *SOURCES)
 def slip(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     friction: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q rose from 0.
+    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q
+    rose from 0.
 
-    0 where they stick, and, by agreement, where they do not touch. ValueError for input that has no meaning and for Q > f P.
+    0 where they stick, and, by agreement, where they do not touch. ValueError for Q > f P.
 
     >>> given = dict(normal_load=np.pi / 4, half_flat=0.0, radius=1.0, modulus=1.0, friction=1.0)
     >>> round(float(slip(1.0, **given, tangential_load=np.pi / 4)), 12)
@@ -164,13 +177,14 @@ def slip(
     return as_result(2 * f / contact.R / lib.pi * value)
 
 
+@documented("the energy per cycle and unit length of the line contact, a force", *SOURCES)
 def dissipation(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, friction: Number,
     tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The energy W lost in each cycle between Q and -Q, per unit length.
 
-    ValueError for input that has no meaning and for Q > f P.
+    ValueError for Q > f P.
 
     >>> given = dict(normal_load=np.pi, half_flat=0.0, radius=1.0, modulus=2.0, friction=1.0)
     >>> round(float(dissipation(**given, tangential_load=np.pi) / np.pi), 12)

@@ -14,17 +14,19 @@ K_I = lim sqrt(2 pi r) sigma_yy(r), r the distance ahead of the tip.
 
 import numpy as np
 
+from analytic._core.documentation import TADA, documented
 from analytic._core.elliptic import ratio_D
 from analytic._core.numbers import Library, Number, as_result
 from analytic._core.parameters import patch_ends, positives, real, refuse
 
+SOURCES = (TADA,)
 
+
+@documented("the two stress intensity factors, stress times root of length", *SOURCES)
 def pair(
     *, inner: Number, outer: Number, tension: Number, lib: Library = np
 ) -> tuple[Number, Number]:
     """The factors (K_I at |x| = a, K_I at |x| = b) of the two collinear cracks a < |x| < b.
-
-    ValueError for input that has no meaning.
 
     >>> tuple(round(float(K), 9) for K in pair(inner=1e9, outer=1e9 + 2.0, tension=1.0) / np.sqrt(np.pi))
     (1.0, 1.0)
@@ -35,10 +37,10 @@ def pair(
     return as_result(scale * lib.sqrt(b / a) * (1 - D_K)), as_result(scale * D_K)
 
 
+@documented("the stress intensity factor, stress times root of length", *SOURCES)
 def row(*, half_length: Number, period: Number, tension: Number, lib: Library = np) -> Number:
-    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a, one in each period W > 2a.
-
-    ValueError for input that has no meaning.
+    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a, one in each
+    period W > 2a.
 
     >>> round(float(row(half_length=1.0, period=4.0, tension=1.0)), 12)
     2.0

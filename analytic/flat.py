@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import JOHNSON, MUSKHELISHVILI, documented
 from analytic._core.numbers import (
     Library,
     Number,
@@ -31,17 +32,24 @@ from analytic._core.numbers import (
 from analytic._core.parameters import point, positive, positives, real, refuse
 from analytic._core.piecewise import infinite, nothing, pick
 
+SOURCES = (
+    f"{MUSKHELISHVILI}, part V",
+    f"{JOHNSON}, section 2.8",
+)
+
 # A moment or tilt that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, lib: Library = np
 ) -> Number:
-    """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact, inf at its corners, and 0 outside.
+    """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact, inf at its corners,
+    and 0 outside.
 
-    With |M| = P b/2 exactly p is 0, not infinite, at the corner about to lift. `x` and the parameters broadcast.
-    ValueError for input that has no meaning and for |M| > P b/2.
+    With |M| = P b/2 exactly p is 0, not infinite, at the corner about to lift. ValueError for |M| >
+    P b/2.
 
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, moment=np.pi / 2)), 12)
     2.0
@@ -50,12 +58,13 @@ def pressure(
     return as_result(_pressure(lib, x, b, corners) / (lib.pi * b))
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def tilt(
     *, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The tilt h' = -4M/(pi E* b²) of a complete contact under the moment M.
 
-    ValueError for input that has no meaning and for |M| > P b/2; then see `partial_tilt`.
+    ValueError for |M| > P b/2; then see `partial_tilt`.
 
     >>> round(float(tilt(half_width=1.0, normal_load=np.pi, moment=np.pi / 4, modulus=1.0)), 12)
     -1.0
@@ -64,12 +73,13 @@ def tilt(
     return as_result(-4 * (M / b) / b / positive("modulus", modulus, lib) / lib.pi)
 
 
+@documented("the moment M, a force", *SOURCES)
 def moment(
     *, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The moment M = -pi E* b² tilt/4 that holds a complete contact at the tilt h' = tilt.
 
-    ValueError for input that has no meaning and for |tilt| > 2P/(pi E* b); then see `partial_moment`.
+    ValueError for |tilt| > 2P/(pi E* b); then see `partial_moment`.
 
     >>> round(float(moment(half_width=1.0, normal_load=np.pi, tilt=-1.0, modulus=1.0) / np.pi), 12)
     0.25
@@ -79,14 +89,16 @@ def moment(
     return as_result(_checked(b, normal_load, M, lib)[2])
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp = [P + (2M/b) rho]/(pi sqrt(z² - b²)) of a complete contact, complex; ~ P/(pi z) far away.
+    """The potential Fp = [P + (2M/b) rho]/(pi sqrt(z² - b²)) of a complete contact, complex; ~
+    P/(pi z) far away.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
-    -1 its conjugate. ValueError for input that has no meaning and for |M| > P b/2.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' - i p, and -1 its conjugate. ValueError for |M| > P b/2.
 
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi)).imag
     -1.25
@@ -96,14 +108,15 @@ def potential(
     return as_result(scaled(1 / (lib.pi * b), value, lib))
 
 
+@documented("the derivative Fp', a complex stress per length", *SOURCES)
 def potential_derivative(
     z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The derivative Fp' of the potential of a complete contact; on the contact - i p' on the side +1.
+    """The derivative Fp' of the potential of a complete contact; on the contact - i p' on the side
+    +1.
 
-    At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning and for
-    |M| > P b/2.
+    At |x| = b, where p' is infinite, so is the imaginary part. ValueError for |M| > P b/2.
 
     >>> round(complex(potential_derivative(0.6, half_width=1.0, normal_load=np.pi)).imag, 12)
     -1.171875
@@ -113,12 +126,14 @@ def potential_derivative(
     return as_result(scaled(1 / (lib.pi * b) / b, value, lib))
 
 
+@documented("the ends (x1, x2) of the contact, lengths", *SOURCES)
 def partial_edges(
     *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
 ) -> tuple[Number, Number]:
-    """The ends (x1, x2) of the contact of a tilted flat that touches with one corner, P b/2 <= |M| < P b.
+    """The ends (x1, x2) of the contact of a tilted flat that touches with one corner, P b/2 <= |M|
+    < P b.
 
-    ValueError for input that has no meaning and for moments outside that range.
+    ValueError for moments outside that range.
 
     >>> tuple(map(float, partial_edges(half_width=1.0, normal_load=1.0, moment=0.75)))
     (0.0, 1.0)
@@ -129,13 +144,15 @@ def partial_edges(
     )
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def partial_pressure(
     x: Number, *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
 ) -> Number:
-    """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner, where it is inf.
+    """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner,
+    where it is inf.
 
-    t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside. ValueError for input
-    that has no meaning and for moments outside P b/2 <= |M| < P b.
+    t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside.
+    ValueError for moments outside P b/2 <= |M| < P b.
 
     >>> round(float(partial_pressure(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)), 12)
     2.0
@@ -150,6 +167,7 @@ def partial_pressure(
     return as_result(P / lib.pi / r * value)
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def partial_tilt(
     *, half_width: Number, normal_load: Number, moment: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -162,12 +180,14 @@ def partial_tilt(
     return as_result(-2 * s * (P / r) / positive("modulus", modulus, lib) / lib.pi)
 
 
+@documented("the moment M, a force", *SOURCES)
 def partial_moment(
     *, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The moment M = s P (b - r/2), r = 2P/(pi E* |tilt|), that holds a flat on one corner at the tilt h' = tilt.
+    """The moment M = s P (b - r/2), r = 2P/(pi E* |tilt|), that holds a flat on one corner at the
+    tilt h' = tilt.
 
-    ValueError for input that has no meaning and for |tilt| < 2P/(pi E* b), at which both corners touch.
+    ValueError for |tilt| < 2P/(pi E* b), at which both corners touch.
 
     >>> round(float(partial_moment(half_width=1.0, normal_load=np.pi, tilt=-4.0, modulus=1.0) / np.pi), 12)
     0.75
@@ -180,14 +200,15 @@ def partial_moment(
     return as_result(-sign(angle) * P * (b - P / E / lib.pi / abs(angle)))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def partial_potential(
     z: Number, *, half_width: Number, normal_load: Number, moment: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The potential Fp of a tilted flat that touches with one corner, complex; ~ P/(pi z) far away.
 
-    It is that of a complete contact of half-width r about its own middle, with the moment s P r/2. `side` as in
-    `potential`. ValueError for input that has no meaning and for moments outside P b/2 <= |M| < P b.
+    It is that of a complete contact of half-width r about its own middle, with the moment s P r/2.
+    `side` as in `potential`. ValueError for moments outside P b/2 <= |M| < P b.
 
     >>> round(complex(partial_potential(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)).real, 12)
     -2.0

@@ -12,18 +12,20 @@ each is L times the mean pressure. For L >> a this is a single flat.
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import WESTERGAARD, documented
 from analytic._core.numbers import Library, Number, as_result, cartesian, scaled
 from analytic._core.parameters import point, positive, positives, real, refuse
 from analytic._core.periodic_sines import cotangent, in_period, one_minus_square, sine
 from analytic._core.piecewise import infinite, nothing, pick
 
+SOURCES = (WESTERGAARD,)
 
+
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, period: Number, mean_pressure: Number, lib: Library = np
 ) -> Number:
     """The pressure p(x) under the flats, inf at their corners, and 0 between them.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> round(float(pressure(8.0, half_width=1.0, period=4.0, mean_pressure=1.0)), 12)
     1.414213562373
@@ -32,14 +34,16 @@ def pressure(
     return as_result(p * _pressure(lib, abs(in_period(lib, real("x", x, lib), L)), a, L))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
+    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the
+    surface.
 
-    Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i p, and -1 its conjugate.
-    Between the flats it is real, E*/2 times the slope of the surface. ValueError for input that has no meaning.
+    Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i
+    p, and -1 its conjugate. Between the flats it is real, E*/2 times the slope of the surface.
 
     >>> round(complex(potential(0.0, half_width=1.0, period=4.0, mean_pressure=1.0)).imag, 12)
     -1.414213562373

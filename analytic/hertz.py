@@ -8,11 +8,15 @@
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
 from analytic._core.parameters import point, positive, positives, real
 from analytic._core.piecewise import pick
 
+SOURCES = (f"{JOHNSON}, section 4.2(c)",)
 
+
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     """The undeformed gap h = x²/(2R).
 
@@ -23,6 +27,7 @@ def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     return as_result(x * (x / (2 * R)))
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:
     """The slope h' = x/R.
 
@@ -32,12 +37,11 @@ def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:
     return as_result(real("x", x, lib) / positive("radius", radius, lib))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The contact pressure p = E*/(2R) sqrt(b² - x²), and 0 outside (Johnson 1985, eq. 4.44).
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> float(pressure(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     0.8
@@ -46,6 +50,7 @@ def pressure(
     return as_result(E / (2 * R) * _ellipse(lib, x, b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(*, half_width: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
     """The normal load P = pi E* b²/(4R) per unit length (Johnson 1985, eq. 4.43).
 
@@ -56,6 +61,7 @@ def load(*, half_width: Number, radius: Number, modulus: Number, lib: Library = 
     return as_result(lib.pi / 4 * E * (b / R) * b)
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
     *, normal_load: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -68,6 +74,7 @@ def half_width(
     return as_result(2 * (lib.sqrt(P / E) * lib.sqrt(R)) / lib.sqrt(lib.pi))
 
 
+@documented("the largest pressure, a stress", *SOURCES)
 def peak_pressure(
     *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -80,14 +87,15 @@ def peak_pressure(
     return as_result(E * (b / (2 * R)))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The potential Fp = E* b/(2R) rho, rho = b/(z + sqrt(z² - b²)), complex; ~ P/(pi z) far away.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
-    -1 its conjugate. ValueError for input that has no meaning.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' - i p, and -1 its conjugate.
 
     >>> complex(potential(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     (0.6-0.8j)
@@ -97,13 +105,15 @@ def potential(
     return as_result(scaled(E / (2 * R), value, lib))
 
 
+@documented("the derivative Fp', a complex stress per length", *SOURCES)
 def potential_derivative(
     z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side +1.
+    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side
+    +1.
 
-    At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning.
+    At |x| = b, where p' is infinite, so is the imaginary part.
 
     >>> complex(potential_derivative(0.8, half_width=1.0, radius=1.0, modulus=1.5).round(12))
     (0.75+1j)

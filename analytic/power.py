@@ -19,14 +19,21 @@ from functools import partial
 
 import numpy as np
 
+from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result, bits, fraction, sign
 from analytic._core.parameters import positive, positives, real
 from analytic._core.piecewise import nothing, pick
+
+SOURCES = (
+    "I. Ya. Shtaerman, Contact Problem of the Theory of Elasticity (1949)",
+    f"{JOHNSON}, section 5.3",
+)
 
 # xi² = e² at which the two series meet. Both gain one bit a term there.
 MATCH_SQUARE = 1 / 2
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
     """The undeformed gap h = C |x|^m.
 
@@ -37,6 +44,7 @@ def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = n
     return as_result(C * abs(real("x", x, lib)) ** m)
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
     """The slope h' = m C sign(x) |x|^(m-1).
 
@@ -48,13 +56,13 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
     return as_result(sign(x) * m * C * abs(x) ** (m - 1))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x = 0.
-
-    `x` and the parameters broadcast, but the exponent is one number. ValueError for input that has no meaning.
+    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x
+    = 0.
 
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8
@@ -65,6 +73,7 @@ def pressure(
     return as_result(scale * pick(lib, x < b, partial(_superposed, m), nothing, x, b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(
     *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -78,6 +87,7 @@ def load(
     return as_result(E * m * (C * b ** (m - 1)) * b * _wallis(lib, m))
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
     *, normal_load: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,

@@ -17,15 +17,22 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import HILLS, JOHNSON, documented
 from analytic._core.edge_exponents import cosine, singular, singular_remainder, sliding_exponent
 from analytic._core.numbers import Library, Number, as_result, cartesian, not_below_zero
 from analytic._core.parameters import point, positive, positives, real, refuse
 from analytic._core.piecewise import infinite, nothing, pick
 
+SOURCES = (
+    HILLS,
+    f"{JOHNSON}, section 2.8",
+)
+
 # A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 
+@documented("the moment M, a force", *SOURCES)
 def upright_moment(
     *, half_width: Number, normal_load: Number, coupling: Number, lib: Library = np
 ) -> Number:
@@ -38,14 +45,15 @@ def upright_moment(
     return as_result(2 * sliding_exponent(lib, real("coupling", coupling, lib)) * b * P)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f times this.
+    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f
+    times this.
 
-    Without a `moment` the flat is upright. `x` and the parameters broadcast. ValueError for input that has no meaning and
-    for moments that lift a corner off.
+    Without a `moment` the flat is upright. ValueError for moments that lift a corner off.
 
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, coupling=0.0)), 12)
     1.25
@@ -54,13 +62,15 @@ def pressure(
     return as_result(_pressure(lib, x, contact))
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def tilt(
     *, half_width: Number, normal_load: Number, coupling: Number, moment: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the moment M.
+    """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the
+    moment M.
 
-    ValueError for input that has no meaning and for moments that lift a corner off.
+    ValueError for moments that lift a corner off.
 
     >>> round(float(tilt(half_width=1.0, normal_load=np.pi, coupling=0.0, moment=np.pi / 4, modulus=1.0)), 12)
     -1.0
@@ -69,14 +79,16 @@ def tilt(
     return as_result(-2 * contact.A / positive("modulus", modulus, lib))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away. That of the shear is f times this.
+    """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away. That of the shear is f
+    times this.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' + (beta f - i) p,
-    and -1 its conjugate. ValueError for input that has no meaning and for moments that lift a corner off.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' + (beta f - i) p, and -1 its conjugate. ValueError for moments that lift a corner off.
 
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi, coupling=0.0)).imag
     -1.25

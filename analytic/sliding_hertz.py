@@ -16,6 +16,7 @@ beta f, positive when the shear on the half-plane points to +x, negative when it
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import HILLS, JOHNSON, documented
 from analytic._core.edge_exponents import (
     bounded_remainder,
     bounded_weight,
@@ -26,7 +27,13 @@ from analytic._core.numbers import Library, Number, as_result, cartesian, scaled
 from analytic._core.parameters import point, positive, positives, real
 from analytic._core.piecewise import nothing, pick
 
+SOURCES = (
+    HILLS,
+    f"{JOHNSON}, section 8.2",
+)
 
+
+@documented("the ends (x1, x2) of the contact, lengths", *SOURCES)
 def edges(*, half_width: Number, coupling: Number, lib: Library = np) -> tuple[Number, Number]:
     """The ends (x1, x2) = (-w (1-2 eps), w (1+2 eps)) of the contact of length 2w.
 
@@ -38,13 +45,12 @@ def edges(*, half_width: Number, coupling: Number, lib: Library = np) -> tuple[N
     return as_result(-w * (1 - 2 * eps)), as_result(w * (1 + 2 * eps))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The contact pressure p(x), and 0 outside. The shear is f times this.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> round(float(pressure(0.6, half_width=1.0, radius=1.0, modulus=2.0, coupling=0.0)), 12)
     0.8
@@ -54,10 +60,12 @@ def pressure(
     return as_result(E / (2 * R) * _pressure(lib, x, w, k))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(
     *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
 ) -> Number:
-    """The normal load P = pi E* w² (1/4 - eps²)/R per unit length, less than that of Hertz on the same length.
+    """The normal load P = pi E* w² (1/4 - eps²)/R per unit length, less than that of Hertz on the
+    same length.
 
     >>> round(float(load(half_width=1.0, radius=1.0, modulus=1.0, coupling=0.0)), 12)
     0.785398163397
@@ -67,6 +75,7 @@ def load(
     return as_result(lib.pi * E * (w / R) * w * _stiffening(eps))
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
     *, normal_load: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
 ) -> Number:
@@ -80,6 +89,7 @@ def half_width(
     return as_result(lib.sqrt(P / E) * lib.sqrt(R) / lib.sqrt(lib.pi * _stiffening(eps)))
 
 
+@documented("the moment M, a force", *SOURCES)
 def moment(
     *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
 ) -> Number:
@@ -96,14 +106,16 @@ def moment(
     return as_result(8 * P * w * eps / 3)
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, radius: Number, modulus: Number, coupling: Number,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp = E*/(2R) [z - X(z)], complex; ~ P/(pi z) far away. That of the shear is f times this.
+    """The potential Fp = E*/(2R) [z - X(z)], complex; ~ P/(pi z) far away. That of the shear is f
+    times this.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' + (beta f - i) p,
-    and -1 its conjugate. ValueError for input that has no meaning.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' + (beta f - i) p, and -1 its conjugate.
 
     >>> complex(potential(0.6, half_width=1.0, radius=1.0, modulus=2.0, coupling=0.0)).real
     0.6

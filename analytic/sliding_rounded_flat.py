@@ -26,23 +26,28 @@ import numpy as np
 
 from analytic import rounded_flat
 from analytic._core.beta_functions import A, B, phi, rim_moment
+from analytic._core.documentation import HILLS, documented
 from analytic._core.edge_exponents import cosine, sliding_exponent
 from analytic._core.numbers import Library, Number, as_result, bits, larger, most
 from analytic._core.parameters import not_negative, positives, real, refuse
 from analytic._core.piecewise import nothing, pick
+
+SOURCES = (HILLS,)
 
 MOST_STEPS = 60
 # |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable time. beta is at most 1/2.
 MOST_COUPLING = 10
 
 
+@documented("the lengths (d1, d2)", *SOURCES)
 def rims(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
 ) -> tuple[Number, Number]:  # fmt: skip
-    """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full relative accuracy.
+    """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full
+    relative accuracy.
 
-    Newton's method in the logarithms of the rims, from those without friction. ValueError for input that has no meaning.
+    Newton's method in the logarithms of the rims, from those without friction.
 
     >>> tuple(round(float(d), 11) for d in rims(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0))
     (0.5, 0.5)
@@ -51,6 +56,7 @@ def rims(
     return as_result(contact.left), as_result(contact.right)
 
 
+@documented("the ends (x1, x2) of the contact, lengths", *SOURCES)
 def edges(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
@@ -64,13 +70,12 @@ def edges(
     return as_result(-contact.a - contact.left), as_result(contact.a + contact.right)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     coupling: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The contact pressure p(x) under the load P, and 0 outside. The shear is f times this.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> given = dict(normal_load=0.307092424652189, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
     >>> round(float(pressure(0.0, **given)), 12)
@@ -83,11 +88,13 @@ def pressure(
     return as_result(E / R * value / (2 * lib.pi))
 
 
+@documented("the moment M, a force", *SOURCES)
 def moment(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays upright.
+    """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays
+    upright.
 
     >>> round(float(moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)), 12) + 0.0
     0.0

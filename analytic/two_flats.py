@@ -17,22 +17,29 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import GLADWELL, MUSKHELISHVILI, documented
 from analytic._core.elliptic import ratio_D
 from analytic._core.numbers import Library, Number, as_result, cartesian, sign
 from analytic._core.parameters import patch_ends, point, positive, real, refuse
 from analytic._core.piecewise import infinite, nothing, pick
 
+SOURCES = (
+    f"{MUSKHELISHVILI}, part V",
+    GLADWELL,
+)
+
 # A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, inner: Number, outer: Number, normal_load: Number, moment: Number = 0,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The pressure p(x) under both flats, inf at their corners, and 0 elsewhere.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning and for moments that lift a corner off.
+    ValueError for moments that lift a corner off.
 
     >>> round(float(pressure(-1.5, inner=1.0, outer=2.0, normal_load=np.pi)), 12)
     1.014185105674
@@ -41,10 +48,12 @@ def pressure(
     return as_result(_pressure(lib, x, contact))
 
 
+@documented("the moment M, a force", *SOURCES)
 def largest_moment(
     *, inner: Number, outer: Number, normal_load: Number, lib: Library = np
 ) -> Number:
-    """The moment P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K) at which an outer corner is about to lift off.
+    """The moment P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K) at which an outer corner is about to lift
+    off.
 
     >>> round(float(largest_moment(inner=1e-9, outer=2.0, normal_load=1.0)), 12)
     1.0
@@ -53,6 +62,7 @@ def largest_moment(
     return as_result(positive("normal_load", normal_load, lib) * _lever(*_shape(lib, a, b)) * b)
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def tilt(
     *, inner: Number, outer: Number, normal_load: Number, moment: Number, modulus: Number,
     lib: Library = np,
@@ -66,14 +76,16 @@ def tilt(
     return as_result(-2 * contact.A / positive("modulus", modulus, lib))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, inner: Number, outer: Number, normal_load: Number, moment: Number = 0,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
     """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away.
 
-    Real z under the flats are on a cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and -1 its
-    conjugate. Between the flats it is real, E*/2 times the slope of the surface. ValueError as in `pressure`.
+    Real z under the flats are on a cut: there `side` = +1 gives the limit from the body y > 0, E*/2
+    h' - i p, and -1 its conjugate. Between the flats it is real, E*/2 times the slope of the
+    surface. ValueError as in `pressure`.
 
     >>> round(complex(potential(1.5, inner=1.0, outer=2.0, normal_load=np.pi)).imag, 12)
     -1.014185105674

@@ -14,16 +14,20 @@ x = 0. (For the equations behind: Gladwell, Contact Problems, 1980.)
 
 import numpy as np
 
+from analytic._core.documentation import GLADWELL, documented
 from analytic._core.elliptic import agm, means, ratio_D, third_kind
 from analytic._core.numbers import Library, Number, as_result, bits, most, sign
 from analytic._core.parameters import patch_ends, positive, positives, real, refuse
 from analytic._core.piecewise import nothing, pick
+
+SOURCES = (GLADWELL,)
 
 MOST_STEPS = 60
 # ln(c2/c1) beyond which c1 is next to the least double.
 FARTHEST = 600
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> Number:
     """The undeformed gap h = (|x| - d)²/(2R).
 
@@ -34,6 +38,7 @@ def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) ->
     return as_result(off * (off / (2 * positive("radius", radius, lib))))
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> Number:
     """The slope h' = sign(x) (|x| - d)/R.
 
@@ -46,6 +51,7 @@ def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> 
     )
 
 
+@documented("the distance d, a length", *SOURCES)
 def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
     """The distance d = agm(c2, c1) of the apexes from the middle, for patches c1 < |x| < c2.
 
@@ -56,10 +62,12 @@ def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
     return as_result(agm(lib, c2, c1))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(
     *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without any cancellation.
+    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without
+    any cancellation.
 
     >>> round(float(load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0) / np.pi), 12)
     0.126840027595
@@ -70,13 +78,16 @@ def load(
     return as_result(lib.pi / 2 * E * (half / R) * half * _gain(lib, half / c2, c1 / c2))
 
 
+@documented("the edges (c1, c2) of the patch on x > 0, lengths", *SOURCES)
 def edges(
     *, normal_load: Number, distance: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> tuple[Number, Number]:
-    """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and `load`.
+    """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and
+    `load`.
 
-    Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1 - D/K), k² = 1 - (c1/c2)².
-    ValueError for input that has no meaning, and for loads beyond about 1e5 E* d²/R, at which c1 leaves the range of doubles.
+    Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1
+    - D/K), k² = 1 - (c1/c2)². ValueError for loads beyond about 1e5 E* d²/R, at which c1 leaves the
+    range of doubles.
 
     >>> P = load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0)
     >>> tuple(round(float(c), 12) for c in edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0, modulus=1.0))
@@ -97,12 +108,11 @@ def edges(
     return as_result(c2 * lib.exp(-t)), as_result(c2)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The pressure p(x) on both patches c1 < |x| < c2, and 0 elsewhere.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> round(float(pressure(1.5, inner=1.0, outer=2.0, radius=1.0, modulus=1.0)), 12)
     0.253652979653

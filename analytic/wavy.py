@@ -14,12 +14,19 @@ and far from the surface it is - i mean pressure.
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import JOHNSON, WESTERGAARD, documented
 from analytic._core.numbers import Library, Number, as_result, cartesian, scaled
 from analytic._core.parameters import point, positives, real, refuse
 from analytic._core.periodic_sines import cotangent, in_period, one_minus_square, sine
 from analytic._core.piecewise import nothing, pick
 
+SOURCES = (
+    WESTERGAARD,
+    f"{JOHNSON}, section 13.2",
+)
 
+
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, wavelength: Number, amplitude: Number, lib: Library = np) -> Number:
     """The undeformed gap h = D (1 - cos(2 pi x/lambda)), without cancellation at the crests.
 
@@ -31,6 +38,7 @@ def height(x: Number, *, wavelength: Number, amplitude: Number, lib: Library = n
     return as_result(2 * D * s * s)
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, wavelength: Number, amplitude: Number, lib: Library = np) -> Number:
     """The slope h' = (2 pi D/lambda) sin(2 pi x/lambda).
 
@@ -42,13 +50,12 @@ def slope(x: Number, *, wavelength: Number, amplitude: Number, lib: Library = np
     return as_result(4 * lib.pi * (D / L) * sine(lib, x, L) * sine(lib, L / 2 - abs(x), L))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The pressure p(x) on contacts of half-width a <= lambda/2, and 0 between them.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> round(float(pressure(4.0, half_width=0.5, wavelength=4.0, amplitude=1.0, modulus=2 / np.pi)), 12)
     0.382683432365
@@ -57,10 +64,12 @@ def pressure(
     return as_result(2 * p1 * _pressure(lib, in_period(lib, real("x", x, lib), L), a, L))
 
 
+@documented("the mean pressure, a stress", *SOURCES)
 def mean_pressure(
     *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The mean pressure (pi E* D/lambda) sin²(pi a/lambda) at which the contacts have the half-width a.
+    """The mean pressure (pi E* D/lambda) sin²(pi a/lambda) at which the contacts have the
+    half-width a.
 
     >>> round(float(mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)), 12)
     0.5
@@ -70,14 +79,16 @@ def mean_pressure(
     return as_result(p1 * S * S)
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
     *, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The half-width a of each contact under a mean pressure up to pi E* D/lambda: the inverse of `mean_pressure`.
+    """The half-width a of each contact under a mean pressure up to pi E* D/lambda: the inverse of
+    `mean_pressure`.
 
-    a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError for input that has no
-    meaning and for larger pressures.
+    a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError
+    for larger pressures.
 
     >>> round(float(half_width(mean_pressure=0.5, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)), 12)
     1.0
@@ -92,6 +103,7 @@ def half_width(
     return as_result(L / lib.pi * _arcsine(lib, lib.sqrt(p / whole), lib.sqrt((whole - p) / whole)))
 
 
+@documented("the mean pressure, a stress", *SOURCES)
 def closing_pressure(
     *, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -103,13 +115,15 @@ def closing_pressure(
     return as_result(_contact(1, wavelength, amplitude, modulus, lib=lib, bounded=False)[2])
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def complete_pressure(
     x: Number, *, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure of surfaces that touch everywhere, mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
+    """The pressure of surfaces that touch everywhere, mean pressure + (pi E* D/lambda) cos(2 pi
+    x/lambda).
 
-    ValueError for input that has no meaning and for mean pressures below `closing_pressure`.
+    ValueError for mean pressures below `closing_pressure`.
 
     >>> round(float(complete_pressure(0.5, mean_pressure=4.0, wavelength=1.0, amplitude=1 / np.pi, modulus=3.0)), 12)
     1.0
@@ -125,14 +139,16 @@ def complete_pressure(
     return as_result((p - whole) + 2 * whole * c * c)
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
+    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the
+    surface.
 
-    Real z in the contacts are on cuts: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and -1 its
-    conjugate. ValueError for input that has no meaning.
+    Real z in the contacts are on cuts: there `side` = +1 gives the limit from the body y > 0, E*/2
+    h' - i p, and -1 its conjugate.
 
     >>> round(complex(potential(1.0, half_width=1.0, wavelength=4.0, amplitude=2 / np.pi, modulus=1.0)).real, 12)
     0.5

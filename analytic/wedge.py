@@ -10,11 +10,15 @@ Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contac
 import numpy as np
 
 from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
 from analytic._core.parameters import point, positive, positives, real
 from analytic._core.piecewise import infinite, pick
 
+SOURCES = (f"{JOHNSON}, section 5.2",)
 
+
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
     """The undeformed gap h = A |x|.
 
@@ -24,12 +28,12 @@ def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
     return as_result(positive("slope", slope, lib) * abs(real("x", x, lib)))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, slope: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985, section 5.2).
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
+    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985,
+    section 5.2).
 
     >>> round(float(pressure(0.5, half_width=1.0, slope=0.1, modulus=10.0)), 12)
     0.419200718279
@@ -38,6 +42,7 @@ def pressure(
     return as_result(E * A / lib.pi * _arccosh(lib, abs(x), b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(*, half_width: Number, slope: Number, modulus: Number, lib: Library = np) -> Number:
     """The normal load P = E* A b per unit length.
 
@@ -48,6 +53,7 @@ def load(*, half_width: Number, slope: Number, modulus: Number, lib: Library = n
     return as_result(E * A * b)
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(*, normal_load: Number, slope: Number, modulus: Number, lib: Library = np) -> Number:
     """The half-width b = P/(E* A): the inverse of `load`.
 
@@ -58,14 +64,15 @@ def half_width(*, normal_load: Number, slope: Number, modulus: Number, lib: Libr
     return as_result(P / E / A)
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
     z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The potential Fp = (E* A/pi) arcsin(b/z), complex; ~ P/(pi z) far away.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
-    -1 its conjugate. At z = 0 the imaginary part is infinite. ValueError for input that has no meaning.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' - i p, and -1 its conjugate. At z = 0 the imaginary part is infinite.
 
     >>> complex(potential(1.0, half_width=1.0, slope=0.1, modulus=10.0)).real
     0.5
@@ -75,14 +82,15 @@ def potential(
     return as_result(scaled(E * A / lib.pi, value, lib))
 
 
+@documented("the derivative Fp', a complex stress per length", *SOURCES)
 def potential_derivative(
     z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
     """The derivative Fp' = -(E* A/pi) b/(z sqrt(z² - b²)); on the contact - i p' on the side +1.
 
-    At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit from x > 0).
-    ValueError for input that has no meaning.
+    At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit
+    from x > 0).
 
     >>> round(complex(potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)).imag, 12)
     2.083333333333
