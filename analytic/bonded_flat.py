@@ -1,6 +1,7 @@
 """A rigid flat bonded to a dissimilar half-plane over |x| <= b, under P, Q and M.
 
-Nothing slips: with g' = 0 and a rotation h' the two equations of dissimilar bodies are one for p + iq,
+Nothing slips: with g' = 0 and a rotation h' the two equations of dissimilar bodies are one for p +
+iq,
 
     E*/2 h' = (1/pi) PV∫ (p + iq)(t)/(x-t) dt + i beta (p + iq)(x),
 
@@ -9,9 +10,10 @@ and with tanh(pi eta) = beta its solution is
     p + iq = cosh(pi eta) [ (P + iQ)/pi + A (x - 2 i eta b) ] (b² - x²)^(-1/2) exp(i eta ln((b+x)/(b-x)))
     A = -E* h'/2 = 2 (M + 2 eta b Q)/(pi b² (1 + 4 eta²)),      M = ∫ p x dx
 
-(for A = 0 Muskhelishvili 1953, part V; Johnson 1985, section 2.8). Under M = -2 eta b Q it does
-not rotate. Towards the corners p and q oscillate, ever faster, between bounds that grow like (b - |x|)^(-1/2): there the
-bond must carry tension, under P alone where tanh(pi/(4 eta)) b < |x|, which is 2.5e-4 b from the corner for beta = 1/2.
+(for A = 0 Muskhelishvili 1953, part V; Johnson 1985, section 2.8). Under M = -2 eta b Q it does not
+rotate. Towards the corners p and q oscillate, ever faster, between bounds that grow like (b -
+|x|)^(-1/2): there the bond must carry tension, under P alone where tanh(pi/(4 eta)) b < |x|, which
+is 2.5e-4 b from the corner for beta = 1/2.
 """
 
 from typing import NamedTuple
@@ -122,7 +124,9 @@ def _contact_of(
 
 
 def _normal_and_shear(lib: Library, x: Number, contact: _Contact) -> tuple[Number, Number, Number]:
-    """(envelope, p at zero phase, q at zero phase) and with the phase: p + iq = envelope (u + iv) exp(i phase)."""
+    """(envelope, p at zero phase, q at zero phase) and with the phase: p + iq = envelope (u + iv)
+    exp(i phase).
+    """
     b, eta = contact.b, contact.eta
     cosh = 1 / (lib.sqrt(1 - contact.beta) * lib.sqrt(1 + contact.beta))
     envelope = cosh / (lib.sqrt(b - x) * lib.sqrt(b + x))

@@ -1,20 +1,23 @@
-"""Cattaneo and Mindlin: a parabola under a constant load P, then under a tangential load that rises, falls and rises again.
+"""Cattaneo and Mindlin: a parabola under a constant load P, then under a tangential load that
+rises, falls and rises again.
 
-Bodies alike (beta = 0). The contact [-b, b] is that of Hertz; while Q < f P it sticks on [-c, c] (Cattaneo 1938; Mindlin
-1949; Johnson, Contact Mechanics, 1985, section 7.2),
+Bodies alike (beta = 0). The contact [-b, b] is that of Hertz; while Q < f P it sticks on [-c, c]
+(Cattaneo 1938; Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2),
 
     c = b sqrt(1 - Q/(fP)),      q = f p_b - f p_c,      p_c = (2P/(pi b²)) sqrt(c² - x²)
 
-After Q_max has turned, q(Q) = q(Q_max) - 2 q((Q_max - Q)/2), and after Q_min, q(Q) = q(Q_min) + 2 q((Q - Q_min)/2), each q
-on the right that of a first loading. With r = Q/(fP), and B = 1 - (1-y²) artanh(y)/y:
+After Q_max has turned, q(Q) = q(Q_max) - 2 q((Q_max - Q)/2), and after Q_min, q(Q) = q(Q_min) + 2
+q((Q - Q_min)/2), each q on the right that of a first loading. With r = Q/(fP), and B = 1 - (1-y²)
+artanh(y)/y:
 
     slip        s  = (2fP/(pi E* b²)) (|x| sqrt(x² - c²) - c² arccosh(|x|/c)),   c < |x| < b
     shift       of the whole bodies, beyond that of bodies stuck all over: (fP/(pi E*)) [r + (1-r) ln(1-r)]
     energy      lost in a cycle between ±Q: (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - r
                 which is (2f²P²/(pi E*)) r (2-r) B(r/(2-r))
 
-A bulk tension sigma in the half-plane moves the stick zone to [e - c, e + c], e = pi sigma b²/(8fP) (Nowell & Hills 1987).
-All of it is written without differences of what is nearly equal, for Q/(fP) from 0 to 1.
+A bulk tension sigma in the half-plane moves the stick zone to [e - c, e + c], e = pi sigma b²/(8fP)
+(Nowell & Hills 1987). All of it is written without differences of what is nearly equal, for Q/(fP)
+from 0 to 1.
 """
 
 from typing import NamedTuple
@@ -283,7 +286,9 @@ def _in_slip(lib: Library, x: Number, b: Number, *_: Number) -> Number:
 
 
 def _slip(lib: Library, r: Number, beyond: Number, c: Number) -> Number:
-    """r sqrt(r² - c²) - c² arccosh(r/c) = (r+c)² t (t² + B(t) c/(r+c)), t² = (r-c)/(r+c): a sum of positive terms."""
+    """r sqrt(r² - c²) - c² arccosh(r/c) = (r+c)² t (t² + B(t) c/(r+c)), t² = (r-c)/(r+c): a sum of
+    positive terms.
+    """
     t2 = beyond / (r + c)
     part = c / (r + c)
     return (r + c) * lib.sqrt(t2) * (r + c) * (t2 + part * B(lib, t2, 2 * part))

@@ -1,20 +1,24 @@
-"""Partial slip of a flat with rounded edges under a constant load P and a tangential load that rises, falls and rises again.
+"""Partial slip of a flat with rounded edges under a constant load P and a tangential load that
+rises, falls and rises again.
 
-Bodies alike (beta = 0). The corrective traction is the pressure of the same profile under the load P - Q/f, so that the
-stick zone [-c, c] is the contact under that load and always covers the flat, c > a (Ciavarella, Hills & Monno 1998,
-eqs 18 to 20; Ciavarella 1998; Jager 1998). With theta(s) = arccos(a/s) and s from c to b
+Bodies alike (beta = 0). The corrective traction is the pressure of the same profile under the load
+P - Q/f, so that the stick zone [-c, c] is the contact under that load and always covers the flat, c
+> a (Ciavarella, Hills & Monno 1998, eqs 18 to 20; Ciavarella 1998; Jager 1998). With theta(s) =
+arccos(a/s) and s from c to b
 
     Q/f = P(b) - P(c) = (E*/R) ∫ s theta ds                                  q/f = p_b - p_c = (E*/(pi R)) ∫ s theta/sqrt(s² - x²) ds
     slip   s(x) = (2f/(pi R)) ∫_c^|x| s theta arccosh(|x|/s) ds
     energy lost in a cycle between ±Q:   W = (8f²/(pi E*)) ∫ (P(b) - P(s)) (P(s) - P(c)) ds/s
 
-After Q_max has turned, q(Q) = q(Q_max) - 2 q((Q_max - Q)/2), and after Q_min, q(Q) = q(Q_min) + 2 q((Q - Q_min)/2). The
-differences of loads, with omega = sqrt(s² - a²), y = a (omega_2 - omega_1)/(a² + omega_1 omega_2) = tan(theta_2 - theta_1),
+After Q_max has turned, q(Q) = q(Q_max) - 2 q((Q_max - Q)/2), and after Q_min, q(Q) = q(Q_min) + 2
+q((Q - Q_min)/2). The differences of loads, with omega = sqrt(s² - a²), y = a (omega_2 -
+omega_1)/(a² + omega_1 omega_2) = tan(theta_2 - theta_1),
 
     (2R/E*) (P_2 - P_1) = (s_2² - s_1²) theta_1 + omega_2 (omega_2 - omega_1) atan(y) - (a² + omega_1 omega_2) (y - atan(y))
 
-lose no digits, the last term being a third of the second or less; where p_b and p_c are nearly equal their difference is
-integrated. Loads, not widths, are what is given, since Q and f P must be known exactly where they are nearly equal.
+lose no digits, the last term being a third of the second or less; where p_b and p_c are nearly
+equal their difference is integrated. Loads, not widths, are what is given, since Q and f P must be
+known exactly where they are nearly equal.
 """
 
 import numpy as np

@@ -1,7 +1,9 @@
-"""Stress intensity factors of cracks in a row, which are to contacts what a tension is to a pressure.
+"""Stress intensity factors of cracks in a row, which are to contacts what a tension is to a
+pressure.
 
-Two collinear cracks a < |x| < b under a remote tension sigma (Willmore 1949; Tada, Paris & Irwin, The Stress Analysis of Cracks
-Handbook), with complete elliptic integrals of modulus k, k² = 1 - (a/b)², and D = (K - E)/k²:
+Two collinear cracks a < |x| < b under a remote tension sigma (Willmore 1949; Tada, Paris & Irwin,
+The Stress Analysis of Cracks Handbook), with complete elliptic integrals of modulus k, k² = 1 -
+(a/b)², and D = (K - E)/k²:
 
     K_I(b) = sigma sqrt(pi b) k D/K,      K_I(a) = sigma sqrt(pi b) sqrt(b/a) k (1 - D/K)
 

@@ -1,16 +1,19 @@
 """A flat with sharp corners at x = ±b, pressed on a half-plane, straight or tilted, h' = tilt.
 
-While both corners touch (Muskhelishvili 1953, part V; Johnson, Contact Mechanics, 1985, section 2.8)
+While both corners touch (Muskhelishvili 1953, part V; Johnson, Contact Mechanics, 1985, section
+2.8)
 
     p = (P + 2 M x/b²)/(pi sqrt(b² - x²)),      M = -pi E* b² tilt/4,      |M| <= P b/2
     Fp = [ P + (2M/b) rho ]/(pi sqrt(z² - b²)),      rho = b/(z + sqrt(z² - b²))
 
-with M = ∫ p x dx. Beyond |M| = P b/2 the pressure would be negative at one corner: that end lifts off, and the
-contact is the interval of length 2r from the other corner at x = s b, s = sign(M), on which
+with M = ∫ p x dx. Beyond |M| = P b/2 the pressure would be negative at one corner: that end lifts
+off, and the contact is the interval of length 2r from the other corner at x = s b, s = sign(M), on
+which
 
     p = P/(pi r) sqrt((r + t)/(r - t)),   t = s x - (b - r),      r = 2(b - |M|/P),      tilt = -2 s P/(pi E* r).
 
-The functions of that contact carry the word `partial`. Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure.
+The functions of that contact carry the word `partial`. Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the
+potential of the pressure.
 """
 
 import sys
@@ -37,7 +40,8 @@ SOURCES = (
     f"{JOHNSON}, section 2.8",
 )
 
-# A moment or tilt that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
+# A moment or tilt that passes the limit of lift-off by no more than its own rounding is taken to be
+# at the limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 
@@ -220,7 +224,9 @@ def partial_potential(
 
 
 class _Corners(NamedTuple):
-    """The shares P/2 ± M/b of the load that belong to the corners: in them p is a sum of positive terms."""
+    """The shares P/2 ± M/b of the load that belong to the corners: in them p is a sum of positive
+    terms.
+    """
 
     right: Number
     left: Number
@@ -291,7 +297,9 @@ def _one_sided_inside(lib: Library, from_corner: Number, from_edge: Number) -> N
 
 
 def _potential(lib: Library, z: Number, b: Number, corners: _Corners) -> Number:
-    """pi b Fp: right (v - 1) + left (1 - 1/v), without the cancellation far away, v - 1 = rho (v + 1)."""
+    """pi b Fp: right (v - 1) + left (1 - 1/v), without the cancellation far away, v - 1 = rho (v +
+    1).
+    """
     v = lib.sqrt(z + b) / lib.sqrt(z - b)
     return b / (z + root(lib, z, b)) * (corners.right * (1 + v) + corners.left * (1 + 1 / v))
 
@@ -328,6 +336,8 @@ def _steepness(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
 
 
 def _infinite_steepness(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
-    """Towards a corner p rises to infinity, or, if that corner is about to lift, falls to 0 like a square root."""
+    """Towards a corner p rises to infinity, or, if that corner is about to lift, falls to 0 like a
+    square root.
+    """
     rises = ((x > 0) & (corners.right > 0)) | ((x < 0) & (corners.left == 0))
     return lib.inf * (2 * rises - 1)

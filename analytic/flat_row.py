@@ -1,12 +1,14 @@
-"""A row of equal rigid flats, of half-width a, one in each period L, pressed on a half-plane at one height, without friction.
+"""A row of equal rigid flats, of half-width a, one in each period L, pressed on a half-plane at one
+height, without friction.
 
-With w = pi z/L and S = sin(pi a/L) (Westergaard 1939, whose row of cracks this is with the sign changed)
+With w = pi z/L and S = sin(pi a/L) (Westergaard 1939, whose row of cracks this is with the sign
+changed)
 
     p  = mean pressure cos(pi x/L)/sqrt(S² - sin²(pi x/L))
     Fp = mean pressure cot(w)/sqrt(1 - S²/sin²(w))
 
-Fp(z) = (1/L) ∫ p(t) cot(pi (z-t)/L) dt over one period is the potential: it sums 1/(pi (z-t)) over all flats. The load on
-each is L times the mean pressure. For L >> a this is a single flat.
+Fp(z) = (1/L) ∫ p(t) cot(pi (z-t)/L) dt over one period is the potential: it sums 1/(pi (z-t)) over
+all flats. The load on each is L times the mean pressure. For L >> a this is a single flat.
 """
 
 import numpy as np

@@ -2,7 +2,8 @@
 
     p = E*/(2R) sqrt(b² - x²),      P = pi E* b²/(4R),      Fp = E*/(2R) (z - sqrt(z² - b²))
 
-(Johnson, Contact Mechanics, 1985, section 4.2(c)). Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure.
+(Johnson, Contact Mechanics, 1985, section 4.2(c)). Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential
+of the pressure.
 """
 
 import numpy as np
@@ -130,7 +131,9 @@ def _contact(
 
 
 def _ellipse(lib: Library, x: Number, b: Number) -> Number:
-    """sqrt(b² - x²), and 0 outside; the roots are taken one by one, lest the product of lengths overflow."""
+    """sqrt(b² - x²), and 0 outside; the roots are taken one by one, lest the product of lengths
+    overflow.
+    """
     inside = abs(x) < b
     return lib.sqrt((b - x) * inside) * lib.sqrt((b + x) * inside)
 

@@ -1,15 +1,19 @@
-"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear traction q = f p: closed forms.
+"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear traction q
+= f p: closed forms.
 
-With the potential F(z) = (1/pi) ∫ p(t)/(z-t) dt of the pressure, z = x + iy, all follows from F and F' (Muskhelishvili 1953, § 93;
-Hills, Nowell & Sackfield 1993, ch. 3; Ciavarella, Hills & Monno 1998, eq. (21), with the bar read as conj(Phi(conj z))):
+With the potential F(z) = (1/pi) ∫ p(t)/(z-t) dt of the pressure, z = x + iy, all follows from F and
+F' (Muskhelishvili 1953, § 93; Hills, Nowell & Sackfield 1993, ch. 3; Ciavarella, Hills & Monno
+1998, eq. (21), with the bar read as conj(Phi(conj z))):
 
     pressure     s_xx = Im F + y Re F'        s_yy = Im F - y Re F'      s_xy = -y Im F'
     shear q = p  s_xx = -2 Re F + y Im F'     s_yy = -y Im F'            s_xy = Im F + y Re F'
 
-The shear's s_xy is the pressure's s_xx, and its s_yy the pressure's s_xy, whatever the profile. On the surface s_yy = -p, s_xy = -q. The
-potentials are free of cancellation at every depth, far away too, and so are the stresses.
+The shear's s_xy is the pressure's s_xx, and its s_yy the pressure's s_xy, whatever the profile. On
+the surface s_yy = -p, s_xy = -q. The potentials are free of cancellation at every depth, far away
+too, and so are the stresses.
 
-McEwen's form (1949; Johnson 1985, eq. 4.49) of the line contact is there as printed, with its auxiliary lengths m and n.
+McEwen's form (1949; Johnson 1985, eq. 4.49) of the line contact is there as printed, with its
+auxiliary lengths m and n.
 """
 
 from typing import Any, NamedTuple
@@ -164,7 +168,9 @@ def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = 
 def _stresses(
     indenter: Any, parameters: dict[str, Number], x: Number, y: Number, f: Number
 ) -> Stresses:
-    """From the potentials of a module of this package; on the surface without F', which is infinite at the edges."""
+    """From the potentials of a module of this package; on the surface without F', which is infinite
+    at the edges.
+    """
     lib = parameters["lib"]
     x, y, f = real("x", x, lib), _depth(y, lib), real("friction", f, lib)
 

@@ -1,14 +1,16 @@
-"""A flat with rounded edges pressed on a half-plane: h = 0 for |x| <= a, h = (|x| - a)²/(2R) beyond.
+"""A flat with rounded edges pressed on a half-plane: h = 0 for |x| <= a, h = (|x| - a)²/(2R)
+beyond.
 
-The contact is [-b, b] with b > a. With theta = arccos(a/b) and x = b sin(phi), a = b sin(phi0), the classical
-solution (Steuerman 1939; Shtaerman 1949; Ciavarella, Hills & Monno 1998, eqs 32 and 35) is
+The contact is [-b, b] with b > a. With theta = arccos(a/b) and x = b sin(phi), a = b sin(phi0), the
+classical solution (Steuerman 1939; Shtaerman 1949; Ciavarella, Hills & Monno 1998, eqs 32 and 35)
+is
 
     p = E*/(2 pi R) { 2 theta b cos(phi) + x ln|sin(phi + phi0)/sin(phi - phi0)|
                       + a ln|tan((phi + phi0)/2) tan((phi - phi0)/2)| },
     P = E* b²/(2R) (theta - sin(theta) cos(theta)).
 
-So written, terms of order one cancel to the order (b - a)^(3/2): at 1 - a/b = 1e-8 half the digits are gone. Here
-the same expressions are written in
+So written, terms of order one cancel to the order (b - a)^(3/2): at 1 - a/b = 1e-8 half the digits
+are gone. Here the same expressions are written in
 
     tau = tan(theta/2) = sqrt((b-a)/(b+a)),    T = sqrt((b-|x|)/(b+|x|)),    v = sqrt(z+b)/sqrt(z-b),
     A(y) = (1+y²) atan(y)/y - 1,               B(y) = 1 - (1-y²) artanh(y)/y = -A(iy),
@@ -19,15 +21,15 @@ where A and B are positive, ~ 2y²/3, and every sum is one of positive terms:
     P  = E* b²/(2R) 2 tau/(1+tau²) { A(tau) + 2 tau²/(1+tau²) },         dP/db = E* b theta/R
     Fp = E* b/(pi R) 2 tau v/((v²-1)(1+tau²)) { A(tau v) + A(tau/v) - 2A(tau) }
 
-Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential; its sum cancels for v -> 1, far from the contact, where the
-Chebyshev series is used instead. The differences |x| - a and b - |x| are taken from the lengths themselves, never
-from tau and T.
+Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential; its sum cancels for v -> 1, far from the contact,
+where the Chebyshev series is used instead. The differences |x| - a and b - |x| are taken from the
+lengths themselves, never from tau and T.
 
-The lengths may be given as `half_flat` and `half_width`, or as `half_flat` and `rim` = b - a: a thin rim is known to
-full relative accuracy only in the second form.
+The lengths may be given as `half_flat` and `half_width`, or as `half_flat` and `rim` = b - a: a
+thin rim is known to full relative accuracy only in the second form.
 
-Measured against 120 digits, for 1e-12 <= a/b <= 1 - 1e-12: the relative error of p is below 5e-15, that of P and of
-b - a below 1e-15, that of Fp below 2e-14.
+Measured against 120 digits, for 1e-12 <= a/b <= 1 - 1e-12: the relative error of p is below 5e-15,
+that of P and of b - a below 1e-15, that of Fp below 2e-14.
 """
 
 import math
@@ -42,8 +44,8 @@ from analytic._core.parameters import not_negative, point, positive, positives, 
 
 SOURCES = (f"{CIAVARELLA}, equations (32) and (35)",)
 
-# b - a = length / (HERTZ + THIN_RIM (a/length)^(1/3)), length² = P R/E*, joins the two limits a -> 0 and b -> a; it is
-# only where Newton's method starts.
+# b - a = length / (HERTZ + THIN_RIM (a/length)^(1/3)), length² = P R/E*, joins the two limits a ->
+# 0 and b -> a; it is only where Newton's method starts.
 HERTZ = math.sqrt(math.pi) / 2
 THIN_RIM = (8 / 3) ** (2 / 3) / 2
 MOST_STEPS = 60

@@ -1,4 +1,5 @@
-"""A rigid flat with sharp corners at x = ±b that slides over a dissimilar half-plane, upright or tilted: q = f p.
+"""A rigid flat with sharp corners at x = ±b that slides over a dissimilar half-plane, upright or
+tilted: q = f p.
 
 With tan(pi eps) = -beta f, Y = (z-b)^(-1/2-eps) (z+b)^(-1/2+eps) and a tilt h',
 
@@ -6,9 +7,10 @@ With tan(pi eps) = -beta f, Y = (z-b)^(-1/2-eps) (z+b)^(-1/2+eps) and a tilt h',
     Fp = E*/2 h' + (P/pi + A (z - 2 eps b)) Y(z)
     M  = 2 eps b P - pi E* b² (1 - 4 eps²) h'/4
 
-solve E*/2 h' = (1/pi) PV∫ p(t)/(x-t) dt - beta f p, M = ∫ p x dx (for h' = 0 Hills, Nowell & Sackfield, Mechanics of
-Elastic Contacts, 1993; Johnson 1985, section 2.8). Upright, the flat needs the moment 2 eps b P: friction
-moves the pressure. `coupling` is beta f, positive when the shear on the half-plane points to +x.
+solve E*/2 h' = (1/pi) PV∫ p(t)/(x-t) dt - beta f p, M = ∫ p x dx (for h' = 0 Hills, Nowell &
+Sackfield, Mechanics of Elastic Contacts, 1993; Johnson 1985, section 2.8). Upright, the flat needs
+the moment 2 eps b P: friction moves the pressure. `coupling` is beta f, positive when the shear on
+the half-plane points to +x.
 """
 
 import sys
@@ -28,7 +30,8 @@ SOURCES = (
     f"{JOHNSON}, section 2.8",
 )
 
-# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
+# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the
+# limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 

@@ -9,8 +9,9 @@ With tan(pi eps) = -beta f the contact is [-w (1-2 eps), w (1+2 eps)], w half it
     p = E* cos(pi eps)/(2R) (w (1+2 eps) - x)^(1/2-eps) (w (1-2 eps) + x)^(1/2+eps)
     P = pi E* w² (1/4 - eps²)/R,      M = 8/3 eps w P,      Fp = E*/(2R) [ z - X(z) ]
 
-(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993; Johnson 1985, section 8.2). `coupling` is
-beta f, positive when the shear on the half-plane points to +x, negative when it points to -x. Without it all this is Hertz.
+(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993; Johnson 1985, section 8.2).
+`coupling` is beta f, positive when the shear on the half-plane points to +x, negative when it
+points to -x. Without it all this is Hertz.
 """
 
 import numpy as np

@@ -1,23 +1,25 @@
 """A flat with rounded edges that slides, upright, over a dissimilar half-plane: q = f p.
 
-h = 0 for |x| <= a and (|x| - a)²/(2R) beyond. With tan(pi eps) = -beta f the contact is [-a - d1, a + d2], of length
-L = 2a + d1 + d2, and with w(t) = (x2-t)^(1/2-eps) (t-x1)^(1/2+eps) the bounded solution of the equation of sliding,
+h = 0 for |x| <= a and (|x| - a)²/(2R) beyond. With tan(pi eps) = -beta f the contact is [-a - d1, a
++ d2], of length L = 2a + d1 + d2, and with w(t) = (x2-t)^(1/2-eps) (t-x1)^(1/2+eps) the bounded
+solution of the equation of sliding,
 
     E*/2 h'(x) = (1/pi) PV∫ p(t)/(x-t) dt - beta f p(x),
 
     p = cos²(pi eps) E*/(2 pi) w(x) PV∫ h'/(w(t) (t-x)) dt + sin(pi eps) cos(pi eps) E*/2 h'(x)
     0 = ∫ h'/w dt,      P = cos(pi eps) E*/2 ∫ t h'/w dt,      M = cos(pi eps) E*/2 ∫ t² h'/w dt - P ((1/2-eps) x2 + (1/2+eps) x1)
 
-(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993, for the inversion.) The condition says how
-the load divides the rims. All the integrals are incomplete beta functions; with V = (x2-x)/(x-x1), V2 = (x2-a)/(a-x1),
-alpha = 1/2 + eps, and phi, A, B of `_core.beta_functions` the rim on the right contributes to 2 pi R p/(E* cos²(pi eps))
+(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993, for the inversion.) The condition
+says how the load divides the rims. All the integrals are incomplete beta functions; with V =
+(x2-x)/(x-x1), V2 = (x2-a)/(a-x1), alpha = 1/2 + eps, and phi, A, B of `_core.beta_functions` the
+rim on the right contributes to 2 pi R p/(E* cos²(pi eps))
 
     w V2^alpha/(alpha (1+V2)) [A + B(V2/V)]                                      for x <= a
     w V2^alpha/alpha phi(-V2) + (x-a) (V/V2)^(1-alpha)/(1-alpha) phi(V/V2)       for x >= a, with 1 - alpha in this phi,
 
-and the rim on the left as in a mirror, with -eps. All terms are positive. Since the two edges depend on each other, the
-functions are given the load, which determines both. `coupling` is beta f, positive when the shear on the half-plane
-points to +x. Without it all this is the rounded flat.
+and the rim on the left as in a mirror, with -eps. All terms are positive. Since the two edges
+depend on each other, the functions are given the load, which determines both. `coupling` is beta f,
+positive when the shear on the half-plane points to +x. Without it all this is the rounded flat.
 """
 
 from typing import NamedTuple
@@ -35,7 +37,8 @@ from analytic._core.piecewise import nothing, pick
 SOURCES = (HILLS,)
 
 MOST_STEPS = 60
-# |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable time. beta is at most 1/2.
+# |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable
+# time. beta is at most 1/2.
 MOST_COUPLING = 10
 
 

@@ -1,14 +1,17 @@
-"""Two equal rigid flats on a < |x| < b, made of one piece, pressed on a half-plane: no friction, or beta = 0.
+"""Two equal rigid flats on a < |x| < b, made of one piece, pressed on a half-plane: no friction, or
+beta = 0.
 
-Under a load P in the middle both press evenly, and the solution is elementary (Muskhelishvili 1953, part V; Gladwell,
-Contact Problems, 1980). Under a moment M the piece rotates by h', and that the flats keep their difference of
-height, ∫_-a^a (Fp - E*/2 h') dx = 0, brings in the complete elliptic integrals of modulus k = a/b, D = (K - E)/k²:
+Under a load P in the middle both press evenly, and the solution is elementary (Muskhelishvili 1953,
+part V; Gladwell, Contact Problems, 1980). Under a moment M the piece rotates by h', and that the
+flats keep their difference of height, ∫_-a^a (Fp - E*/2 h') dx = 0, brings in the complete elliptic
+integrals of modulus k = a/b, D = (K - E)/k²:
 
     p  = [ P |x|/pi + sign(x) A (x² - a² D/K) ] / sqrt((x² - a²)(b² - x²)),      A = -E* h'/2
     M  = pi A [ (a² + b²)/2 - a² D/K ]
     Fp = (P/pi) z/S + A [ (z² - a² D/K)/S - 1 ],      S = sqrt(z² - a²) sqrt(z² - b²)
 
-While |A| <= (P/pi) b/(b² - a² D/K) all four corners touch. For a -> 0 this is the one flat of half-width b.
+While |A| <= (P/pi) b/(b² - a² D/K) all four corners touch. For a -> 0 this is the one flat of
+half-width b.
 """
 
 import sys
@@ -28,7 +31,8 @@ SOURCES = (
     GLADWELL,
 )
 
-# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
+# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the
+# limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 

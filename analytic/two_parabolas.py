@@ -1,15 +1,17 @@
-"""Two equal parabolas with their apexes at x = ±d, made of one piece, pressed on a half-plane: h = (|x| - d)²/(2R).
+"""Two equal parabolas with their apexes at x = ±d, made of one piece, pressed on a half-plane: h =
+(|x| - d)²/(2R).
 
-The contact is c1 < |x| < c2. In x² the problem is that of one patch, and the two conditions at its edges turn out to be
-steps of the arithmetic-geometric mean of Gauss, a_(n+1) = (a_n + b_n)/2, b_(n+1)² = a_n b_n, c_(n+1) = (a_n - b_n)/2, from
-a_0 = c2, b_0 = c1:
+The contact is c1 < |x| < c2. In x² the problem is that of one patch, and the two conditions at its
+edges turn out to be steps of the arithmetic-geometric mean of Gauss, a_(n+1) = (a_n + b_n)/2,
+b_(n+1)² = a_n b_n, c_(n+1) = (a_n - b_n)/2, from a_0 = c2, b_0 = c1:
 
     d = agm(c2, c1),      P = (pi E*/(2R)) sum_n 2^(n-1) c_n²,  n >= 1
     p = (E* d/(3 pi R)) |x| sqrt((x² - c1²)(c2² - x²)) R_J(0, c1², c2², x²)
 
-with Carlson's elliptic integral of the third kind. The first term, c_1 = (c2 - c1)/2, is Hertz under P/2 on each parabola;
-the others are what each feels of its neighbour. The patches never merge: c1 > 0 under any load, for h has a ridge at
-x = 0. (For the equations behind: Gladwell, Contact Problems, 1980.)
+with Carlson's elliptic integral of the third kind. The first term, c_1 = (c2 - c1)/2, is Hertz
+under P/2 on each parabola; the others are what each feels of its neighbour. The patches never
+merge: c1 > 0 under any load, for h has a ridge at x = 0. (For the equations behind: Gladwell,
+Contact Problems, 1980.)
 """
 
 import numpy as np

@@ -1,14 +1,16 @@
-"""A wavy surface of one wavelength pressed on a half-plane: h = D (1 - cos(2 pi x/lambda)), a contact on each crest.
+"""A wavy surface of one wavelength pressed on a half-plane: h = D (1 - cos(2 pi x/lambda)), a
+contact on each crest.
 
-With w = pi z/lambda and S = sin(pi a/lambda), the contacts are |x - n lambda| <= a (Westergaard 1939; Johnson, Contact
-Mechanics, 1985, section 13.2), and
+With w = pi z/lambda and S = sin(pi a/lambda), the contacts are |x - n lambda| <= a (Westergaard
+1939; Johnson, Contact Mechanics, 1985, section 13.2), and
 
     p  = (2 pi E* D/lambda) cos(pi x/lambda) sqrt(S² - sin²(pi x/lambda)),      mean pressure = (pi E* D/lambda) S²
     Fp = (2 pi E* D/lambda) cot(w) S²/(1 + sqrt(1 - S²/sin²(w)))
 
-From the mean pressure pi E* D/lambda on the surfaces touch everywhere, p = mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
-Fp(z) = (1/lambda) ∫ p(t) cot(pi (z-t)/lambda) dt over one period is the potential: it sums 1/(pi (z-t)) over all contacts,
-and far from the surface it is - i mean pressure.
+From the mean pressure pi E* D/lambda on the surfaces touch everywhere, p = mean pressure + (pi E*
+D/lambda) cos(2 pi x/lambda). Fp(z) = (1/lambda) ∫ p(t) cot(pi (z-t)/lambda) dt over one period is
+the potential: it sums 1/(pi (z-t)) over all contacts, and far from the surface it is - i mean
+pressure.
 """
 
 import numpy as np

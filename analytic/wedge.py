@@ -2,9 +2,10 @@
 
     p = (E* A/pi) arccosh(b/|x|),      P = E* A b,      Fp = (E* A/pi) arcsin(b/z)
 
-(Johnson, Contact Mechanics, 1985, section 5.2). The pressure is infinite, like a logarithm, at the apex.
-Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contact arcsin(b/x - i0) = sign(x) pi/2
-- i arccosh(b/|x|), so that Fp = E*/2 h' - i p, and far away Fp ~ E* A b/(pi z), which together determine it.
+(Johnson, Contact Mechanics, 1985, section 5.2). The pressure is infinite, like a logarithm, at the
+apex. Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contact arcsin(b/x -
+i0) = sign(x) pi/2 - i arccosh(b/|x|), so that Fp = E*/2 h' - i p, and far away Fp ~ E* A b/(pi z),
+which together determine it.
 """
 
 import numpy as np

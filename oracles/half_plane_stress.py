@@ -1,4 +1,5 @@
-"""Stresses in 40 digits, by quadrature of the slope alone: what the stress of the solver is measured against.
+"""Stresses in 40 digits, by quadrature of the slope alone: what the stress of the solver is
+measured against.
 
 From the potential F(z) = 1/π ∫p/(z - t) of `oracles.normal_contact` (smooth edges; e the piece
 next to z, continued), differentiated under the integral:
@@ -6,7 +7,8 @@ next to z, continued), differentiated under the integral:
     F  = G H_e - G/π R I0,      F' = G H_e' - G/π ( (z - m)/R I0 + R I1 ),
     I0 = ∫ q dφ,      I1 = ∫ (q - H_e'(z))/(t - z) dφ,      q = (H(t) - H_e(z))/(t - z)
 
-and, written apart from the package under test (Muskhelishvili 1953, § 93), with f the friction of full sliding and σ a bulk stress,
+and, written apart from the package under test (Muskhelishvili 1953, § 93), with f the friction of
+full sliding and σ a bulk stress,
 
     σ_xx + σ_yy = 2 Im F - 2f Re F + σ,      σ_yy - σ_xx + 2i σ_xy = -2y (1 - if) F' + 2f F - σ
 """
@@ -35,7 +37,8 @@ def potentials(contact: Contact, z: Number) -> tuple[Number, Number]:
     else:
         function = c.pieces.functions[e]
         h = mp.mpf(10) ** -12
-        # central differences of an analytic function, four points: h^4 and rounding/h leave 28 digits
+        # central differences of an analytic function, four points: h^4 and rounding/h leave 28
+        # digits
         H, dH = (
             function(z),
             (8 * (function(z + h) - function(z - h)) - (function(z + 2 * h) - function(z - 2 * h)))

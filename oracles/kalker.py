@@ -1,11 +1,14 @@
-"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. Shares nothing with the solver that it checks.
+"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. Shares nothing
+with the solver that it checks.
 
-Constant shear on each of n equal elements; the displacement of the indenter relative to the body grows by
+Constant shear on each of n equal elements; the displacement of the indenter relative to the body
+grows by
 
     Δg = δ - A Δq - (2 Δτ/E*) x,        A q = -2/(π E*) ∫ q(t) ln|x - t| dt        (δ: the rigid shift)
 
-and a step minimises ½ Δq·A Δq + Δq·x 2Δτ/E* over |q| <= f p with ∫q = Q: where q is below its bound Δg = 0, at a bound Δg pulls towards it
-(Kalker 1990, Three-Dimensional Elastic Bodies in Rolling Contact, § 4.2; Duvaut & Lions 1972). A primal-dual active set finds it.
+and a step minimises ½ Δq·A Δq + Δq·x 2Δτ/E* over |q| <= f p with ∫q = Q: where q is below its bound
+Δg = 0, at a bound Δg pulls towards it (Kalker 1990, Three-Dimensional Elastic Bodies in Rolling
+Contact, § 4.2; Duvaut & Lions 1972). A primal-dual active set finds it.
 """
 
 import numpy as np
@@ -53,7 +56,8 @@ class Mesh:
             found = np.linalg.solve(K, right)
             new[free] = q[free] + found[:m]
             slip = found[m] - self.A @ (new - q) - strain * self.x
-            # free elements beyond their bound are held there, held ones whose slip pulls away are let go
+            # free elements beyond their bound are held there, held ones whose slip pulls away are
+            # let go
             out = free & (np.abs(new) > bound * (1.0 + 1e-13))
             back = fixed & (at * slip < -1e-14 * np.abs(slip).max())
             if not out.any() and not back.any():

@@ -1,8 +1,10 @@
-"""Densities whose Cauchy integrals are known exactly, in 40 digits: what solvers of Cauchy equations are measured against.
+"""Densities whose Cauchy integrals are known exactly, in 40 digits: what solvers of Cauchy
+equations are measured against.
 
     φ(x) = w(s) f(s),   w = (1 - s)^α (1 + s)^β,   α + β = -κ,   f a polynomial plus poles r/(s - p) off [-1, 1],   x = m + r s
 
-W(z) = (z - 1)^α (z + 1)^β has no cut but [-1, 1], where it jumps by 2i sin πα w, and so (Muskhelishvili 1953, § 110)
+W(z) = (z - 1)^α (z + 1)^β has no cut but [-1, 1], where it jumps by 2i sin πα w, and so
+(Muskhelishvili 1953, § 110)
 
     1/π ∫ w f/(z - t) dt  =  -(W f - what W f has at infinity and at the poles) / sin πα
 
@@ -34,7 +36,9 @@ def exponent(a, b, bounded):
 
 
 def exponents(a, b, ends):
-    """(α, β) for ends = (left bounded, right bounded); the left end mirrors the equation, b -> -b."""
+    """(α, β) for ends = (left bounded, right bounded); the left end mirrors the equation, b ->
+    -b.
+    """
     return exponent(a, b, ends[1]), exponent(a, -b, ends[0])
 
 
@@ -100,7 +104,7 @@ class Manufactured:
         regular = sum((c * s**k for k, c in self.at_infinity.items() if k >= 0), mp.mpf(0))
         return regular + sum(residue / (s - p) for p, residue in self.at_poles)
 
-    # -- what is compared -------------------------------------------------------------------------------------------
+    # -- what is compared -------------------------------------------------------------------------
 
     def value(self, x):
         s = (mp.mpf(x) - self.m) / self.r
@@ -144,9 +148,11 @@ class Manufactured:
 
 
 def right_hand_side(densities, a, b, kernels=()):
-    """g(x), vectorised, of a φ + b/π PV∫ φ/(t - x) dt + Σ c ∫ φ/(t - x - shift) dt for the sum φ; `kernels` as pairs (c, shift).
+    """g(x), vectorised, of a φ + b/π PV∫ φ/(t - x) dt + Σ c ∫ φ/(t - x - shift) dt for the sum φ;
+    `kernels` as pairs (c, shift).
 
-    On the interval itself a φ and the cotangent's part of the principal value cancel, and are left out: g is smooth.
+    On the interval itself a φ and the cotangent's part of the principal value cancel, and are left
+    out: g is smooth.
     """
     a, b = mp.mpmathify(a), mp.mpmathify(b)
 
@@ -174,7 +180,9 @@ def right_hand_side(densities, a, b, kernels=()):
 
 
 def needed(densities, tol, g=None):
-    """How many coefficients of f (or of g) are above tol: those of its Chebyshev series, which decay as any Jacobi series of it do."""
+    """How many coefficients of f (or of g) are above tol: those of its Chebyshev series, which
+    decay as any Jacobi series of it do.
+    """
     sizes, n = [], 160
     theta = np.pi * (np.arange(n) + 0.5) / n
     for d in densities:

@@ -1,7 +1,8 @@
 """The normal contact in 40 digits, by quadrature alone: what the solver is measured against.
 
-Nothing here comes from the package under test. A profile is the list of its slope's pieces, each an analytic function of an mpmath number;
-the contact is found by Newton's method on the conditions, the pressure and its potential are one Gauss-Legendre quadrature:
+Nothing here comes from the package under test. A profile is the list of its slope's pieces, each an
+analytic function of an mpmath number; the contact is found by Newton's method on the conditions,
+the pressure and its potential are one Gauss-Legendre quadrature:
 
     G = E*/2,  t = m + r sin φ,  w = r cos φ,  R(z) = sqrt(z - x1) sqrt(z - x2),  e the piece next to z, continued to z
 
@@ -53,7 +54,9 @@ def gauss_legendre(n: int = NODES) -> tuple[list[Number], list[Number]]:
 
 @dataclass(frozen=True)
 class Pieces:
-    """A slope: `functions[k]` between `breaks[k]` and `breaks[k + 1]`; the outer breaks are the ends of the indenter, maybe infinite."""
+    """A slope: `functions[k]` between `breaks[k]` and `breaks[k + 1]`; the outer breaks are the
+    ends of the indenter, maybe infinite.
+    """
 
     breaks: tuple[Number, ...]
     functions: tuple[Callable[[Number], Number], ...]
@@ -88,7 +91,9 @@ def smooth(function: Callable[[Number], Number], lo: float = -mp.inf, hi: float 
 
 @dataclass(frozen=True)
 class Contact:
-    """The answer for a slope: edges, load, moment (about x = 0), G = E*/2; `sharp` tells whether an edge may be singular."""
+    """The answer for a slope: edges, load, moment (about x = 0), G = E*/2; `sharp` tells whether an
+    edge may be singular.
+    """
 
     pieces: Pieces
     G: Number
@@ -125,7 +130,9 @@ class Contact:
         return sum((weight * f(t, w, H) for t, w, H, weight in self.nodes(pole, free)), mp.zero)
 
     def nodes(self, pole: Number | None = None, free: int = -1) -> Iterator[tuple[Number, ...]]:
-        """(t, w, H(t), weight) in φ across the contact; panels halved towards `pole`, except on the piece `free`, and towards kinks."""
+        """(t, w, H(t), weight) in φ across the contact; panels halved towards `pole`, except on the
+        piece `free`, and towards kinks.
+        """
         pole_angle = None if pole is None else mp.asin((pole - self.m) / self.r)
         poles = () if pole is None else (pole_angle, mp.pi - pole_angle)
         kinks = [self.angle(b) for b in self.pieces.kinks if self.x1 < b < self.x2]
@@ -190,7 +197,9 @@ class Contact:
         )
 
     def gap(self, x: float) -> Number:
-        """∫ (H - F/G) from the nearer edge to x, in θ with x = edge ± 2 r sinh²(θ/2), where the root disappears."""
+        """∫ (H - F/G) from the nearer edge to x, in θ with x = edge ± 2 r sinh²(θ/2), where the
+        root disappears.
+        """
         x = mp.mpf(x)
         right = x > self.m
         distance = x - self.x2 if right else self.x1 - x
@@ -262,7 +271,8 @@ def contact(
     pieces: Pieces, modulus: float, guess: tuple[float, float], *, load: float | None = None, half_width: float | None = None,
     symmetric: bool = False, sharp: tuple[bool, bool] = (False, False), moment: float | None = None,
 ) -> Contact:  # fmt: skip
-    """Edges, load and moment from the conditions, to 30 digits: Newton from a guess, with the residual verified.
+    """Edges, load and moment from the conditions, to 30 digits: Newton from a guess, with the
+    residual verified.
 
     symmetric    about x = 0: ∫H dφ = 0 holds by itself
     sharp        one end of the indenter is an edge; the other is smooth, where P = G r ∫H (1 ± sin φ) dφ
@@ -326,7 +336,9 @@ def contact(
 def _root(
     function: Callable[[Sequence[Number]], list[Number]], start: list[Number], scale: Number = 0
 ) -> list[Number]:
-    """Newton with finite differences in 40 digits; the last step must be below 1e-28 of the scale."""
+    """Newton with finite differences in 40 digits; the last step must be below 1e-28 of the
+    scale.
+    """
     v = list(start)
     scale = scale or max(abs(x) for x in v)
     for _ in range(60):

@@ -63,7 +63,9 @@ class Exact:
         return totals
 
     def stiffness(self) -> Number:
-        """The smaller of d(r K2)/dx2 and -d(r K1)/dx1, of ∫H (1 ± s) dφ: by how little an edge is fixed."""
+        """The smaller of d(r K2)/dx2 and -d(r K1)/dx1, of ∫H (1 ± s) dφ: by how little an edge is
+        fixed.
+        """
         h = self.r * mp.mpf(10) ** -40
         wider = (
             (Exact(self.breaks, self.rows, self.x1 - h, self.x2), (1, -1)),

@@ -1,7 +1,9 @@
-"""Principal values by Gauss-Legendre quadrature in mpmath, to as many digits as the context has; shares nothing with the packages.
+"""Principal values by Gauss-Legendre quadrature in mpmath, to as many digits as the context has;
+shares nothing with the packages.
 
-In the angle t = b sin θ the root of the paper's integrals is gone, ∫ f dt / (sqrt(b² - t²)(t - x)) = ∫ f dθ / (t - x), and what is left of
-the pole at θ = φ is folded: the sum of the integrand at φ + s and φ - s is analytic in s.
+In the angle t = b sin θ the root of the paper's integrals is gone, ∫ f dt / (sqrt(b² - t²)(t - x))
+= ∫ f dθ / (t - x), and what is left of the pole at θ = φ is folded: the sum of the integrand at φ +
+s and φ - s is analytic in s.
 """
 
 from __future__ import annotations
@@ -23,14 +25,18 @@ def context(digits: int) -> Any:
 
 
 def integral(mp: Any, f: Callable[[Number], Number], lo: Number, hi: Number) -> Number:
-    """∫ f ds of an analytic function whose singularities may lie half the interval away, or at an end as powers of the distance."""
+    """∫ f ds of an analytic function whose singularities may lie half the interval away, or at an
+    end as powers of the distance.
+    """
     return mp.quad(f, mp.linspace(lo, hi, 5), method="gauss-legendre", maxdegree=8)
 
 
 def principal_value(
     mp: Any, f: Callable[[Number], Number], pole: Number, lo: Number, hi: Number
 ) -> Number:
-    """PV∫_lo^hi f(θ) dθ for f with a simple pole at `pole`, inside or outside; graded towards it."""
+    """PV∫_lo^hi f(θ) dθ for f with a simple pole at `pole`, inside or outside; graded towards
+    it.
+    """
     if not lo < pole < hi:
         near = lo if pole <= lo else hi
         distance = abs(pole - near)

@@ -1,4 +1,6 @@
-"""What depends on what: imports point downward, solver and closed forms share nothing, heavy packages wait."""
+"""What depends on what: imports point downward, solver and closed forms share nothing, heavy
+packages wait.
+"""
 
 import ast
 import graphlib
@@ -16,7 +18,8 @@ import sie
 ORACLES = Path(oracles.__file__).parent
 HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).parent}
 
-# From the ground up: a folder or a module at the top imports only from its own row and from rows before it.
+# From the ground up: a folder or a module at the top imports only from its own row and from rows
+# before it.
 LAYERS = (
     ("interrupt", "errors", "arguments", "workers"),
     ("numerics",),
@@ -77,7 +80,9 @@ def parts(name):
 
 
 def dependencies():
-    """Every import in the solver: (importing module, imported name, line), both by their full names."""
+    """Every import in the solver: (importing module, imported name, line), both by their full
+    names.
+    """
     for path in modules("sie"):
         inside = path.relative_to(HOUSES["sie"].parent).with_suffix("").parts
         package = list(inside[:-1])

@@ -1,6 +1,8 @@
-"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with pictures and one JSON of every number.
+"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with
+pictures and one JSON of every number.
 
-The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails, or a check is blind.
+The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails,
+or a check is blind.
 """
 
 from __future__ import annotations

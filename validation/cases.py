@@ -1,4 +1,6 @@
-"""The contacts that are compared with the 40-digit reference: a profile of the package and, written apart, its slope for the reference."""
+"""The contacts that are compared with the 40-digit reference: a profile of the package and, written
+apart, its slope for the reference.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,7 +17,9 @@ INF = float("inf")
 
 @dataclass(frozen=True)
 class Case:
-    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` as the case is meant to end."""
+    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` as the
+    case is meant to end.
+    """
 
     name: str
     profile: sie.Profile
@@ -166,7 +170,9 @@ def chosen(quick: bool) -> Iterator[Case]:
 
 
 def points(case: Case) -> np.ndarray:
-    """Off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges (nearer, p is rounding of the edge itself)."""
+    """Off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges
+    (nearer, p is rounding of the edge itself).
+    """
     solution = solved(case)
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     x = [m + r * s for s in (-0.999, -0.71, -0.29, 0.013, 0.21, 0.57, 0.91, 0.999)]

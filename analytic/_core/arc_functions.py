@@ -1,17 +1,19 @@
-"""The two functions that the rounded flat is made of, and the logarithms in them, at full relative accuracy.
+"""The two functions that the rounded flat is made of, and the logarithms in them, at full relative
+accuracy.
 
     A(y) = (1+y²) atan(y)/y - 1   = sum_k -2 (-y²)^k/(4k²-1)        0 <= y <= 1
     B(y) = 1 - (1-y²) artanh(y)/y = sum_k  2 y^(2k)/(4k²-1)         = -A(iy); real 0 <= y <= 1, or complex
 
-and atan(y)/y - 1, artanh(y)/y - 1. All are even, so that they are given y². Near y = 1 and near the cut y > 1 of
-artanh what counts is 1 - y², which the caller computes from lengths and hands over.
+and atan(y)/y - 1, artanh(y)/y - 1. All are even, so that they are given y². Near y = 1 and near the
+cut y > 1 of artanh what counts is 1 - y², which the caller computes from lengths and hands over.
 """
 
 from analytic._core.numbers import Library, Number, bits, fraction
 from analytic._core.piecewise import pick
 
-# Below this |y|² the closed forms lose more than three bits, and series take over. The power series gain three bits a
-# term there. Halving the argument, artanh(y) = 2 artanh(y/(1 + sqrt(1-y²))), makes it five.
+# Below this |y|² the closed forms lose more than three bits, and series take over. The power series
+# gain three bits a term there. Halving the argument, artanh(y) = 2 artanh(y/(1 + sqrt(1-y²))),
+# makes it five.
 SMALL_SQUARE = 1 / 8
 BITS_A_TERM = 3
 BITS_A_TERM_HALVED = 5
@@ -33,7 +35,9 @@ def atan_excess(lib: Library, y2: Number) -> Number:
 
 
 def artanh_excess(lib: Library, y2: Number, c: Number) -> Number:
-    """artanh(y)/y - 1 of y² and c = 1 - y². For y² > 1 give |c|: this is then its principal value."""
+    """artanh(y)/y - 1 of y² and c = 1 - y². For y² > 1 give |c|: this is then its principal
+    value.
+    """
     return pick(lib, abs(y2) < SMALL_SQUARE, _artanh_series, _artanh_closed, y2, c)
 
 

@@ -1,4 +1,5 @@
-"""Incomplete beta functions of the edge exponents, as the sliding rounded flat needs them: at full relative accuracy.
+"""Incomplete beta functions of the edge exponents, as the sliding rounded flat needs them: at full
+relative accuracy.
 
 With 0 < alpha < 1, the exponent of p at an edge being 1 - alpha there,
 
@@ -6,7 +7,8 @@ With 0 < alpha < 1, the exponent of p at an edge being 1 - alpha there,
     A      = (1+V) phi(-V) - 1 = sum_n n! Y^n/(1+alpha)_n,  n >= 1,  Y = V/(1+V)
     B(y)   = 1 - (1-y) phi(y)  = sum_n alpha y^n/((alpha+n-1)(alpha+n)),  n >= 1
 
-for 0 <= y <= 1 and 0 <= Y < 1. All terms are positive. For alpha = 1/2 they are the functions of `arc_functions`.
+for 0 <= y <= 1 and 0 <= Y < 1. All terms are positive. For alpha = 1/2 they are the functions of
+`arc_functions`.
 """
 
 import math
@@ -14,10 +16,11 @@ import math
 from analytic._core.numbers import Library, Number, bits, fraction, most
 from analytic._core.piecewise import pick
 
-# Below this y the closed form of B loses more than three bits, and its series, three bits a term, takes over.
+# Below this y the closed form of B loses more than three bits, and its series, three bits a term,
+# takes over.
 SMALL = 1 / 8
-# From here to y = 1 the expansion about y = 1 takes over, which gains 1.3 bits a term there. Below, the map
-# y = 4 w/(1+w)² leaves w <= 0.226, 2.1 bits a term.
+# From here to y = 1 the expansion about y = 1 takes over, which gains 1.3 bits a term there. Below,
+# the map y = 4 w/(1+w)² leaves w <= 0.226, 2.1 bits a term.
 NEAR_ONE = 0.6
 BITS_A_TERM_NEAR_ONE = 1.3
 BITS_A_TERM_BELOW = 2.1
@@ -46,8 +49,9 @@ def phi(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
 def rim_moment(
     lib: Library, n: int, alpha: Number, rim: Number, length: Number
 ) -> tuple[Number, Number]:
-    """∫_0^d (d-r)^n r^(alpha-1) (L-r)^(-alpha) dr, d the rim and L > d the length, and the change of its logarithm with ln d
-    at fixed d/r and L/r, less alpha + n: Y F'/F in d^(n+alpha) L^(-alpha) B(alpha, n+1) F(Y), F = 2F1(alpha, alpha; alpha+n+1; Y).
+    """∫_0^d (d-r)^n r^(alpha-1) (L-r)^(-alpha) dr, d the rim and L > d the length, and the change
+    of its logarithm with ln d at fixed d/r and L/r, less alpha + n: Y F'/F in d^(n+alpha)
+    L^(-alpha) B(alpha, n+1) F(Y), F = 2F1(alpha, alpha; alpha+n+1; Y).
     """
     Y = rim / length
     total, weighted, term = 1 + 0 * Y, 0 * Y, 1 + 0 * Y
@@ -88,7 +92,9 @@ def _one(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
 
 
 def _phi_below(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
-    """phi = (1+w)^(2 alpha) sum_n alpha e_n w^n/(n + alpha), where sum_n e_n w^n = (1+w)^(1-2 alpha)/(1-w)."""
+    """phi = (1+w)^(2 alpha) sum_n alpha e_n w^n/(n + alpha), where sum_n e_n w^n = (1+w)^(1-2
+    alpha)/(1-w).
+    """
     root = lib.sqrt(c)
     w = (1 - root) / (1 + root)
     binomial, e, power = 1 + 0 * alpha, 1 + 0 * alpha, 1 + 0 * w

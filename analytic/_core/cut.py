@@ -10,8 +10,9 @@ from analytic._core.numbers import Library, Number, larger, sign
 from analytic._core.parameters import side_of_cut
 from analytic._core.piecewise import pick
 
-# Below this height over the cut, in units of the contact (and below the least normal float), quotients under- or
-# overflow. The limit on the cut is then correct to all digits. (A context has no such bound.)
+# Below this height over the cut, in units of the contact (and below the least normal float),
+# quotients under- or overflow. The limit on the cut is then correct to all digits. (A context has
+# no such bound.)
 SHALLOW = 1e-290
 
 
@@ -21,7 +22,8 @@ def root(lib: Library, z: Number, b: Number) -> Number:
 
 
 def on_cut(lib: Library, z: Number, b: Number, low: Number = 0) -> Number:
-    """Whether z is a real point of the contact, where the limit depends on the side, or in floats as good as one.
+    """Whether z is a real point of the contact, where the limit depends on the side, or in floats
+    as good as one.
 
     The half-width is b + low, in case it has more digits than b.
     """
@@ -39,5 +41,7 @@ def in_plane(
     lib: Library, cut: Number, side: int,
     limit: Callable[..., Number], value: Callable[..., Number], *args: Number,
 ) -> Number:  # fmt: skip
-    """`limit(lib, *args, side=side)` on the cut, `value(lib, *args)` off it. ValueError for other sides."""
+    """`limit(lib, *args, side=side)` on the cut, `value(lib, *args)` off it. ValueError for other
+    sides.
+    """
     return pick(lib, cut, partial(limit, side=side_of_cut(side)), value, *args)

@@ -1,12 +1,13 @@
 """The powers by which tractions between dissimilar bodies rise from the edges of their contact.
 
-The equations of dissimilar bodies lead, on a contact [-b, b], to functions of the plane that are cut there,
+The equations of dissimilar bodies lead, on a contact [-b, b], to functions of the plane that are
+cut there,
 
     X(z) = sqrt(z² - b²) ((z+b)/(z-b))^eps = S exp(2 eps t),      t = artanh(b/z),
 
-with limits from above and below whose ratio is -exp(-2 pi i eps). In full sliding eps is real, tan(pi eps) = -beta f
-(Hills, Nowell & Sackfield 1993); bonded, it is i eta with tanh(pi eta) = beta. The bounded solutions are
-made of X, the singular ones of Y = exp(2 eps t)/S.
+with limits from above and below whose ratio is -exp(-2 pi i eps). In full sliding eps is real,
+tan(pi eps) = -beta f (Hills, Nowell & Sackfield 1993); bonded, it is i eta with tanh(pi eta) =
+beta. The bounded solutions are made of X, the singular ones of Y = exp(2 eps t)/S.
 """
 
 from analytic._core.cut import root
@@ -71,7 +72,9 @@ def _bounded_near(lib: Library, z: Number, b: Number, eps: Number, rho: Number) 
 
 
 def _bounded_far(lib: Library, z: Number, b: Number, eps: Number, rho: Number) -> Number:
-    """2 rho X/b = (1 - rho²) ((1+rho)/(1-rho))^(2 eps) = sum_n y_n rho^n, with (n+1) y_(n+1) = 4 eps y_n + (n-3) y_(n-1)."""
+    """2 rho X/b = (1 - rho²) ((1+rho)/(1-rho))^(2 eps) = sum_n y_n rho^n, with (n+1) y_(n+1) = 4
+    eps y_n + (n-3) y_(n-1).
+    """
     before, now = 4 * eps, 8 * eps * eps - 1
     total, power = (1 - now) + 0 * rho, rho * 1
     for n in range(2, bits(lib) * 2 // BITS_A_TERM + 4):

@@ -1,4 +1,6 @@
-"""The parameters of the closed forms: what each of them is, and the refusal of those without meaning."""
+"""The parameters of the closed forms: what each of them is, and the refusal of those without
+meaning.
+"""
 
 import math
 
@@ -48,7 +50,9 @@ MEANING = {
 
 
 def real(name: str, value: Number, lib: Library) -> Number:
-    """`value` as float or array of float64, or as context number. ValueError unless it is real and finite."""
+    """`value` as float or array of float64, or as context number. ValueError unless it is real and
+    finite.
+    """
     try:
         number = _float64(value) if lib is np else lib.mpf(lib.convert(value))
     except (TypeError, ValueError, OverflowError):
@@ -76,8 +80,8 @@ def not_negative(name: str, value: Number, lib: Library) -> Number:
 def point(value: Number, lib: Library) -> Number:
     """z as complex array or context number. ValueError unless it is finite."""
     try:
-        # Adding zero turns an imaginary part of -0.0 into +0.0. Without it z - b and z + b would carry opposite signs
-        # of zero, and sqrt(z - b) sqrt(z + b) the wrong sign on x < -b.
+        # Adding zero turns an imaginary part of -0.0 into +0.0. Without it z - b and z + b would
+        # carry opposite signs of zero, and sqrt(z - b) sqrt(z + b) the wrong sign on x < -b.
         number = (
             np.asarray(value, dtype=complex)[()] + 0j if lib is np else lib.mpc(lib.convert(value))
         )
@@ -117,7 +121,8 @@ def _float64(value: Number) -> Number:
         array.dtype.kind not in "fiu"
     ):  # strings, complex and other numbers: each must convert by itself
         array = array.astype(object)
-    # Python's float, not NumPy's: that one is slow on the left of an array, and most parameters are single numbers.
+    # Python's float, not NumPy's: that one is slow on the left of an array, and most parameters are
+    # single numbers.
     return array.astype(float, copy=False) if array.ndim else float(array)
 
 

@@ -16,8 +16,9 @@ def pick(
 ) -> Number:
     """`yes(lib, *args)` where the condition holds, `no(lib, *args)` elsewhere.
 
-    Each formula sees only the points of its own domain, so that no nan or overflow arises that would have to be
-    hidden. The condition and the arguments, numbers or named tuples of numbers, broadcast.
+    Each formula sees only the points of its own domain, so that no nan or overflow arises that
+    would have to be hidden. The condition and the arguments, numbers or named tuples of numbers,
+    broadcast.
     """
     if lib is not np:
         return yes(lib, *args) if where else no(lib, *args)
@@ -38,7 +39,9 @@ def pick(
 def together(
     lib: Library, function: Callable[..., Number], *calls: tuple[Number, ...]
 ) -> tuple[Number, ...]:
-    """`function(lib, *call)` for each call, in one pass over arrays, which costs less than several."""
+    """`function(lib, *call)` for each call, in one pass over arrays, which costs less than
+    several.
+    """
     if lib is not np:
         return tuple(function(lib, *call) for call in calls)
     return tuple(function(lib, *(np.array(args) for args in zip(*calls, strict=True))))

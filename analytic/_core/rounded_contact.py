@@ -1,6 +1,7 @@
 """The contact of a rounded flat in units of its own: what `rounded_flat` scales by E*, R and b.
 
-The mathematics and the notation are those of `rounded_flat`. Everything here takes the library first, and a `Contact`.
+The mathematics and the notation are those of `rounded_flat`. Everything here takes the library
+first, and a `Contact`.
 """
 
 import math
@@ -71,7 +72,8 @@ def pressure(lib: Library, x: Number, contact: Contact) -> Number:
     a, b, low, rim = contact
     near, far, tau2 = larger((b - x) + low, 0, lib), b + x, contact.tau2
     T2 = near / far
-    # tau² : T² = for_tau : for_T, and their difference is 2 (x - a). (Without a rim all is 0; but not 0/0.)
+    # tau² : T² = for_tau : for_T, and their difference is 2 (x - a). (Without a rim all is 0; but
+    # not 0/0.)
     for_tau, for_T = (rim / b + (rim == 0)) * far, (b + a) / b * near
     whole = larger(for_tau, for_T, lib)
     this_end = (smaller(for_tau, for_T, lib) / whole, abs(x - a) / whole * 2)
@@ -110,7 +112,9 @@ def coefficient(lib: Library, n: int, contact: Contact) -> Number:
 
 
 def _overlap(lib: Library, n: int, contact: Contact) -> Number:
-    """∫_0^theta sin(mt) sin(t) dt = [cos(theta) sin(m theta) - m sin(theta) cos(m theta)]/(m²-1), m = 2n+1 > 1."""
+    """∫_0^theta sin(mt) sin(t) dt = [cos(theta) sin(m theta) - m sin(theta) cos(m theta)]/(m²-1), m
+    = 2n+1 > 1.
+    """
     short, long = partial(_overlap_short_flat, n), partial(_overlap_long_flat, n)
     return pick(lib, contact.a < contact.b / 2, short, long, contact)
 
@@ -141,7 +145,9 @@ def _overlap_closed(n: int, lib: Library, theta: Number) -> Number:
 
 
 def _overlap_series(n: int, lib: Library, theta: Number) -> Number:
-    """Powers of theta, for (2n+2) theta < 1. The differences in the coefficients are of integers, hence exact."""
+    """Powers of theta, for (2n+2) theta < 1. The differences in the coefficients are of integers,
+    hence exact.
+    """
     total = 0 * theta
     for k in range(bits(lib) // 6 + 3, 0, -1):  # 1/(2k+1)! falls by more than six bits a term
         difference = (2 * n + 2) ** (2 * k) - (2 * n) ** (2 * k)

@@ -1,4 +1,5 @@
-"""The zones of partial slip under a rounded flat, and differences of loads and pressures that keep their digits.
+"""The zones of partial slip under a rounded flat, and differences of loads and pressures that keep
+their digits.
 
 The mathematics and the notation are those of `cattaneo_rounded`.
 """
@@ -62,7 +63,9 @@ def _slip_of_rest(lib: Library, P: Number, contact: Contact, used: Traction) -> 
 
 
 def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
-    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c: it climbs to the root."""
+    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c:
+    it climbs to the root.
+    """
     a, rim = contact.a, contact.rim
     target = P * used.used / contact.E * contact.R
     width = target / ((a + rim) * _theta(lib, a, rim))

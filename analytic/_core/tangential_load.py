@@ -1,4 +1,6 @@
-"""What partial slip needs whatever the profile: how far the loads are from sliding, and integrals over a slip zone."""
+"""What partial slip needs whatever the profile: how far the loads are from sliding, and integrals
+over a slip zone.
+"""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -19,7 +21,9 @@ NAMES = ("largest_load", "least_load", "tangential_load")
 
 
 class Traction(NamedTuple):
-    """How much of the friction a tangential load takes: used = Q/(fP), and left = 1 - Q/(fP), each to all its digits."""
+    """How much of the friction a tangential load takes: used = Q/(fP), and left = 1 - Q/(fP), each
+    to all its digits.
+    """
 
     used: Number
     left: Number
@@ -48,7 +52,9 @@ def turned(
     largest_load: Number,
     tangential_load: Number,
 ) -> tuple[Traction, Traction]:
-    """The tractions of Q_max and of (Q_max - Q)/2, after which the load is down to Q. ValueError unless |Q| <= Q_max."""
+    """The tractions of Q_max and of (Q_max - Q)/2, after which the load is down to Q. ValueError
+    unless |Q| <= Q_max.
+    """
     top = traction(lib, friction, normal_load, largest_load, "largest_load")
     Q, most = (
         real("tangential_load", tangential_load, lib),
@@ -81,7 +87,8 @@ def turned_twice(
 def integral(lib: Library, integrand: Callable[[Number, Number], Number]) -> Number:
     """∫_0^1 of a function of s and 1 - s by the double exponential rule (Takahasi & Mori 1974).
 
-    Accurate to all digits for functions that are analytic but for powers at the ends, or next to them.
+    Accurate to all digits for functions that are analytic but for powers at the ends, or next to
+    them.
     """
     digits = bits(lib)
     step = STEP_TIMES_BITS / digits
@@ -98,7 +105,9 @@ def integral(lib: Library, integrand: Callable[[Number, Number], Number]) -> Num
 
 
 def _rest(f: Number, P: Number, Q: Number) -> Number:
-    """f P - Q, rounded once, also where it is a small difference: by Dekker's exact product of the significands."""
+    """f P - Q, rounded once, also where it is a small difference: by Dekker's exact product of the
+    significands.
+    """
     (f, m), (P, n) = np.frexp(f), np.frexp(P)
     product = f * P
     f_high, P_high = (SPLITTER * v - (SPLITTER * v - v) for v in (f, P))

@@ -1,4 +1,6 @@
-"""The question and how it is solved: index and side conditions, nodes, sizes, conditioning, refusals."""
+"""The question and how it is solved: index and side conditions, nodes, sizes, conditioning,
+refusals.
+"""
 
 import math
 import re
@@ -24,7 +26,7 @@ def index_of(pair):
     return 1 - pair.count(BOUNDED)
 
 
-# -- index and side conditions ----------------------------------------------------------------------------------------
+# -- index and side conditions --------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("a", [0.0, 0.4, -2.0, 0.3j, 0.2 - 0.5j])
@@ -41,7 +43,9 @@ def test_the_index_counts_singular_less_bounded_ends(ends, a):
 
 
 def test_constants_of_one_phase_have_real_exponents():
-    """A complex multiple of an equation is the same equation; a complex weight equal to a real one would be mistaken for it in a cache."""
+    """A complex multiple of an equation is the same equation; a complex weight equal to a real one
+    would be mistaken for it in a cache.
+    """
     phase = 0.8 + 0.05j
     turned = sie.CauchyEquation((0.0, 1.0), phase, a=phase, b=phase, ends=KINDS[1])
     plain = sie.CauchyEquation((0.0, 1.0), 1.0, a=1.0, b=1.0, ends=KINDS[1])
@@ -123,11 +127,13 @@ def test_free_numbers_may_be_an_array():
     ).solve().constants == pytest.approx((-1.0,))
 
 
-# -- nodes and weights ------------------------------------------------------------------------------------------------
+# -- nodes and weights ----------------------------------------------------------------------------
 
 
 def exact_rule(weight, nodes):
-    """The Gauss rule in 40 digits, from guesses: Newton on the monic recurrence (Szegö 1939), Christoffel's weights."""
+    """The Gauss rule in 40 digits, from guesses: Newton on the monic recurrence (Szegö 1939),
+    Christoffel's weights.
+    """
     n, total = len(nodes), -weight.kappa
     small = weight.alpha if abs(weight.alpha) <= abs(weight.beta) else weight.beta
     a = mp.mpmathify(small) if small is weight.alpha else total - mp.mpmathify(small)
@@ -193,13 +199,15 @@ def test_nodes_and_weights_are_those_of_40_digits(alpha, kappa, n):
     ("alpha", "kappa"), [(a, k) for a, k in EXPONENTS if min(1 + a.real, 1 - a.real, abs(a)) > 5e-3]
 )
 def test_the_coefficients_of_a_smooth_function_have_no_noise_beyond_rounding(alpha, kappa):
-    """exp has 20 coefficients; with polynomials evaluated at nodes that were rounded first the others would be up to 1e-13."""
+    """exp has 20 coefficients; with polynomials evaluated at nodes that were rounded first the
+    others would be up to 1e-13.
+    """
     s, A = jacobi.analysis(Weight(alpha, -kappa - alpha, kappa), 128)
     c = np.exp(s) @ A
     assert np.abs(c[30:]).max() <= 3e-16 * np.abs(np.exp(s)[:, None] * A).sum(axis=0).max()
 
 
-# -- size, cost, conditioning -----------------------------------------------------------------------------------------
+# -- size, cost, conditioning ---------------------------------------------------------------------
 
 
 def smooth_kernel(x, t):
@@ -310,7 +318,8 @@ def counted(k, intervals=((-1.0, 1.0),), g=1.0, a=0.0):
 SMOOTH_KERNELS = [
     lambda x, t: 0.3, smooth_kernel, lambda x, t: np.cos(5.0 * x * t), lambda x, t: 1.0 / (1.0 + (x - t) ** 2),
     lambda x, t: 0.2j * np.exp(x),
-    lambda x, t: (0.5 / np.tan(0.5 * (t - x)) - 1.0 / (t - x)) / np.pi,  # 0/0 at x = t, as a periodic row has it
+    # 0/0 at x = t, as a periodic row has it
+    lambda x, t: (0.5 / np.tan(0.5 * (t - x)) - 1.0 / (t - x)) / np.pi,
 ]  # fmt: skip
 
 
@@ -341,7 +350,9 @@ def test_a_narrow_kernel_is_called_twice(height):
 
 
 def test_a_kernel_without_a_short_series_is_called_once_for_each_size(monkeypatch):
-    """A kink at x = t: after two grids in vain it is sampled at the nodes of every size that is tried."""
+    """A kink at x = t: after two grids in vain it is sampled at the nodes of every size that is
+    tried.
+    """
     tried, calls = [], []
     attempt = System.attempt
     monkeypatch.setattr(
@@ -385,7 +396,9 @@ def test_a_short_series_costs_few_nodes():
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
 def test_a_kernel_that_is_rough_in_t_only_is_seen(a):
-    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves its own equation exactly."""
+    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves
+    its own equation exactly.
+    """
     equation = sie.CauchyEquation(
         (-1.0, 1.0), 1.0, a=a, k=lambda x, t: np.cos(30.0 * t + 1.0), total=1.0
     )
@@ -395,7 +408,7 @@ def test_a_kernel_that_is_rough_in_t_only_is_seen(a):
     assert equation.solve(n=8).error > 1e-3
 
 
-# -- refusals ---------------------------------------------------------------------------------------------------------
+# -- refusals -------------------------------------------------------------------------------------
 
 ILL_POSED = [
     ({"interval": ((-1, 1), (0.5, 2))}, r"\(-1.0, 1.0\) and \(0.5, 2.0\) overlap.*give them apart"),
@@ -484,12 +497,14 @@ def test_a_wrong_size_is_refused(bad):
         sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0).solve(n=bad)
 
 
-# -- questions without an answer --------------------------------------------------------------------------------------
+# -- questions without an answer ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("k", [None, lambda x, t: 0.0 * x * t])
 def test_an_inconsistent_right_hand_side_is_refused_and_measured(k):
-    """Both ends bounded: ∫ g / sqrt(1 - x²) dx must vanish; g = x + 1e-3 misses it by the constant 1e-3."""
+    """Both ends bounded: ∫ g / sqrt(1 - x²) dx must vanish; g = x + 1e-3 misses it by the constant
+    1e-3.
+    """
     with pytest.raises(
         sie.ContactError, match=r"not consistent.*constant of 1\.0e-03 times g; free a constant"
     ) as caught:
@@ -584,7 +599,9 @@ def test_a_step_is_given_up_before_a_gauss_jacobi_rule_fills_the_memory(monkeypa
 
 
 def test_infinite_and_vanishing_ends_are_told_apart():
-    """φ = 1 / (π sqrt(1 - x²)) is infinite at its ends, 0 is 0, sqrt(1 - x²) is 0; and none of it is nan."""
+    """φ = 1 / (π sqrt(1 - x²)) is infinite at its ends, 0 is 0, sqrt(1 - x²) is 0; and none of it
+    is nan.
+    """
     x = np.array([-1.0, 1.0])
     punch = sie.CauchyEquation((-1.0, 1.0), 0.0, total=1.0).solve()
     assert (punch(x) == np.inf).all()

@@ -1,4 +1,5 @@
-"""What every solution of a Cauchy equation obeys, and manufactured ones: exponents, kernels, intervals and poles drawn at random.
+"""What every solution of a Cauchy equation obeys, and manufactured ones: exponents, kernels,
+intervals and poles drawn at random.
 
 The reference (`oracles.manufactured`) is in 40 digits and knows nothing of orthogonal polynomials.
 """
@@ -53,7 +54,7 @@ def inside(d):
     return d.x1 + (d.x2 - d.x1) * np.array([0.01, 0.1, 0.33, 0.5, 0.77, 0.93, 0.99])
 
 
-# -- the references themselves ----------------------------------------------------------------------------------------
+# -- the references themselves --------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("a", "ends"), [(0.3, KINDS[3]), (0.2 + 0.3j, KINDS[1]), (-0.4, KINDS[2])])
@@ -78,7 +79,7 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
         )  # of tanh-sinh towards an end with an exponent of -0.6
 
 
-# -- manufactured solutions -------------------------------------------------------------------------------------------
+# -- manufactured solutions -----------------------------------------------------------------------
 
 reals = st.tuples(between(-3.0, 3.0), st.sampled_from([1.0, -1.0, 0.3]))
 nearly_real = st.builds(complex, between(0.8, 1.2), between(-0.1, 0.1))
@@ -91,7 +92,9 @@ constants = reals | complexes
 
 @st.composite
 def densities(draw, a, b, ends, interval):
-    """A polynomial of degree up to 5, and a pole as far from the interval as half its half-width."""
+    """A polynomial of degree up to 5, and a pole as far from the interval as half its
+    half-width.
+    """
     polynomial = (*draw(st.lists(between(-1.0, 1.0), max_size=5)), 1.0)
     poles = ()
     if draw(st.booleans()):
@@ -105,7 +108,9 @@ def densities(draw, a, b, ends, interval):
 
 @st.composite
 def problems(draw, intervals=1):
-    """(densities, a, b, ends, kernels) with kernels as smooth as those of a layer of twice the half-width."""
+    """(densities, a, b, ends, kernels) with kernels as smooth as those of a layer of twice the
+    half-width.
+    """
     a, b = draw(constants)
     start, out, ends = draw(between(-2.0, 2.0)), [], []
     for _ in range(intervals):
@@ -164,7 +169,9 @@ def peak_of(d):
 def test_manufactured_densities_on_two_intervals_are_found(problem):
     manufactured, a, b, ends, kernels = problem
     if all(d.kappa == -1 for d in manufactured):
-        kernels = ()  # bounded everywhere, with a kernel whose rounding is an inconsistency: the law of consistency has its own test
+        # Bounded everywhere, with a kernel whose rounding is an inconsistency: the law of
+        # consistency has its own test
+        kernels = ()
     density = equation_of(manufactured, a, b, ends, kernels).solve()
     size = max(np.abs(exact(d.value, inside(d))).max() for d in manufactured)
     for d in manufactured:
@@ -193,7 +200,9 @@ def test_manufactured_densities_on_two_intervals_are_found(problem):
     ],
 )
 def test_a_narrow_gap_between_intervals_keeps_10_digits(gap, a, ends):
-    """Bounded ends at the gap, too, where the density is far below its peak: its coefficient there as well."""
+    """Bounded ends at the gap, too, where the density is far below its peak: its coefficient there
+    as well.
+    """
     intervals, both = ((-1.0, 0.0), (gap, 1.5)), (ends, ends[::-1])
     manufactured = [
         Manufactured(*i, *exponents(a, 1.0, e), p)
@@ -213,8 +222,10 @@ def test_a_narrow_gap_between_intervals_keeps_10_digits(gap, a, ends):
 
 
 class Joint(NamedTuple):
-    """φ = σ |X| P on both sides of a gap, X the product of (z - e)^±1/2 over all four ends: X P less its polynomial part at infinity is
-    1/π ∫ φ/(t - z) dt, so that g is minus that polynomial. Next to the gap φ grows or falls as that of a contact or a crack does."""
+    """φ = σ |X| P on both sides of a gap, X the product of (z - e)^±1/2 over all four ends: X P
+    less its polynomial part at infinity is 1/π ∫ φ/(t - z) dt, so that g is minus that polynomial.
+    Next to the gap φ grows or falls as that of a contact or a crack does.
+    """
 
     ends: tuple[float, ...]
     bounded: tuple[bool, ...]
@@ -279,7 +290,9 @@ FOUR = [
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize("bounded", FOUR)
 def test_the_coefficients_at_a_gap_are_as_good_as_rounding_of_g_lets_them_and_say_so(bounded, gap):
-    """Between bounded ends φ is gap times its peak, and g is known to rounding: 70^1.5 roundings over the gap, 1e-7 for 1e-6."""
+    """Between bounded ends φ is gap times its peak, and g is known to rounding: 70^1.5 roundings
+    over the gap, 1e-7 for 1e-6.
+    """
     joint = Joint((-1.0, 0.0, gap, 1.5), bounded)
     density = joint.solve()
     reach = 1e-13 / gap if bounded[1] and bounded[2] else 1e-12
@@ -300,7 +313,9 @@ def test_the_coefficients_at_a_gap_are_as_good_as_rounding_of_g_lets_them_and_sa
 def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_absurd_one(
     a, ends, gap, at
 ):
-    """Of φ over its peak, singular ends divided out; where g varies across a gap, doubles x are what limits it."""
+    """Of φ over its peak, singular ends divided out; where g varies across a gap, doubles x are
+    what limits it.
+    """
     intervals, both = ((at - 1.0, at), (at + gap, at + 1.5)), (ends, ends[::-1])
     manufactured = [
         Manufactured(*i, *exponents(a, 1.0, e), p)
@@ -329,7 +344,9 @@ def weighted_error(d, part):
 @pytest.mark.parametrize("at", [0.3, -7.0])
 @pytest.mark.parametrize(("a", "ends"), [(0.0, KINDS[0]), (0.3, KINDS[1]), (0.2, KINDS[3])])
 def test_a_narrow_gap_far_from_zero_keeps_10_digits(at, a, ends):
-    """There neighbouring doubles are 1e-10 gaps apart, and g, that varies across the gap, is no smoother: no reason to give up."""
+    """There neighbouring doubles are 1e-10 gaps apart, and g, that varies across the gap, is no
+    smoother: no reason to give up.
+    """
     intervals, both = ((at - 1.0, at), (at + 1e-6, at + 1.5)), (ends, ends[::-1])
     manufactured = [
         Manufactured(*i, *exponents(a, 1.0, e), p)
@@ -354,7 +371,7 @@ def test_far_from_zero_the_density_is_as_good_as_positions_and_says_so(offset, k
     assert 0.01 * offset * 2.2e-16 <= far.error <= 100.0 * offset * 2.2e-16
 
 
-# -- everywhere in the plane ------------------------------------------------------------------------------------------
+# -- everywhere in the plane ----------------------------------------------------------------------
 
 PLACES = [complex(s, y) for s in (-1.0, -0.4, 0.9, 1.0) for y in (1e-12, -1e-6, 1e-2, 0.5)]
 PLACES += [1 + 1e-12, -1 - 1e-9, 1 + 1e-4j, 1.001, -1.3, 2.0, 5j, 40.0 + 1e-9j, 1e5j, -1e5]
@@ -383,7 +400,9 @@ def test_the_potential_is_that_of_40_digits_near_and_far(a, ends):
 @pytest.mark.parametrize("a", [30.0, 1e3, -2e4, 2e3 - 1e3j])
 @pytest.mark.parametrize("ends", KINDS)
 def test_next_to_a_large_constant_density_and_potential_keep_their_digits(a, ends):
-    """|a| >> |b| makes exponents of nearly 0 and ±1, and cosec πα so large that the terms of the potential cancel."""
+    """|a| >> |b| makes exponents of nearly 0 and ±1, and cosec πα so large that the terms of the
+    potential cancel.
+    """
     d = Manufactured(
         -1.0,
         3.0,
@@ -459,7 +478,9 @@ def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
     ],
 )
 def test_the_potential_next_to_gaps_of_every_kind_is_that_of_40_digits(ends, gap):
-    """Gaps between bounded ends, singular ones, one of each; the factor by which φ is multiplied differs on both sides of an interval."""
+    """Gaps between bounded ends, singular ones, one of each; the factor by which φ is multiplied
+    differs on both sides of an interval.
+    """
     intervals = ((-1.0, 0.0), (gap, 1.5), (1.5 + 2 * gap, 2.5))
     manufactured = [
         Manufactured(*i, *exponents(0.0, 1.0, e), p)
@@ -507,7 +528,7 @@ def test_the_potential_reaches_its_limit_continuously(gap):
         assert np.abs(off - limit).max() <= 1e-9 * np.abs(limit).max()
 
 
-# -- laws of the operator ---------------------------------------------------------------------------------------------
+# -- laws of the operator -------------------------------------------------------------------------
 
 
 def test_repeated_integrals_may_be_exchanged_by_the_formula_of_poincare_and_bertrand():
@@ -534,7 +555,9 @@ def kernel(x, t):
 
 @given(constants, between(-1.0, 1.0), between(0.5, 2.0), st.sampled_from(KINDS[1:3]))
 def test_the_adjoint_equation_has_the_adjoint_solution(ab, m, r, ends):
-    """T φ = g and T' ψ = g', T' with -b, the kernel transposed and the other ends: then ∫ ψ g = ∫ φ g', as sums of total and moment."""
+    """T φ = g and T' ψ = g', T' with -b, the kernel transposed and the other ends: then ∫ ψ g = ∫ φ
+    g', as sums of total and moment.
+    """
     a, b = ab
     interval = (m - r, m + r)
     phi = sie.CauchyEquation(
@@ -587,7 +610,9 @@ def test_moved_along_the_axis_the_density_is_the_same(shift):
 
 @pytest.mark.parametrize("k", [None, kernel])
 def test_the_residual_is_small_at_points_that_were_not_used(k):
-    """The whole equation, from the density's own values and potential and a quadrature of the tests for the kernel."""
+    """The whole equation, from the density's own values and potential and a quadrature of the tests
+    for the kernel.
+    """
     a, b = 0.4, -0.8
     density = sie.CauchyEquation(
         (-1.0, 2.0), np.cos, a=a, b=b, k=k, ends="bounded", free=(1.0,)
@@ -605,12 +630,14 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
     assert np.abs(left_over).max() <= PROMISE
 
 
-# -- contacts in closed form ------------------------------------------------------------------------------------------
+# -- contacts in closed form ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("strength", [-0.3, -0.05, 0.0, 0.2, 0.3])
 def test_the_sliding_parabola_has_the_pressure_of_the_closed_form(strength):
-    """β f = strength: 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, both ends bounded (Hills, Nowell & Sackfield 1993); E* = R = w = 1."""
+    """β f = strength: 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, both ends bounded (Hills, Nowell &
+    Sackfield 1993); E* = R = w = 1.
+    """
     epsilon = np.arctan(-strength) / np.pi
     c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
     pressure = sie.CauchyEquation(
@@ -657,7 +684,9 @@ def test_the_bonded_flat_punch_oscillates_as_in_closed_form(beta):
 
 @pytest.mark.parametrize(("incidence", "camber"), [(0.1, 0.0), (0.03, 0.2)])
 def test_the_thin_aerofoil_has_the_circulation_of_the_closed_form(incidence, camber):
-    """1/2π PV∫ γ/(x - t) dt = U (incidence + camber x), Kutta's condition at the trailing edge x = 1 (Glauert 1926); U = 1."""
+    """1/2π PV∫ γ/(x - t) dt = U (incidence + camber x), Kutta's condition at the trailing edge x =
+    1 (Glauert 1926); U = 1.
+    """
     sheet = sie.CauchyEquation(
         (-1.0, 1.0), lambda x: incidence + camber * x, b=-0.5, ends=("singular", "bounded")
     ).solve()

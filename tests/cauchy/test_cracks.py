@@ -1,7 +1,9 @@
-"""Cracks by their dislocation density, against textbooks: 1/π PV∫ φ(t)/(t - x) dt = p(x), ∫φ dx = 0 over each crack.
+"""Cracks by their dislocation density, against textbooks: 1/π PV∫ φ(t)/(t - x) dt = p(x), ∫φ dx = 0
+over each crack.
 
-Next to a tip φ ~ K/sqrt(2π) (distance)^(-1/2), minus at a left tip, K the stress intensity factor of the pressure p on the faces.
-Tada, Paris & Irwin, The Stress Analysis of Cracks Handbook (2000); two collinear cracks: Willmore (1949); row: Koiter (1959).
+Next to a tip φ ~ K/sqrt(2π) (distance)^(-1/2), minus at a left tip, K the stress intensity factor
+of the pressure p on the faces. Tada, Paris & Irwin, The Stress Analysis of Cracks Handbook (2000);
+two collinear cracks: Willmore (1949); row: Koiter (1959).
 """
 
 import mpmath
@@ -33,7 +35,7 @@ def slit(half_length, pressure, centre=0.0, **question):
     ).solve()
 
 
-# -- one crack --------------------------------------------------------------------------------------------------------
+# -- one crack ------------------------------------------------------------------------------------
 
 
 @given(log_between(1e-8, 1e8), log_between(1e-8, 1e8))
@@ -46,7 +48,9 @@ def test_a_slit_under_uniform_pressure(a, p):
 
 @given(st.lists(between(-1.0, 1.0), min_size=1, max_size=9))
 def test_a_slit_under_a_polynomial_load(coefficients):
-    """K = 1/sqrt(πa) ∫ p sqrt((a + t)/(a - t)) dt (Green's function); ∫ s^m/sqrt(1 - s²) ds = π (m - 1)!!/m!! for even m; a = 2."""
+    """K = 1/sqrt(πa) ∫ p sqrt((a + t)/(a - t)) dt (Green's function); ∫ s^m/sqrt(1 - s²) ds = π (m
+    - 1)!!/m!! for even m; a = 2.
+    """
     a = 2.0
     even = [
         scipy.special.binom(m, m // 2) * 2.0**-m * np.pi if m % 2 == 0 else 0.0
@@ -74,7 +78,8 @@ def test_a_slit_under_a_linear_load_as_small_or_large_as_numbers_are(p):
 @pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
 @pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
 def test_a_slit_under_a_point_load(place, height):
-    """The load p = height/π / ((x - place)² + height²) of unit resultant; for a height of 0 it is the point load of the textbooks.
+    """The load p = height/π / ((x - place)² + height²) of unit resultant; for a height of 0 it is
+    the point load of the textbooks.
 
     With ζ = place + i height,  ∫ p sqrt((a + t)/(a - t)) dt = -Im sqrt((ζ + a)/(ζ - a)),  which is sqrt((a + place)/(a - place)) then.
     """
@@ -102,18 +107,22 @@ def test_a_load_as_narrow_as_a_point_costs_one_transform_of_40000_nodes():
 
 
 def test_the_stress_ahead_of_a_slit():
-    """σ_yy = p (|x|/sqrt(x² - a²) - 1) on the axis: the potential 1/π ∫ φ/(x - t) dt beyond the tips."""
+    """σ_yy = p (|x|/sqrt(x² - a²) - 1) on the axis: the potential 1/π ∫ φ/(x - t) dt beyond the
+    tips.
+    """
     density = slit(1.5, 2.0)
     x = np.array([1.5 + 1e-9, 1.6, 4.0, -2.0, 100.0])
     ahead = np.abs(x) / np.sqrt((np.abs(x) - 1.5) * (np.abs(x) + 1.5)) - 1.0
     assert density.hilbert(x) == pytest.approx(2.0 * ahead, rel=PROMISE, abs=PROMISE)
 
 
-# -- several cracks ---------------------------------------------------------------------------------------------------
+# -- several cracks -------------------------------------------------------------------------------
 
 
 def willmore(a, b):
-    """K at the inner tips ±a and at the outer tips ±b of two equal collinear cracks under unit pressure."""
+    """K at the inner tips ±a and at the outer tips ±b of two equal collinear cracks under unit
+    pressure.
+    """
     a, b = mp.mpf(a), mp.mpf(b)
     m = (1 - a / b) * (1 + a / b)
     ratio = mp.ellipe(m) / mp.ellipk(m)
@@ -136,7 +145,8 @@ def test_two_collinear_cracks(ligament):
 
 
 def collinear(cracks):
-    """(K left, K right) of each crack under unit pressure: F(z) = 1 - q(z)/sqrt(Π(z - tip)), q of 40 digits by ∫φ = 0 over each.
+    """(K left, K right) of each crack under unit pressure: F(z) = 1 - q(z)/sqrt(Π(z - tip)), q of
+    40 digits by ∫φ = 0 over each.
 
     Gauss-Chebyshev in 40 digits: φ sqrt((b - x)(x - a)) is analytic over each crack.
     """
@@ -188,7 +198,9 @@ def test_three_collinear_cracks_with_unequal_gaps(cracks):
 
 @given(between(0.02, 0.98))
 def test_a_crack_in_a_periodic_row(fraction):
-    """The others of the row are a kernel: 1/W (ψ(1 - u) - ψ(1 + u)) = π/W cot(πu) - 1/(W u), u = (t - x)/W; K = p sqrt(W tan(πa/W))."""
+    """The others of the row are a kernel: 1/W (ψ(1 - u) - ψ(1 + u)) = π/W cot(πu) - 1/(W u), u = (t
+    - x)/W; K = p sqrt(W tan(πa/W)).
+    """
     W = 2.5
     a = 0.5 * W * fraction
 

@@ -32,7 +32,7 @@ def bound(certificate, distance):
     return np.maximum(SHARE * (certificate.error + certificate.edges / np.sqrt(distance)), SLIGHT)
 
 
-# -- the promise ------------------------------------------------------------------------------------------------------
+# -- the promise ----------------------------------------------------------------------------------
 
 INF = mp.inf
 CASES = {
@@ -95,7 +95,9 @@ def test_what_the_edges_leave_in_the_pressure_is_neither_nothing_nor_a_scare():
 
 
 def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
-    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is kept."""
+    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is
+    kept.
+    """
     profile = sie.Parabola(1.0).shifted(1000.3)
     found = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check()
     assert found.edges < 0.1 * math.ulp(1000.3)
@@ -109,7 +111,9 @@ def test_the_same_promise_is_printed_and_documented():
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
-    """p(x - δ) of a parabola leaves the constant E* δ/(2R), and is wrong by far more next to the edges."""
+    """p(x - δ) of a parabola leaves the constant E* δ/(2R), and is wrong by far more next to the
+    edges.
+    """
     scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)
     p, size = sie.solve(scene).pressure, 1e-6
     found = with_pressure(scene, lambda x: p(x - size)).check()
@@ -120,7 +124,9 @@ def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_i
 
 
 def test_a_rim_that_no_double_can_tell_is_not_certified():
-    """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any defect."""
+    """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any
+    defect.
+    """
     found = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(1.0, 1e-150), modulus=1.0, normal_load=1.0)
     ).check()
@@ -128,7 +134,7 @@ def test_a_rim_that_no_double_can_tell_is_not_certified():
     assert "NOT certified to 1e-13" in str(found)
 
 
-# -- functions --------------------------------------------------------------------------------------------------------
+# -- functions ------------------------------------------------------------------------------------
 
 AT = 0.21337
 UNDECLARED = {
@@ -174,7 +180,9 @@ def test_the_stick_zone_of_such_a_function_is_right_too(name):
 
 @pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
 def test_the_certificate_sees_what_the_solver_did_not(name, monkeypatch):
-    """The solver without its look between the points: the certificate looks at points of its own."""
+    """The solver without its look between the points: the certificate looks at points of its
+    own.
+    """
     slope, breaks = UNDECLARED[name]
     right = pressed(slope, breaks=breaks)
     monkeypatch.setattr(normal, "LOOKS", 0)
@@ -255,12 +263,14 @@ def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_sa
 
 @pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
 def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
-    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which no pressure beside it feels."""
+    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which no pressure beside it
+    feels.
+    """
     profile = sie.Power(exponent, 0.75)
     assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
 
 
-# -- small strains ----------------------------------------------------------------------------------------------------
+# -- small strains --------------------------------------------------------------------------------
 
 
 def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
@@ -294,7 +304,7 @@ def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away
     assert bool(solution.notes) is noted
 
 
-# -- cost -------------------------------------------------------------------------------------------------------------
+# -- cost -----------------------------------------------------------------------------------------
 
 
 def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
@@ -333,7 +343,9 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
 @pytest.mark.parametrize("size", [1e-6, 1e-9])
 def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
-    """Of the right load and the law's own shape: the equation and the conditions of the edges tell."""
+    """Of the right load and the law's own shape: the equation and the conditions of the edges
+    tell.
+    """
     scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
     right, wide = (sie.solve(scene) for _ in range(2))
     p, r = right.pressure, right.half_width

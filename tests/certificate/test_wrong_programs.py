@@ -1,7 +1,9 @@
-"""The certificate is itself checked: programs that are wrong in the ways that programs are, large or small, and right ones.
+"""The certificate is itself checked: programs that are wrong in the ways that programs are, large
+or small, and right ones.
 
-The pressure of a solution is replaced by a wrong one. Its true error is the largest difference from the right one within 0.95 r of the
-centre, relative to the peak; the certificate must not be ok, and must own up to at least a third of it.
+The pressure of a solution is replaced by a wrong one. Its true error is the largest difference from
+the right one within 0.95 r of the centre, relative to the peak; the certificate must not be ok, and
+must own up to at least a third of it.
 """
 
 import laws
@@ -63,7 +65,9 @@ SIZES = (1e-3, 1e-6, 1e-9, 1e-12)
 
 
 def closed_form(x, second=1.0, b=1.0):
-    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second logarithm."""
+    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second
+    logarithm.
+    """
     a = 0.5
     x = np.abs(x)
     phi, phi0 = np.arcsin(np.clip(x / b, 0, 1)), np.arcsin(a / b)
@@ -85,7 +89,7 @@ def right(scene):
     return sie.solve(scene).pressure
 
 
-# -- right programs ---------------------------------------------------------------------------------------------------
+# -- right programs -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
@@ -107,7 +111,7 @@ def test_another_right_program_is_certified():
     assert found.ok
 
 
-# -- wrong formulas ---------------------------------------------------------------------------------------------------
+# -- wrong formulas -------------------------------------------------------------------------------
 
 
 def test_a_flipped_sign_of_the_second_logarithm_is_caught():
@@ -158,7 +162,8 @@ def test_a_wrong_end_weight_is_caught(size):
 
 @pytest.mark.parametrize("lo", [0.5, -1.0])
 def test_half_a_panel_missing_is_caught(lo):
-    """h' taken as zero on a quarter of the contact: the pressure of the profile that lacks it, at the same edges.
+    """h' taken as zero on a quarter of the contact: the pressure of the profile that lacks it, at
+    the same edges.
 
     Where h' then jumps the wrong pressure is infinite, and no share of that can be owned up to.
     """
@@ -179,11 +184,13 @@ def test_a_panel_of_the_wrong_height_is_caught(size):
     assert_caught(SKEW, right(sie.Scene(profile=other, modulus=1.0, half_width=1.125)))
 
 
-# -- wrong Gauss-Chebyshev ------------------------------------------------------------------------------------------
+# -- wrong Gauss-Chebyshev ------------------------------------------------------------------------
 
 
 def gauss_chebyshev(scene, n=40, shift=0.0, at=7, half=0.0):
-    """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by `half` a spacing."""
+    """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by
+    `half` a spacing.
+    """
     solution = sie.solve(scene)
     m, r = solution.centre, solution.half_width
     theta = (np.arange(n) + 0.5 + half) * np.pi / n
@@ -225,7 +232,7 @@ def test_nodes_off_by_a_share_of_their_spacing_are_caught(size):
     assert_caught(ROUND, gauss_chebyshev(ROUND, half=100 * size if size < 1e-3 else size))
 
 
-# -- errors of any shape ------------------------------------------------------------------------------------------------
+# -- errors of any shape --------------------------------------------------------------------------
 
 SHAPES = {
     "constant": np.ones_like,
@@ -274,7 +281,7 @@ def test_the_closed_form_that_cancels_is_caught():
     assert_caught(scene, naive, share=0.1)
 
 
-# -- claims that lie ----------------------------------------------------------------------------------------------------
+# -- claims that lie ------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -1,7 +1,9 @@
-"""The closed forms: exact to the last digits, on every scale, and true to the integral equation they solve.
+"""The closed forms: exact to the last digits, on every scale, and true to the integral equation
+they solve.
 
-References are computed here, at 50 digits or more, from other formulas than those of the package: the paper's (32),
-quadrature of a positive integrand, differentiation. EPS is the rounding unit of a double; the promise is 1e-13.
+References are computed here, at 50 digits or more, from other formulas than those of the package:
+the paper's (32), quadrature of a positive integrand, differentiation. EPS is the rounding unit of a
+double; the promise is 1e-13.
 """
 
 import ast
@@ -64,7 +66,9 @@ rounded = st.one_of(
 
 
 def positions(contact: Rounded, part: float) -> Any:
-    """Points where digits could be lost: the middle, the ends of flat and contact, and their neighbourhoods."""
+    """Points where digits could be lost: the middle, the ends of flat and contact, and their
+    neighbourhoods.
+    """
     a, b, d = float(contact.a), float(contact.b), contact.rim
     beside = (np.nextafter(a, 0), np.nextafter(a, 2), np.nextafter(b, 0))
     return np.array(
@@ -99,7 +103,8 @@ def relative(value: Any, exact: Any) -> float:
     return float(max(errors))
 
 
-# --- the rounded flat against its references ------------------------------------------------------------------------
+# --- the rounded flat against its references
+# ------------------------------------------------------------------------
 
 
 @settings(max_examples=150, deadline=None)
@@ -144,7 +149,8 @@ def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded)
 def test_rim_inverts_the_load_to_the_last_digits(contact: Rounded) -> None:
     P = rounded_flat.load(**contact.given, **UNIT)
     rim = rounded_flat.rim(normal_load=P, half_flat=contact.given["half_flat"], **UNIT)
-    # One step of Newton's method at high precision tells how far the rim is from the exact answer for this very load.
+    # One step of Newton's method at high precision tells how far the rim is from the exact answer
+    # for this very load.
     b = contact.a + deep.mpf(float(rim))
     step = (formula_35(contact.a, b) - deep.mpf(float(P))) / (b * deep.acos(contact.a / b))
     assert abs(step / rim) <= 6 * EPS
@@ -158,7 +164,8 @@ def test_half_width_inverts_the_load(contact: Rounded) -> None:
     assert relative(b, [contact.b]) <= 6 * EPS
 
 
-# a/b, b p(0)/P, x_max/b, b p_max/P, P R/(E* b²), computed once at 30 digits from the paper's eqs (32) and (35)
+# a/b, b p(0)/P, x_max/b, b p_max/P, P R/(E* b²), computed once at 30 digits from the paper's eqs
+# (32) and (35)
 KNOWN = [
     (0.0, 0.6366197723675813, 0.0, 0.6366197723675813, 0.7853981633974483),
     (0.3, 0.4573357544431418, 0.4710269302034481, 0.6166070102815080, 0.4899609561772077),
@@ -206,7 +213,9 @@ def test_without_a_flat_the_rounded_flat_is_hertz(b: float) -> None:
 
 @pytest.mark.parametrize("flat_part", [1e-12, 1e-9, 1e-6])
 def test_a_vanishing_flat_takes_its_share_from_the_centre_of_hertz(flat_part: float) -> None:
-    """p(0) = E*/(pi R) [b theta - a arccosh(b/a)] falls short of Hertz by a (1 + ln(2b/a)) E*/(pi R)."""
+    """p(0) = E*/(pi R) [b theta - a arccosh(b/a)] falls short of Hertz by a (1 + ln(2b/a)) E*/(pi
+    R).
+    """
     peak = hertz.peak_pressure(half_width=1.0, **UNIT)
     short = peak - rounded_flat.pressure(0.0, half_flat=flat_part, half_width=1.0, **UNIT)
     expected = flat_part * (1 + math.log(2 / flat_part)) / math.pi
@@ -221,7 +230,8 @@ def test_a_thin_rim_leaves_the_centre_pressure_of_a_rigid_flat(rim: float) -> No
     assert ratio - 1 == pytest.approx(0.4 * rim, rel=10 * rim, abs=8 * EPS)
 
 
-# --- the series -----------------------------------------------------------------------------------------------------
+# --- the series
+# -----------------------------------------------------------------------------------------------------
 
 
 @settings(max_examples=60, deadline=None)
@@ -273,7 +283,8 @@ def test_first_chebyshev_coefficient_carries_the_load(contact: Rounded) -> None:
     assert b_0 == pytest.approx(2 * P / (math.pi * float(contact.b)), rel=6 * EPS, abs=0)
 
 
-# --- potentials -----------------------------------------------------------------------------------------------------
+# --- potentials
+# -----------------------------------------------------------------------------------------------------
 
 
 class Potential(NamedTuple):
@@ -364,7 +375,8 @@ def test_potential_is_the_cauchy_integral_of_the_pressure(case: Potential, z: co
     angles = sorted(coarse.acos(v) for v in breaks)
 
     def integrand(angle: Any) -> Any:
-        # The angle is taken from the ends, and x has the digits to hold it near the infinite pressure of a corner.
+        # The angle is taken from the ends, and x has the digits to hold it near the infinite
+        # pressure of a corner.
         x = mp.cos(mp.convert(angle))
         right, left = case.pressure(x, lib=mp) / (z - x), case.pressure(-x, lib=mp) / (z + x)
         return coarse.convert(right + left) * coarse.sin(angle)
@@ -473,7 +485,8 @@ def test_the_sign_of_a_floating_zero_means_nothing(case: Potential) -> None:
         assert case.potential(complex(x, -0.0)) == case.potential(complex(x, 0.0))
 
 
-# --- the other indenters --------------------------------------------------------------------------------------------
+# --- the other indenters
+# --------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -628,7 +641,8 @@ def test_complete_and_partial_flat_meet_at_lift_off(sign: int) -> None:
     )
 
 
-# --- what holds for all ---------------------------------------------------------------------------------------------
+# --- what holds for all
+# ---------------------------------------------------------------------------------------------
 
 
 def test_pressure_is_zero_outside_and_infinite_only_at_corners_and_apex() -> None:
@@ -812,7 +826,9 @@ def test_results_scale_with_lengths_and_moduli(
 
 
 def sensitivity(given: dict[str, Any], expected: Any) -> float:
-    """What the rounding of scaled positions costs next to a thin rim, where x - a and b - x are known to eps a only."""
+    """What the rounding of scaled positions costs next to a thin rim, where x - a and b - x are
+    known to eps a only.
+    """
     return (
         float(20 * EPS * given["half_flat"] / given["rim"] * abs(expected))
         if "rim" in given

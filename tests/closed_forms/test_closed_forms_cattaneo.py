@@ -1,4 +1,6 @@
-"""Partial slip of bodies alike: what sticks does not stretch, what slips slips forward, energy is that of the slip, digits are kept."""
+"""Partial slip of bodies alike: what sticks does not stretch, what slips slips forward, energy is
+that of the slip, digits are kept.
+"""
 
 import math
 
@@ -43,7 +45,8 @@ def exact_part(given: dict):
     )
 
 
-# --- the parabola ---------------------------------------------------------------------------------------------------
+# --- the parabola
+# ---------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("part", PARTS)
@@ -127,7 +130,8 @@ def test_bulk_tension_that_reverses_slip_is_refused() -> None:
         cattaneo.bulk_shear(0.0, **given, bulk_stress=-1.01 * limit)
 
 
-# --- the rounded flat -----------------------------------------------------------------------------------------------
+# --- the rounded flat
+# -----------------------------------------------------------------------------------------------
 
 
 def plain_load(a, s):
@@ -206,7 +210,9 @@ def test_shear_of_the_rounded_flat_is_the_difference_of_two_pressures_to_its_las
 
 @pytest.mark.parametrize("part", [0.4, 0.9])
 def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
-    """s' = (2/E*) (potential of the shear) where they slip; the potentials are those of two normal contacts."""
+    """s' = (2/E*) (potential of the shear) where they slip; the potentials are those of two normal
+    contacts.
+    """
     given = with_load(ROUNDED, part)
     shape = {"half_flat": 0.5, "radius": 2.0, "modulus": 3.0, "lib": short}
     rim = rounded_flat.rim(normal_load=0.3, **shape)
@@ -235,7 +241,8 @@ def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
 
 @pytest.mark.parametrize("part", [0.05, 0.4, 0.9])
 def test_energy_of_a_cycle_is_the_work_of_friction_on_the_slip(part: float) -> None:
-    """In a cycle each point of the slip zones slips there and back under q = f p: W = 4 ∫ f p s dx, s of the whole range.
+    """In a cycle each point of the slip zones slips there and back under q = f p: W = 4 ∫ f p s dx,
+    s of the whole range.
 
     Slip from -Q to Q is twice that of a first loading to Q.
     """
@@ -287,7 +294,8 @@ def test_without_a_flat_the_rounded_flat_is_cattaneo() -> None:
         )
 
 
-# --- cycles ---------------------------------------------------------------------------------------------------------
+# --- cycles
+# ---------------------------------------------------------------------------------------------------------
 
 CYCLES = [(cattaneo, HERTZ, 0.6), (cattaneo_rounded, ROUNDED, 0.09)]
 
@@ -332,7 +340,8 @@ def test_at_sliding_the_shear_is_that_of_friction() -> None:
     )
 
 
-# --- what holds for all ---------------------------------------------------------------------------------------------
+# --- what holds for all
+# ---------------------------------------------------------------------------------------------
 
 SLID = {**HERTZ, "tangential_load": 0.35}
 PART = {**ROUNDED, "tangential_load": 0.05}

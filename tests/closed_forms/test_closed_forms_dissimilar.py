@@ -1,4 +1,6 @@
-"""Dissimilar bodies that slide or are bonded: true to their integral equations, in equilibrium, and right in their limits."""
+"""Dissimilar bodies that slide or are bonded: true to their integral equations, in equilibrium, and
+right in their limits.
+"""
 
 import math
 from itertools import pairwise
@@ -35,7 +37,8 @@ FLAT = {"half_width": 1.0, "normal_load": 2.0}
 BONDED = {"half_width": 1.0, "normal_load": 2.0, "shear_load": 0.7, "moment": -0.2}
 
 
-# --- the integral equations -----------------------------------------------------------------------------------------
+# --- the integral equations
+# -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("k", [0.49, -0.3, 1.7])
@@ -111,14 +114,18 @@ def test_sliding_rounded_flat_solves_its_equation(k: float) -> None:
 
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.3, 20.0), (0.49, 0.0)])
 def test_sliding_rounded_flat_is_the_inversion_of_its_slope(k: float, a: float) -> None:
-    """p from quadrature of the inversion integral with the edges, and the two conditions on the edges."""
+    """p from quadrature of the inversion integral with the edges, and the two conditions on the
+    edges.
+    """
     given = {**ROUNDED, "half_flat": a, "coupling": k}
     d1, d2 = sliding_rounded_flat.rims(**given, lib=coarse)
     x1, x2, eps = -a - d1, a + d2, -coarse.atan(k) / coarse.pi
     cosine, half = coarse.cos(coarse.pi * eps), coarse.mpf(1) / 2
 
     def rim(function, alpha, d, end):
-        """∫ (d - r) function(t)/w dt over one rim, r the distance from its edge, by r = d u^(1/alpha)."""
+        """∫ (d - r) function(t)/w dt over one rim, r the distance from its edge, by r = d
+        u^(1/alpha).
+        """
 
         def integrand(u):
             r = d * u ** (1 / alpha)
@@ -142,7 +149,8 @@ def test_sliding_rounded_flat_is_the_inversion_of_its_slope(k: float, a: float) 
         assert abs(sliding_rounded_flat.pressure(x, **given, lib=coarse) / p - 1) < 1e-18
 
 
-# --- equilibrium ----------------------------------------------------------------------------------------------------
+# --- equilibrium
+# ----------------------------------------------------------------------------------------------------
 
 
 @either_way
@@ -177,7 +185,8 @@ def test_sliding_flat_carries_its_load_and_moment(k: float, moment: float | None
     def p(t):
         return sliding_flat.pressure(t, **FLAT, coupling=k, moment=moment, lib=mp)
 
-    # the power of the distance from a corner is up to -0.65: the rule stops 1e-30 short of it in the angle
+    # the power of the distance from a corner is up to -0.65: the rule stops 1e-30 short of it in
+    # the angle
     assert abs(resultant(p, (-1, 1)) - 2) < 1e-16
     assert abs(resultant(p, (-1, 1), lambda t: t) - wanted) < 1e-16
 
@@ -209,7 +218,8 @@ def test_sliding_rounded_flat_carries_its_load_and_moment(k: float, a: float) ->
     assert (share * t).sum() == pytest.approx(sliding_rounded_flat.moment(**given), abs=1e-13)
 
 
-# --- potentials -----------------------------------------------------------------------------------------------------
+# --- potentials
+# -----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("z", [-1.2, 2.1 - 1j, -40 + 3j])
@@ -253,7 +263,8 @@ def test_potentials_tend_to_their_side_of_the_contact(side: int, x: float) -> No
         assert abs(function(x, **given, side=side, lib=mp) - function(z, **given, lib=mp)) < 1e-35
 
 
-# --- limits and symmetry --------------------------------------------------------------------------------------------
+# --- limits and symmetry
+# --------------------------------------------------------------------------------------------
 
 
 def test_similar_bodies_slide_as_they_stand() -> None:
@@ -319,7 +330,9 @@ def test_thin_rims_leave_the_sliding_flat(k: float, load: float) -> None:
 
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.49, 0.0)])
 def test_sliding_rounded_flat_keeps_its_digits_everywhere(k: float, a: float) -> None:
-    """Relative to the exact value on the whole contact: the last points are where an edge's own rounding is 1e-14 of it."""
+    """Relative to the exact value on the whole contact: the last points are where an edge's own
+    rounding is 1e-14 of it.
+    """
     given = {**ROUNDED, "half_flat": a, "coupling": k}
     d1, d2 = sliding_rounded_flat.rims(**given)
     x = np.concatenate(
@@ -347,7 +360,8 @@ def test_thin_rims_keep_their_digits() -> None:
     np.testing.assert_allclose(sliding_rounded_flat.pressure(x, **given), exact, rtol=1e-13, atol=0)
 
 
-# --- what holds for all ---------------------------------------------------------------------------------------------
+# --- what holds for all
+# ---------------------------------------------------------------------------------------------
 
 CALLS: list[Call] = [
     (sliding_hertz.edges, {"half_width": 1.1, "coupling": 0.3}),

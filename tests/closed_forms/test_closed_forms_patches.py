@@ -1,4 +1,6 @@
-"""Two patches, rows of patches and rows of cracks: true to their integral equations, in equilibrium, right in their limits."""
+"""Two patches, rows of patches and rows of cracks: true to their integral equations, in
+equilibrium, right in their limits.
+"""
 
 import math
 
@@ -14,7 +16,8 @@ WAVE = {"half_width": 0.6, "wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
 ROW = {"half_width": 0.6, "period": 2.0, "mean_pressure": 5.0}
 
 
-# --- the integral equations -----------------------------------------------------------------------------------------
+# --- the integral equations
+# -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("x", "moment"), [(1.2, 0.0), (1.9, -2.0)])
@@ -65,7 +68,9 @@ def test_wave_and_row_of_flats_solve_their_equations(x: float) -> None:
 
 
 def test_two_flats_keep_their_difference_of_height() -> None:
-    """Of the potential between the flats, less that of the tilt, the integral vanishes; the tilt's sign is that of -M."""
+    """Of the potential between the flats, less that of the tilt, the integral vanishes; the tilt's
+    sign is that of -M.
+    """
     given = {**FLATS, "moment": -2.0}
     tilt = two_flats.tilt(**given, modulus=2, lib=mp)
     between = resultant(lambda t: two_flats.potential(t, **given, lib=mp).real - tilt, (-1, 1))
@@ -73,7 +78,9 @@ def test_two_flats_keep_their_difference_of_height() -> None:
 
 
 def test_the_opening_of_two_cracks_closes_at_both_tips() -> None:
-    """sigma (x² - C)/sqrt(...) is the opening's slope, C from ∫ over a crack = 0: its singular parts are the factors."""
+    """sigma (x² - C)/sqrt(...) is the opening's slope, C from ∫ over a crack = 0: its singular
+    parts are the factors.
+    """
     a, b = mp.mpf("0.7"), mp.mpf(2)
     weight = lambda t: 1 / mp.sqrt((t * t - a * a) * (b * b - t * t))  # noqa: E731
     safe = lambda t: weight(t) if a < t < b else mp.inf  # noqa: E731
@@ -83,7 +90,8 @@ def test_the_opening_of_two_cracks_closes_at_both_tips() -> None:
     assert abs(at_b / (3 * mp.sqrt(mp.pi) * (b * b - C) / mp.sqrt(b * (b * b - a * a))) - 1) < 1e-22
 
 
-# --- equilibrium ----------------------------------------------------------------------------------------------------
+# --- equilibrium
+# ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("moment", [0.0, 3.2])
@@ -142,7 +150,8 @@ def test_half_width_of_the_wave_inverts_the_mean_pressure(a: float) -> None:
     assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
 
 
-# --- potentials -----------------------------------------------------------------------------------------------------
+# --- potentials
+# -----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("z", [0.5, -2.2 - 0.4j, 1e6])
@@ -194,7 +203,8 @@ def test_far_from_the_surface_the_potential_of_a_row_is_its_mean_pressure(height
     )
 
 
-# --- limits ---------------------------------------------------------------------------------------------------------
+# --- limits
+# ---------------------------------------------------------------------------------------------------------
 
 
 def test_without_a_gap_two_flats_are_one() -> None:
@@ -252,7 +262,9 @@ def test_cracks_far_from_others_and_with_thin_bridges() -> None:
 
 
 def test_a_row_of_cracks_is_a_row_of_flats_with_the_sign_changed() -> None:
-    """The bridges W - 2a carry what flats of their width would: K_I = lim sqrt(2 pi r) p at their corners."""
+    """The bridges W - 2a carry what flats of their width would: K_I = lim sqrt(2 pi r) p at their
+    corners.
+    """
     r, W, a = 1e-12, 2.0, 0.7
     p = flat_row.pressure((W / 2 - a) - r, half_width=W / 2 - a, period=W, mean_pressure=3.0)
     assert math.sqrt(2 * math.pi * r) * p == pytest.approx(
@@ -260,7 +272,8 @@ def test_a_row_of_cracks_is_a_row_of_flats_with_the_sign_changed() -> None:
     )
 
 
-# --- what holds for all ---------------------------------------------------------------------------------------------
+# --- what holds for all
+# ---------------------------------------------------------------------------------------------
 
 SHAPE = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
 CALLS: list[Call] = [

@@ -1,4 +1,6 @@
-"""The docstrings of the closed forms say what goes in, what comes out, what is refused, and by whom."""
+"""The docstrings of the closed forms say what goes in, what comes out, what is refused, and by
+whom.
+"""
 
 import inspect
 import re

@@ -1,4 +1,6 @@
-"""The closed forms of the stress, in two number systems, against each other, the equations of elasticity, and the solver."""
+"""The closed forms of the stress, in two number systems, against each other, the equations of
+elasticity, and the solver.
+"""
 
 import numpy as np
 import pytest

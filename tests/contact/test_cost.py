@@ -1,4 +1,6 @@
-"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a function, transforms, factorisations."""
+"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a
+function, transforms, factorisations.
+"""
 
 from contextlib import contextmanager
 from unittest.mock import patch

@@ -1,6 +1,7 @@
 """Where an edge lies on or beside a break of the slope: where h'' jumps, or h' itself.
 
-The truth is `validation.topics.kinks`: the conditions of the edges in 100 digits, with exact integrals of polynomial pieces.
+The truth is `validation.topics.kinks`: the conditions of the edges in 100 digits, with exact
+integrals of polynomial pieces.
 """
 
 import contextlib

@@ -1,4 +1,6 @@
-"""Many pieces: fast sums are the dense ones, batched formulas those of piece by piece, and memory isn't pieces times points."""
+"""Many pieces: fast sums are the dense ones, batched formulas those of piece by piece, and memory
+isn't pieces times points.
+"""
 
 import tracemalloc
 from itertools import pairwise
@@ -23,7 +25,9 @@ CONTACT = Interval(-1.01, 0.97)
 
 
 def spline_slope(n, roughness=0.0, seed=0):
-    """The slope of a spline through n + 1 points; rough ones have noise of that size on their heights."""
+    """The slope of a spline through n + 1 points; rough ones have noise of that size on their
+    heights.
+    """
     x = np.linspace(-1.2, 1.3, n + 1)
     h = (
         np.cosh(x)
@@ -100,7 +104,9 @@ def both_ways(monkeypatch, build, value):
 @pytest.mark.parametrize("epsilon", [0.0, 0.06], ids=["similar", "sliding"])
 @pytest.mark.parametrize("roughness", [0.0, 1e-3], ids=["smooth", "rough"])
 def test_pairs_give_the_values_of_piece_by_piece(n, epsilon, roughness, monkeypatch):
-    """To the loop's rounding, which grows with the curvature of the pieces: the pairs have less, as the next test shows."""
+    """To the loop's rounding, which grows with the curvature of the pieces: the pairs have less, as
+    the next test shows.
+    """
     slope, rng = spline_slope(n, roughness), np.random.default_rng(1)
     beyond = 10.0 ** np.sort(rng.uniform(-13, 2, 60))
     x = np.sort(
@@ -175,16 +181,19 @@ def test_moments_with_short_rules_are_those_of_long_ones(monkeypatch):
 
 
 class ExactSpline:
-    """A slope of parabolas and its contact in 40 digits: Gauss-Legendre in φ on every piece, where 12 nodes leave 1e-36.
+    """A slope of parabolas and its contact in 40 digits: Gauss-Legendre in φ on every piece, where
+    12 nodes leave 1e-36.
 
-    p(x) = G/π w(x) ∫ (H(t) - H(x)) / (t - x) dφ, with H = H_k on piece k: a polynomial quotient, and (H_k(x) - H(x)) ∫ dφ / (t - x),
-    whose antiderivative is ln |sin((φ - φx)/2) / cos((φ + φx)/2)| / w(x).
+    p(x) = G/π w(x) ∫ (H(t) - H(x)) / (t - x) dφ, with H = H_k on piece k: a polynomial quotient,
+    and (H_k(x) - H(x)) ∫ dφ / (t - x), whose antiderivative is ln |sin((φ - φx)/2) / cos((φ +
+    φx)/2)| / w(x).
     """
 
     def __init__(self, slope, x1, x2):
         x1, x2 = mp.mpf(x1), mp.mpf(x2)
         self.m, self.r = (x1 + x2) / 2, (x2 - x1) / 2
-        self.pieces = []  # ends, their angles, origin, coefficients, and the nodes (t, sin φ, weight)
+        # Ends, their angles, origin, coefficients, and the nodes (t, sin φ, weight)
+        self.pieces = []
         g, w = normal_contact.gauss_legendre(12)
         rows = zip(
             pairwise(slope.breaks.tolist()),
@@ -231,7 +240,9 @@ class ExactSpline:
 
 
 def test_a_spline_through_a_thousand_samples_has_its_exact_pressure():
-    """The promise is 1e-11. The edges are tried by the conditions that they meet, whose slopes in r are of the size of H."""
+    """The promise is 1e-11. The edges are tried by the conditions that they meet, whose slopes in r
+    are of the size of H.
+    """
     x = np.linspace(-1.5, 1.6, 1000)
     profile = sie.Sampled(x, np.cosh(x) - 1.0 + 0.1 * x**3 + 0.05 * np.abs(x) ** 3)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.5))
@@ -268,7 +279,9 @@ def test_the_certificate_of_many_pieces_sees_a_wrong_pressure(monkeypatch):
 
 
 def test_the_certificate_s_rule_integrates_what_corners_of_many_kinds_leave():
-    """∫ (x-e)^(m+1) ln|x-e| over the contact, at a break where the m-th derivative of the slope jumps."""
+    """∫ (x-e)^(m+1) ln|x-e| over the contact, at a break where the m-th derivative of the slope
+    jumps.
+    """
     n = 64
     breaks = np.linspace(-2.0, 2.0, n + 1)
     for m in (0, 1, 2):

@@ -1,4 +1,6 @@
-"""Every remedy that a refusal offers is followed: the question that it makes of the one refused is answered, and rightly."""
+"""Every remedy that a refusal offers is followed: the question that it makes of the one refused is
+answered, and rightly.
+"""
 
 import math
 import re

@@ -1,4 +1,6 @@
-"""A bad question is refused when it is built, with the value; a good one without an answer when it is asked, with what was reached."""
+"""A bad question is refused when it is built, with the value; a good one without an answer when it
+is asked, with what was reached.
+"""
 
 import math
 import pickle
@@ -23,7 +25,7 @@ def asked(scene):
     return sie.solve(scene).edges
 
 
-# -- numbers that mean nothing ----------------------------------------------------------------------------------------
+# -- numbers that mean nothing --------------------------------------------------------------------
 
 POSITIVE = {
     "Parabola.radius": sie.Parabola,
@@ -125,7 +127,7 @@ def test_every_poisson_ratio_of_a_stable_solid_is_taken(nu):
     assert sie.Elastic(1.0, nu).poisson == nu
 
 
-# -- too much or too little -------------------------------------------------------------------------------------------
+# -- too much or too little -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -230,7 +232,7 @@ def test_solve_and_with_refuse_what_they_do_not_know():
         sie.plan(scene(), want="magic")
 
 
-# -- good questions without an answer ---------------------------------------------------------------------------------
+# -- good questions without an answer -------------------------------------------------------------
 
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-INF, INF))
 

@@ -1,4 +1,6 @@
-"""Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows nothing of superposition."""
+"""Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows
+nothing of superposition.
+"""
 
 import mpmath
 import numpy as np
@@ -32,7 +34,7 @@ def at_constant_load(scene, *fractions):
     return sie.follow(scene, sie.Path([(P, k * FP) for k in fractions]))
 
 
-# -- constant P ---------------------------------------------------------------------------------------------------------
+# -- constant P -----------------------------------------------------------------------------------
 
 
 def test_a_path_of_one_point_is_the_scene():
@@ -47,7 +49,9 @@ def test_a_path_of_one_point_is_the_scene():
 
 @pytest.mark.parametrize("scene", [PUNCH, HERTZ, LOPSIDED], ids=["punch", "hertz", "lopsided"])
 def test_unloading_is_half_of_the_first_loading_twice(scene):
-    """From Q_max to Q: q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953; slip likewise."""
+    """From Q_max to Q: q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953; slip
+    likewise.
+    """
     unloaded = at_constant_load(scene, 0.75, 0.25)[1]
     first, half = (
         sie.solve(sie.Scene(**fields(scene), tangential_load=k * FP)) for k in (0.75, 0.25)
@@ -138,7 +142,9 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
 
 
 def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_each(monkeypatch):
-    """The next, smaller one overwrites a part of each: every layer stays. One series for the growth of the contact serves all."""
+    """The next, smaller one overwrites a part of each: every layer stays. One series for the growth
+    of the contact serves all.
+    """
     k = np.arange(10_000)
     history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 10_000) * (-1.0) ** k))
     assert len(history.states[-1].ladder.layers) == 10_000
@@ -178,7 +184,7 @@ def test_nothing_is_solved_before_it_is_asked_for():
     assert len(history._virgin) == 1
 
 
-# -- P and Q together ---------------------------------------------------------------------------------------------------
+# -- P and Q together -----------------------------------------------------------------------------
 
 
 def test_proportional_loading_below_friction_does_not_slip():
@@ -276,7 +282,9 @@ def test_energy_of_every_oblique_path_is_that_of_the_path_cut_into_parts(points,
 
 
 def test_slip_that_turns_while_the_normal_load_falls_is_told_in_both_directions():
-    """The layers: κ = 0.9 f on top, -f below. P falls: slip + until the edges have passed them, then slip -."""
+    """The layers: κ = 0.9 f on top, -f below. P falls: slip + until the edges have passed them,
+    then slip -.
+    """
     history = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]))
     last = history[-1].tangential
     first, turned = history.states[-1].slips
@@ -299,7 +307,9 @@ def test_slip_that_turns_while_the_normal_load_falls_is_told_in_both_directions(
     st.floats(-2.0, 2.0),
 )
 def test_what_slips_while_the_ladder_is_lowered_accounts_for_the_load(layers, share, rate):
-    """Q falls by what the layers carried away, and rises by the pull of the slip; no front is behind the edge."""
+    """Q falls by what the layers carried away, and rises by the pull of the slip; no front is
+    behind the edge.
+    """
     ladder = Ladder(1.0)
     for target, _ in layers:
         if target != ladder.total:
@@ -317,7 +327,9 @@ def test_what_slips_while_the_ladder_is_lowered_accounts_for_the_load(layers, sh
 
 
 def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
-    """h' = sinh x + x²/10 - t: ∫h'/w = π [sinh m I0(r) + (m² + r²/2)/10 - t], P = π G r [cosh m I1(r) + m r/10], for each half-width r."""
+    """h' = sinh x + x²/10 - t: ∫h'/w = π [sinh m I0(r) + (m² + r²/2)/10 - t], P = π G r [cosh m
+    I1(r) + m r/10], for each half-width r.
+    """
     G, load, Q, f = mpmath.mpf("0.5"), mpmath.mpf(0.3), mpmath.mpf(0.1), mpmath.mpf(0.5)
 
     def under(r):
@@ -344,7 +356,9 @@ def test_energy_of_a_lopsided_profile_depends_on_its_half_width_alone():
 
 
 def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
-    """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle there is no contact."""
+    """Beside the jump the half-width hardly grows: a step of Newton's method that did not settle
+    there is no contact.
+    """
     profile = sie.Piecewise([-0.4, 0.0], [(0.1, 1.5), (0.0, 1.0), (0.0, 1.5)])
     points = [
         (0.17463394504062985, -0.18860466064388023),
@@ -364,7 +378,9 @@ def test_energy_while_an_edge_passes_a_jump_is_that_of_the_mirrored_path():
 
 
 def test_the_energy_of_small_loads_has_as_many_digits_as_that_of_large_ones():
-    """A front from 0.3 down to a load 450 times as small: what a panel may miss is measured by the loads that it is for."""
+    """A front from 0.3 down to a load 450 times as small: what a panel may miss is measured by the
+    loads that it is for.
+    """
     scene = sie.Scene(
         profile=sie.Power(2.5, 0.5).shifted(0.3).tilted(0.05),
         modulus=1.0,
@@ -377,7 +393,8 @@ def test_the_energy_of_small_loads_has_as_many_digits_as_that_of_large_ones():
 
 
 def test_energy_of_loading_hertz_with_a_growing_normal_load():
-    """W = 2/(π E*) ∫∫ f ln(r'/r) over the layers, r² ∝ P: by hand for P from P0 to P1, dQ/dP = k > f.
+    """W = 2/(π E*) ∫∫ f ln(r'/r) over the layers, r² ∝ P: by hand for P from P0 to P1, dQ/dP = k >
+    f.
 
     W = f²/(π E*) (k/f - 1) ∫ [P ln(P/L) - P + L] dP,    L(P) = P - (P - P0) k/f
     """
@@ -400,7 +417,9 @@ def test_energy_of_loading_hertz_with_a_growing_normal_load():
 
 
 def test_normal_load_alone_comes_before_anything():
-    """From (0, 0, 0), up, down: what is applied later, bulk stress included, finds a contact that was never sheared."""
+    """From (0, 0, 0), up, down: what is applied later, bulk stress included, finds a contact that
+    was never sheared.
+    """
     Q, sigma = 0.4 * FP, 0.1
     loads = [(P, Q, sigma), (P, -0.2 * Q, -0.2 * sigma)]
     later = sie.follow(HERTZ, sie.Path([(0.0, 0.0), (0.0, 0.0), (2.0 * P, 0.0), (P, 0.0), *loads]))
@@ -425,7 +444,7 @@ def test_no_moment_on_a_symmetric_profile_is_no_tilt():
         assert one.stick == other.stick and one.energy_lost == other.energy_lost
 
 
-# -- refusals -----------------------------------------------------------------------------------------------------------
+# -- refusals -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -504,11 +523,13 @@ def test_a_point_of_a_path_is_not_changed_into_another():
         at_constant_load(HERTZ, 0.5)[0].with_(tangential_load=0.1)
 
 
-# -- a mesh -------------------------------------------------------------------------------------------------------------
+# -- a mesh ---------------------------------------------------------------------------------------
 
 
 def on_a_mesh(scene, points, n):
-    """(mean error of q over f p0, largest error of slip over the largest slip) at the last point, worst misplaced end in elements."""
+    """(mean error of q over f p0, largest error of slip over the largest slip) at the last point,
+    worst misplaced end in elements.
+    """
     history = sie.follow(scene, sie.Path(points))
     mesh = Mesh(history[0].edges, n, E)
     bound = F * history[0].pressure(mesh.x)
@@ -534,8 +555,9 @@ def on_a_mesh(scene, points, n):
 
 
 def shrinking(last, turns):
-    """Every sequence of so many turning points, each well inside the one before: nothing is wiped out, where a mesh and a formula
-    may take different sides."""
+    """Every sequence of so many turning points, each well inside the one before: nothing is wiped
+    out, where a mesh and a formula may take different sides.
+    """
     inside = [k for k in range(1 - abs(last), abs(last)) if abs(last - k) > 2]
     return [[]] if turns == 0 else [[k, *rest] for k in inside for rest in shrinking(k, turns - 1)]
 
@@ -554,7 +576,9 @@ CASES = [
 @settings(max_examples=12)
 @given(st.sampled_from(SHRINKING), st.sampled_from(CASES))
 def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
-    """Moderate and large bulk stress included; σ is in proportion to Q. First order: half the element, half the error."""
+    """Moderate and large bulk stress included; σ is in proportion to Q. First order: half the
+    element, half the error.
+    """
     scene, Q, sigma = case
     points = [(P, k * Q * FP, k * sigma) for k in steps]
     coarse, fine = on_a_mesh(scene, points, 100), on_a_mesh(scene, points, 400)

@@ -1,4 +1,6 @@
-"""Cattaneo and Mindlin for any profile: zones, shear, slip and energy against closed forms in many digits, and laws for every contact."""
+"""Cattaneo and Mindlin for any profile: zones, shear, slip and energy against closed forms in many
+digits, and laws for every contact.
+"""
 
 import math
 import re
@@ -39,7 +41,7 @@ def left_over(solution):
     return mp.mpf(scene.normal_load) - mp.mpf(scene.tangential_load) / mp.mpf(scene.friction)
 
 
-# -- the rounded punch in many digits (Ciavarella, Hills & Monno 1998; a = 0 is Hertz), R = 1 ------------------------------
+# -- the rounded punch in many digits (Ciavarella, Hills & Monno 1998; a = 0 is Hertz), R = 1 -----
 
 
 def rounded_load(a, s):
@@ -63,7 +65,9 @@ def rounded_rim(a, load):
 
 
 def rounded_pressure(a, s, x):
-    """Positive integrand: E*/π ∫ t acos(a/t)/sqrt(t² - x²) dt from max(|x|, a) to s; t² = x² + v²."""
+    """Positive integrand: E*/π ∫ t acos(a/t)/sqrt(t² - x²) dt from max(|x|, a) to s; t² = x² +
+    v².
+    """
     x = abs(x)
     if x >= s:
         return mp.mpf(0)
@@ -76,7 +80,9 @@ def rounded_pressure(a, s, x):
 
 
 def rounded_gap(a, s, x):
-    """The gap at x beside the contact of half-width s: 2/(π E*) ∫_s^x P'(t) acosh(x/t) dt, P' = E* t acos(a/t)."""
+    """The gap at x beside the contact of half-width s: 2/(π E*) ∫_s^x P'(t) acosh(x/t) dt, P' = E*
+    t acos(a/t).
+    """
     return (
         2
         / mp.pi
@@ -109,7 +115,9 @@ def rounded_energy(a, b, c):
 @pytest.mark.parametrize("fraction", FRACTIONS)
 @pytest.mark.parametrize("a", [0.0, 0.5, 1.0 - 1e-9], ids=["hertz", "0.5", "1-1e-9"])
 def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
-    """Eq. (20): the stick zone; q, slip and energy; to 1e-12 of themselves, thin zones and thin rims included."""
+    """Eq. (20): the stick zone; q, slip and energy; to 1e-12 of themselves, thin zones and thin
+    rims included.
+    """
     profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
     load = float(rounded_load(mp.mpf(a), mp.mpf(1)))
     solution = sie.solve(
@@ -142,7 +150,9 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
 
 
 def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
-    """There q falls from f p like the square root of the distance: it is not a difference of two pressures."""
+    """There q falls from f p like the square root of the distance: it is not a difference of two
+    pressures.
+    """
     solution = sheared(sie.Parabola(1.0), 1e-3)
     b, c = (rounded_rim(0, P) for P in (mp.mpf(P), left_over(solution)))
     for t in (1e-1, 1e-3, 1e-6, 1e-9):
@@ -162,7 +172,9 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
 def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_first(
     profile, tilt
 ):
-    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c over the profile's own length, 1e-6."""
+    """A parabola there, P - |Q|/f = π E*/4 h'' c², but for terms of the order of c over the
+    profile's own length, 1e-6.
+    """
     solution = sheared(profile, 1.0 - 1e-13, tilt=tilt)
     ((lo, hi),) = solution.stick
     z, step = 0.5 * (lo + hi), 1e-5
@@ -174,7 +186,7 @@ def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_
     )
 
 
-# -- sliding, sticking, refusing ----------------------------------------------------------------------------------------
+# -- sliding, sticking, refusing ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -194,7 +206,9 @@ def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, si
 
 
 def test_sliding_is_where_the_rounded_product_is():
-    """0.3 x 500 is a little less than 150 in exact arithmetic, and 150 in doubles: that is full sliding, as it was meant."""
+    """0.3 x 500 is a little less than 150 in exact arithmetic, and 150 in doubles: that is full
+    sliding, as it was meant.
+    """
     solution = sie.solve(
         sie.Scene(
             profile=sie.Parabola(1.0),
@@ -221,7 +235,9 @@ def test_slip_at_incipient_sliding_is_f_times_the_height_of_the_profile():
 )
 @pytest.mark.parametrize("strain", [-1e3, -4.0, 0.1, 7.0])
 def test_full_sliding_under_any_bulk_stress_is_the_limit_of_what_slipped_before(profile, strain):
-    """Where the strain pulls the lowest point out of the contact, or there is none, the last point to let go is an edge."""
+    """Where the strain pulls the lowest point out of the contact, or there is none, the last point
+    to let go is an edge.
+    """
     whole, almost = (
         sheared(profile, fraction, bulk_stress=strain * P) for fraction in (1.0, 1.0 - 1e-12)
     )
@@ -247,7 +263,9 @@ def test_a_sharp_flat_punch_sticks_as_a_whole_until_it_slides():
 
 
 def test_under_the_tip_of_a_wedge_the_shear_is_finite():
-    """p and p̂ are infinite there, with the same logarithm: q = f E* s/π (acosh(b/x) - acosh(c/x)) -> f E* s/π ln(b/c)."""
+    """p and p̂ are infinite there, with the same logarithm: q = f E* s/π (acosh(b/x) - acosh(c/x))
+    -> f E* s/π ln(b/c).
+    """
     solution = sheared(sie.Wedge(0.25), 0.5)
     assert float(solution.shear(0.0)) == pytest.approx(
         F * E * 0.25 / np.pi * np.log(2.0), rel=1e-12
@@ -286,7 +304,7 @@ def test_without_a_tangential_load_everything_sticks():
     assert frictionless.energy_lost == frictionless.shift == 0.0
 
 
-# -- cost and economy ---------------------------------------------------------------------------------------------------
+# -- cost and economy -----------------------------------------------------------------------------
 
 
 @pytest.fixture
@@ -335,7 +353,7 @@ def test_the_economies_of_shear_leave_the_answer_as_it_is(fraction):
     assert wasteful.shear.resultant == pytest.approx(fraction * F * P, abs=1e-14)
 
 
-# -- bulk stress --------------------------------------------------------------------------------------------------------
+# -- bulk stress ----------------------------------------------------------------------------------
 
 
 def test_a_moderate_bulk_stress_shifts_the_stick_zone_of_hertz():
@@ -351,7 +369,9 @@ def test_a_moderate_bulk_stress_shifts_the_stick_zone_of_hertz():
 
 
 def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
-    """a/b = 0.7, Q/(f P) = 0.8, σ/(2 f E*) = 0.03 (b = R = 1); to all digits: both edges' conditions, ∫H/w = 0 and the load."""
+    """a/b = 0.7, Q/(f P) = 0.8, σ/(2 f E*) = 0.03 (b = R = 1); to all digits: both edges'
+    conditions, ∫H/w = 0 and the load.
+    """
     load = float(rounded_load(mp.mpf("0.7"), mp.mpf(1)))
     scene = sie.Scene(
         profile=sie.RoundedFlat(0.7, 1.0),
@@ -389,7 +409,9 @@ def test_with_bulk_stress_the_stick_zone_can_end_inside_the_flat():
 
 
 def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
-    """The strain pulls the far side back, and all of Q is held at the edge: q = -f (p - p̂), p̂ under P + |Q|/f."""
+    """The strain pulls the far side back, and all of Q is held at the edge: q = -f (p - p̂), p̂
+    under P + |Q|/f.
+    """
     scene = sie.Scene(
         profile=sie.Flat(1.0),
         modulus=2.0,
@@ -427,7 +449,8 @@ def test_a_refused_load_is_told_from_what_friction_carries_and_the_advice_is_eno
 
 
 def reverse_slip_of_hertz(strain):
-    """c/b of the stick zone when a bulk stress alone acts, strain = τ/(f p0): ∫_c^1 sqrt(1 - s²)/sqrt(s² - c²) ds = π/2 strain.
+    """c/b of the stick zone when a bulk stress alone acts, strain = τ/(f p0): ∫_c^1 sqrt(1 -
+    s²)/sqrt(s² - c²) ds = π/2 strain.
 
     From the two signs' first condition, both halves being alike; s² = c² + (1 - c²) sin² t.
     """
@@ -483,7 +506,9 @@ def test_the_stress_under_slip_to_both_sides_reaches_the_surface():
 
 @pytest.mark.parametrize("strain", [2.0, 5.0, 12.0, 20.0])
 def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
-    """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both halves alike; ρ falls below 1e-13 b."""
+    """∫_ρ^b p/sqrt(t² - ρ²) dt = π τ/(2 f) is f p0 [K(k) - E(k)] = π τ/2, k² = 1 - ρ²/b²: both
+    halves alike; ρ falls below 1e-13 b.
+    """
     b = math.sqrt(4.0 * P / (math.pi * E))
     p0 = 2.0 * P / (math.pi * b)
     solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=4.0 * strain * F * p0)
@@ -506,7 +531,9 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
 def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirrored_zone(
     tilt, strain
 ):
-    """With Q = 0 no side is told apart by its load, and pressure that leans to one side tells them apart."""
+    """With Q = 0 no side is told apart by its load, and pressure that leans to one side tells them
+    apart.
+    """
     here, there = (
         sheared(sie.RoundedFlat(1.0, 1.0 / 6.0), 0.0, tilt=sign * tilt, bulk_stress=strain * P)
         for sign in (1.0, -1.0)
@@ -520,7 +547,9 @@ def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirro
 
 @pytest.mark.parametrize(("fraction", "strain"), [(0.0, 100.0), (0.5, 1e4), (-0.7, 300.0)])
 def test_a_bulk_stress_that_leaves_a_point_of_stick(fraction, strain):
-    """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c - t)| dt - τ (x - c)/G, G = E*/2."""
+    """q = ± f p on either side of c, where they balance Q, and slip(x) = 1/(π G) ∫q ln|(x - t)/(c -
+    t)| dt - τ (x - c)/G, G = E*/2.
+    """
     b = math.sqrt(4.0 * P / (math.pi * E))
     solution = sheared(
         sie.Parabola(1.0), fraction, bulk_stress=8.0 * strain * F * P / (math.pi * b)
@@ -570,7 +599,9 @@ def test_every_bulk_stress_is_solved(profile, fraction):
 
 @pytest.mark.parametrize("strain", [-0.771, -0.77, -0.769, 0.77])
 def test_a_stick_zone_that_ends_next_to_the_tip_of_a_wedge_carries_the_load(strain):
-    """Newton's method for a narrow zone goes to and fro across the tip, where p is infinite, and must not be believed."""
+    """Newton's method for a narrow zone goes to and fro across the tip, where p is infinite, and
+    must not be believed.
+    """
     f = 0.3
     scene = sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=0.4, friction=f)
     sigma = 4.0 * strain * f * 0.4 / sie.solve(scene).half_width
@@ -616,7 +647,9 @@ def test_the_certificate_of_a_stick_zone_at_a_sharp_edge_raises_no_false_alarm(l
 def test_slip_and_energy_of_mirror_images_under_a_bulk_stress_agree(
     exponent, size, fraction, strain, f
 ):
-    """The slope of a power ends with the contact: seen from the edge it ended an ulp inside it, and what is left of 1e-16 is 1e-8."""
+    """The slope of a power ends with the contact: seen from the edge it ended an ulp inside it, and
+    what is left of 1e-16 is 1e-8.
+    """
     scene = sie.Scene(
         profile=sie.Power(exponent, 10.0**size), modulus=1.0, normal_load=0.3, friction=f
     )
@@ -649,7 +682,9 @@ def fields(scene):
 @settings(max_examples=40)
 @given(strategies.scenes(), PAIRS, st.floats(0.05, 1.5), st.booleans())
 def test_every_shear_obeys_its_law(scene, loads, f, bulk):
-    """|q| <= f p, = ± f p in slip, slip along q, ∫q = Q, equation (12) in stick: the certificate, on points that no solver used."""
+    """|q| <= f p, = ± f p in slip, slip along q, ∫q = Q, equation (12) in stick: the certificate,
+    on points that no solver used.
+    """
     Q, width = loads[0] * f * scene.normal_load, sie.solve(scene).half_width
     sigma = 4.0 * loads[1] * f * scene.normal_load / width if bulk else 0.0
     solution = sie.solve(

@@ -1,4 +1,6 @@
-"""Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded flat punch)."""
+"""Dissimilar bodies: full sliding (q = ±f p acts back on the pressure) and full stick (a bonded
+flat punch).
+"""
 
 import math
 from dataclasses import replace
@@ -48,7 +50,7 @@ def inside(solution, n=201):
     )
 
 
-# -- closed forms ---------------------------------------------------------------------------------------------------------
+# -- closed forms ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("coupling", COUPLINGS)
@@ -81,7 +83,9 @@ def test_sliding_flat(coupling):
 
 @pytest.mark.parametrize("coupling", [0.3, -0.15])
 def test_rounded_punch_against_principal_value_quadrature_with_thirty_digits(coupling):
-    """Both edges satisfy their conditions, and p is the inversion formula of Muskhelishvili § 110."""
+    """Both edges satisfy their conditions, and p is the inversion formula of Muskhelishvili §
+    110.
+    """
     a, R = 1.0, 50.0
     solution = slid(RIM, coupling, half_width=1.3)
     mp = mpmath.mp.clone()
@@ -200,7 +204,9 @@ def bonded(beta, P=5.0, Q=2.0, b=2.0, **given):
 def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load_to_yield_vanishes(
     beta, given
 ):
-    """Pressure and the shear's Hilbert transform are both infinite there: their difference is no nan."""
+    """Pressure and the shear's Hilbert transform are both infinite there: their difference is no
+    nan.
+    """
     solution = sie.solve(
         sie.Scene(
             profile=sie.Flat(2.0), modulus=3.0, dundurs=beta, poisson=0.3, normal_load=0.2, **given
@@ -213,7 +219,7 @@ def test_at_a_sharp_edge_of_dissimilar_bodies_stresses_are_infinite_and_the_load
     assert solution.elastic_limit().load == 0.0
 
 
-# -- laws -----------------------------------------------------------------------------------------------------------------
+# -- laws -----------------------------------------------------------------------------------------
 
 GIVEN = (
     {"normal_load": 0.1},
@@ -307,7 +313,7 @@ def test_the_tilt_of_a_bonded_punch_answers_the_moment(moment):
     assert solution.check().ok, solution.check()
 
 
-# -- what is said about it ------------------------------------------------------------------------------------------------
+# -- what is said about it ------------------------------------------------------------------------
 
 
 def test_shear_is_friction_times_pressure_and_nothing_is_solved_for_it():
@@ -383,7 +389,9 @@ PAIR = {
     ],
 )
 def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
-    """Followed, it is the contact of bodies with β = 0 whose E* and whose strain under the bulk stress are those of the scene."""
+    """Followed, it is the contact of bodies with β = 0 whose E* and whose strain under the bulk
+    stress are those of the scene.
+    """
     scene = sie.Scene(profile=sie.Parabola(50.0), **PAIR, friction=0.4, normal_load=200.0, **loads)
     with pytest.raises(sie.ContactError, match="give dundurs = 0") as refusal:
         sie.solve(scene)
@@ -482,7 +490,8 @@ def test_senseless_sliding_is_refused(given, words):
 def test_a_tilted_flat_that_slides_on_both_its_edges_carries_its_load(coupling, tilt):
     """p times the roots of its singular ends is a straight line c0 + c1 s of s = x/b.
 
-    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are 2ε and 1/2 + 2ε² (a beta distribution).
+    The means of s and s² under (1 - s)^(-1/2-ε) (1 + s)^(-1/2+ε), whose integral is π/cos πε, are
+    2ε and 1/2 + 2ε² (a beta distribution).
     """
     b, P, e = 1.5, 2.0, shift(coupling)
     solution = slid(sie.Flat(b), coupling, normal_load=P, tilt=tilt)

@@ -1,4 +1,6 @@
-"""The command line: what it prints and writes is what the library computes, and what it refuses leaves no trace."""
+"""The command line: what it prints and writes is what the library computes, and what it refuses
+leaves no trace.
+"""
 
 import csv
 import json
@@ -72,7 +74,7 @@ def strict(text):
     return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is not JSON"))
 
 
-# -- solve -------------------------------------------------------------------------------------------------------------
+# -- solve ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -183,7 +185,7 @@ def test_a_file_s_own_want_holds_unless_the_command_line_wants_otherwise(scene, 
     assert "peak pressure" in capsys.readouterr().out
 
 
-# -- JSON and CSV ------------------------------------------------------------------------------------------------------
+# -- JSON and CSV ---------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -212,7 +214,9 @@ def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path,
 def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv(
     tmp_path, monkeypatch, capsys
 ):
-    """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not known."""
+    """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not
+    known.
+    """
     monkeypatch.chdir(tmp_path)
     path = example("sliding", tmp_path)
     solution = sie.solve(scene_file.read(path).scene)
@@ -312,7 +316,7 @@ def test_one_output_may_be_standard_output_and_is_then_alone_there(scene, capsys
     assert capsys.readouterr().out.startswith("# Fretting pad")
 
 
-# -- shear and load paths ----------------------------------------------------------------------------------------------
+# -- shear and load paths -------------------------------------------------------------------------
 
 
 def test_shear_is_told_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
@@ -367,7 +371,7 @@ def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monke
         assert "step 3 of the path" in sentence(capsys)
 
 
-# -- plan and example --------------------------------------------------------------------------------------------------
+# -- plan and example -----------------------------------------------------------------------------
 
 
 def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
@@ -402,7 +406,7 @@ def test_examples_are_listed_with_a_line_each(capsys):
     )
 
 
-# -- refusals ----------------------------------------------------------------------------------------------------------
+# -- refusals -------------------------------------------------------------------------------------
 
 BAD = {
     "no command": ([], "arguments are required"),
@@ -538,7 +542,7 @@ def test_an_interruption_is_exit_code_130(scene, monkeypatch, capsys):
     assert capsys.readouterr() == ("", "")
 
 
-# -- as a program ------------------------------------------------------------------------------------------------------
+# -- as a program ---------------------------------------------------------------------------------
 
 
 def test_the_program_solves_a_scene_and_refuses_one(scene):

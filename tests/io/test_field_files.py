@@ -1,4 +1,6 @@
-"""Files and pictures of the stress hold what the solution says, and what cannot be written is refused before work."""
+"""Files and pictures of the stress hold what the solution says, and what cannot be written is
+refused before work.
+"""
 
 import base64
 import csv

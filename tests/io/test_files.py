@@ -1,4 +1,6 @@
-"""Files are read if they are ordinary, written whole or not at all, and nothing that is read is overwritten."""
+"""Files are read if they are ordinary, written whole or not at all, and nothing that is read is
+overwritten.
+"""
 
 import functools
 import os
@@ -65,7 +67,7 @@ def run(*argv, **options):
     )
 
 
-# -- what is read is not overwritten -----------------------------------------------------------------------------------
+# -- what is read is not overwritten --------------------------------------------------------------
 
 TARGETS = {"scene.toml": "the scene file", "trace.csv": "a trace", "mesh.csv": "the mesh result"}
 LINKS = {
@@ -146,7 +148,7 @@ def test_a_file_beside_those_that_are_read_is_written(folder):
     assert Path("trace.csv").read_text() == TRACE and Path("trace2.csv").stat().st_size > len(TRACE)
 
 
-# -- only regular files of reasonable length are read ------------------------------------------------------------------
+# -- only regular files of reasonable length are read ---------------------------------------------
 
 
 def odd_file(kind):
@@ -214,7 +216,7 @@ def test_a_scene_without_end_on_standard_input_is_refused():
     )
 
 
-# -- whole or not at all -----------------------------------------------------------------------------------------------
+# -- whole or not at all --------------------------------------------------------------------------
 
 KILLED = """
 import os, signal, sys
@@ -346,7 +348,7 @@ def test_a_reader_who_leaves_early_costs_no_file_and_is_told_of_devices_too(fold
     assert Path("out.csv").read_text().startswith("#")
 
 
-# -- Ctrl-C ------------------------------------------------------------------------------------------------------------
+# -- Ctrl-C ---------------------------------------------------------------------------------------
 
 IMPORTING = """
 import os, signal, sys

@@ -1,4 +1,6 @@
-"""The picture shows the numbers of the solution, says what its axes are, and leaves Matplotlib as it was."""
+"""The picture shows the numbers of the solution, says what its axes are, and leaves Matplotlib as
+it was.
+"""
 
 import numpy as np
 import pytest
@@ -167,7 +169,7 @@ def test_matplotlib_s_settings_stay_as_they_were():
     assert dict(matplotlib.rcParams) == before
 
 
-# -- shear ---------------------------------------------------------------------------------------------------------------
+# -- shear ----------------------------------------------------------------------------------------
 
 FRETTING = parse(example("fretting-cycle"))
 SHEARED = {

@@ -1,4 +1,6 @@
-"""Scene files: what they say is what is solved, and what they cannot say is refused in one sentence with a remedy."""
+"""Scene files: what they say is what is solved, and what they cannot say is refused in one sentence
+with a remedy.
+"""
 
 import inspect
 import tomllib
@@ -29,7 +31,7 @@ def refusal(text):
     return message
 
 
-# -- examples ----------------------------------------------------------------------------------------------------------
+# -- examples -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -76,7 +78,7 @@ def test_the_showcase_still_works_with_its_commented_lines_switched_on():
     assert parse("\n".join(lines)).scene.profile == profile
 
 
-# -- what a file says --------------------------------------------------------------------------------------------------
+# -- what a file says -----------------------------------------------------------------------------
 
 
 def test_modifiers_are_applied_mirrored_then_tilted_then_shifted():
@@ -152,7 +154,7 @@ def test_what_editors_and_shells_write_is_read(encoding, tmp_path):
     assert read(path).title == "Grüße"
 
 
-# -- what is refused ---------------------------------------------------------------------------------------------------
+# -- what is refused ------------------------------------------------------------------------------
 
 
 def keys_of(table):

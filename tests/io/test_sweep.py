@@ -1,4 +1,6 @@
-"""A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and loses nothing."""
+"""A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and
+loses nothing.
+"""
 
 import builtins
 import os
@@ -263,7 +265,9 @@ def test_a_worker_that_dies_costs_its_own_chunk_only():
 
 
 def deadly(solution):
-    """A half-width, but loads above 1 kill the process, as the system does with one that takes all memory."""
+    """A half-width, but loads above 1 kill the process, as the system does with one that takes all
+    memory.
+    """
     if solution.normal_load > 1.0:
         os._exit(1)
     return solution.half_width

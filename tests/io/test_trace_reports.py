@@ -26,7 +26,7 @@ def reported(profile, **given):
     return report
 
 
-# -- the error of the pressure ------------------------------------------------------------------------
+# -- the error of the pressure --------------------------------------------------------------------
 
 
 def largest_error(found, exact):
@@ -85,7 +85,9 @@ CASES = [(profile, "load") for profile in PROFILES] + [
 
 @pytest.mark.parametrize(("profile", "asked"), CASES)
 def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, asked):
-    """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases with much to spare."""
+    """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases with much to
+    spare.
+    """
     h, shape = PROFILES[profile]
     exact = solved(shape, **ASKED[asked])
     stated, true, edges, moved = [], [], [], []
@@ -186,7 +188,7 @@ def test_a_profile_that_is_no_trace_has_no_report():
     assert solved(sie.Flat(1.0), friction=float("inf")).trace_reports() == ()
 
 
-# -- outliers, gaps, mending, levelling ---------------------------------------------------------------
+# -- outliers, gaps, mending, levelling -----------------------------------------------------------
 
 
 @pytest.mark.parametrize("smoothing", [0.0, 1e-4, "gcv"])
@@ -277,7 +279,7 @@ def test_a_pad_that_was_not_levelled_says_so_and_one_that_was_does_not(sign):
     assert reported(askew.tilted(-sign * 2e-3)).tilt == pytest.approx(0.0, abs=1e-12)
 
 
-# -- where it is read ---------------------------------------------------------------------------------
+# -- where it is read -----------------------------------------------------------------------------
 
 
 def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():

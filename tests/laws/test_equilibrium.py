@@ -75,7 +75,9 @@ def test_the_load_of_a_half_width_is_that_of_its_pressure_to_rounding(seed):
 
 @given(strategies.scenes(), strategies.between(-0.2, 0.2))
 def test_a_moment_given_is_the_moment_of_the_pressure(scene, lever):
-    """Where the profile can carry it: a lever of 0.2 r may tilt a wedge or a sharp punch beyond its slopes."""
+    """Where the profile can carry it: a lever of 0.2 r may tilt a wedge or a sharp punch beyond its
+    slopes.
+    """
     upright = sie.solve(scene)
     wanted = upright.moment + lever * scene.normal_load * upright.half_width
     solution = upright.with_(moment=wanted)

@@ -1,4 +1,6 @@
-"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, and the potential F(z) = 1/π ∫ p(t)/(z - t) dt of which it is the limit."""
+"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, and the potential F(z) = 1/π ∫ p(t)/(z - t) dt of
+which it is the limit.
+"""
 
 import laws
 import numpy as np
@@ -23,7 +25,7 @@ def interior(solution, seed, n=6, margin=0.02):
     return x[np.abs(x[:, None] - marks).min(axis=1) > margin * r][:n]
 
 
-# -- the equation -----------------------------------------------------------------------------------------------------
+# -- the equation ---------------------------------------------------------------------------------
 
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
@@ -52,7 +54,9 @@ def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
 
 @pytest.mark.parametrize("case", [c for c in CASES if c.width is not None and c.symmetric], ids=str)
 def test_the_pressure_is_relatively_accurate_up_to_the_edge(case: Case):
-    """Given the half-width, and centre 0, the edge is known exactly and so is the distance to it."""
+    """Given the half-width, and centre 0, the edge is known exactly and so is the distance to
+    it.
+    """
     solution, truth = solved(case), exact(case)
     b = solution.edges[1]
     for depth in (1e-4, 1e-8, 1e-12):
@@ -60,7 +64,7 @@ def test_the_pressure_is_relatively_accurate_up_to_the_edge(case: Case):
         assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=PROMISE)
 
 
-# -- the potential ----------------------------------------------------------------------------------------------------
+# -- the potential --------------------------------------------------------------------------------
 
 
 def places(case: Case) -> list[complex]:
@@ -127,7 +131,9 @@ def test_the_potential_jumps_by_the_pressure_across_the_contact(scene, seed):
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
 def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed):
-    """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative, and rounding."""
+    """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative,
+    and rounding.
+    """
     solution = sie.solve(scene)
     r = solution.half_width
     beside = (
@@ -222,7 +228,7 @@ def test_values_keep_the_shape_of_their_argument():
         p.cauchy(0.3, side=2)
 
 
-# -- the gap ----------------------------------------------------------------------------------------------------------
+# -- the gap --------------------------------------------------------------------------------------
 
 SAMPLED = (
     "rounded-P=0.2",
@@ -287,11 +293,13 @@ def test_the_slope_of_the_gap_is_what_the_pressure_leaves_of_the_profile(scene, 
     assert difference == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
-# -- the reference itself ---------------------------------------------------------------------------------------------
+# -- the reference itself -------------------------------------------------------------------------
 
 
 def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
-    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to 30 digits."""
+    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to
+    30 digits.
+    """
     a, b = mp.mpf(1) / 2, mp.mpf(1)
     pieces = normal_contact.Pieces(
         (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)

@@ -1,4 +1,6 @@
-"""What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the answer as it is."""
+"""What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the
+answer as it is.
+"""
 
 from contextlib import suppress
 
@@ -202,7 +204,7 @@ def test_every_economy_leaves_the_answer_as_it_is(scene):
         assert wasteful.pressure(x) == pytest.approx(thrifty.pressure(x), abs=3e-14 * peak * far)
 
 
-# -- with_ ------------------------------------------------------------------------------------------------------------
+# -- with_ ----------------------------------------------------------------------------------------
 
 
 def test_with_keeps_the_stages_that_cannot_have_changed():
@@ -253,7 +255,7 @@ def test_a_given_load_replaces_a_half_width_and_a_moment_a_tilt():
     assert solution.with_(moment=0.1).with_(tilt=0.01).scene.moment is None
 
 
-# -- counts -----------------------------------------------------------------------------------------------------------
+# -- counts ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""Every query at every x: nan gives nan, far away is far away, and no other entry of an array is touched by either."""
+"""Every query at every x: nan gives nan, far away is far away, and no other entry of an array is
+touched by either.
+"""
 
 import warnings
 

@@ -1,4 +1,5 @@
-"""Over 1e-300 to 1e300 of every input: refused with a sentence that says why, or the answer of the same contact in other units.
+"""Over 1e-300 to 1e300 of every input: refused with a sentence that says why, or the answer of the
+same contact in other units.
 
 Nothing else: no warning (they are errors in the tests), no exception of another kind.
 """

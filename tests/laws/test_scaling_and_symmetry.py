@@ -1,4 +1,6 @@
-"""Units, mirror, shift, tilt, load: what changes in the question changes in the answer as it must."""
+"""Units, mirror, shift, tilt, load: what changes in the question changes in the answer as it
+must.
+"""
 
 import laws
 import numpy as np
@@ -23,7 +25,7 @@ def answers(solution):
     )
 
 
-# -- units ------------------------------------------------------------------------------------------------------------
+# -- units ----------------------------------------------------------------------------------------
 
 SCALED = {
     "parabola": lambda L: sie.Parabola(2.0 * L),
@@ -74,7 +76,9 @@ def test_a_unit_of_stress_changes_no_dimensionless_answer(name):
 
 @pytest.mark.parametrize("name", SCALED)
 def test_powers_of_two_change_hardly_a_bit(name):
-    """Nothing in the numerics has a length or a stress of its own, so a change of exponent is exact but for logarithms and roots."""
+    """Nothing in the numerics has a length or a stress of its own, so a change of exponent is exact
+    but for logarithms and roots.
+    """
     one = sie.solve(
         sie.Scene(profile=SCALED[name](1.0), modulus=1.0, half_width=None, normal_load=0.5)
     )
@@ -83,7 +87,7 @@ def test_powers_of_two_change_hardly_a_bit(name):
     assert np.array(other.edges) == pytest.approx(np.array(one.edges) * L, rel=4e-16)
 
 
-# -- mirror and shift -------------------------------------------------------------------------------------------------
+# -- mirror and shift -----------------------------------------------------------------------------
 
 
 @given(strategies.scenes())
@@ -137,7 +141,7 @@ def test_a_shift_of_the_profile_shifts_the_answer(scene, n):
     )
 
 
-# -- questions and answers exchanged ----------------------------------------------------------------------------------
+# -- questions and answers exchanged --------------------------------------------------------------
 
 
 @given(strategies.scenes())
@@ -182,7 +186,7 @@ def test_a_tilt_of_the_scene_is_a_tilt_of_the_profile(scene, share):
     )
 
 
-# -- growth and superposition -----------------------------------------------------------------------------------------
+# -- growth and superposition ---------------------------------------------------------------------
 
 
 @given(strategies.scenes(profile=sie.RoundedFlat(0.5, 1.0)), between(1.01, 5.0))

@@ -1,4 +1,6 @@
-"""Nothing is lost where formulas are known to cancel: nearly flat, nearly round, tiny tilts, huge and tiny loads, many pieces."""
+"""Nothing is lost where formulas are known to cancel: nearly flat, nearly round, tiny tilts, huge
+and tiny loads, many pieces.
+"""
 
 import laws
 import numpy as np
@@ -128,7 +130,9 @@ def test_a_nearly_flat_punch_agrees_with_quadrature_too(delta):
 
 @given(NEAR_FLAT, between(-0.3, 0.3))
 def test_a_nearly_flat_punch_keeps_its_moment_under_tilt(delta, share):
-    """A tilt that is a share of the rim's slope, off the axis: equilibrium by the certificate and the moment's inverse."""
+    """A tilt that is a share of the rim's slope, off the axis: equilibrium by the certificate and
+    the moment's inverse.
+    """
     profile = sie.RoundedFlat(1.0, 1.0)
     solution = sie.solve(
         sie.Scene(profile=profile, modulus=1.0, normal_load=1.0, tilt=share * delta)
@@ -192,7 +196,9 @@ def test_many_pieces_keep_full_accuracy(n):
 
 
 def test_a_corner_far_from_the_origin_is_no_jump():
-    """Coefficients in x round the slope at a break by ulps of their own size, not of the slope: no wedge, up or down, may come of it."""
+    """Coefficients in x round the slope at a break by ulps of their own size, not of the slope: no
+    wedge, up or down, may come of it.
+    """
     rng = np.random.default_rng(1)
     for _ in range(20):
         at, c, d = 1000.0 * rng.uniform(1, 10), *rng.uniform(1, 10, 2)
@@ -202,7 +208,9 @@ def test_a_corner_far_from_the_origin_is_no_jump():
 
 
 def test_a_break_within_rounding_of_an_edge_does_no_harm():
-    """The edge of the contact is moved across the corner of the flat's neighbour in steps of one ulp."""
+    """The edge of the contact is moved across the corner of the flat's neighbour in steps of one
+    ulp.
+    """
     b = 1.0
     for k in range(-4, 5):
         at = b + k * np.spacing(1.0)
@@ -226,7 +234,9 @@ def test_a_power_profile_is_the_same_wherever_it_stands(exponent, dx):
 
 
 def test_a_half_width_given_to_an_unsymmetric_profile_keeps_the_promise():
-    """The bracket of the centre must not be closed by rounding of ∫H/w: bisection then ended at 1e-12 r."""
+    """The bracket of the centre must not be closed by rounding of ∫H/w: bisection then ended at
+    1e-12 r.
+    """
     profile = sie.Piecewise((0.390625,), ((-1.004150390625, 0.390625), (-0.900390625, 0.125)))
     profile += sie.Polynomial(
         (0.0, 0.24731082212712768, 0.6070953658592175, 0.38958162362309184, 1.0)
@@ -236,7 +246,7 @@ def test_a_half_width_given_to_an_unsymmetric_profile_keeps_the_promise():
     assert solution.normal.edges.evaluations <= 12
 
 
-# -- known limits: each is a bug to be fixed, and its mark then falls -----------------------------------------------------
+# -- known limits: each is a bug to be fixed, and its mark then falls -----------------------------
 
 
 @pytest.mark.parametrize("text", ["exp(x) - 1", "log(1 + x)", "sqrt(1 + x) - 1"])

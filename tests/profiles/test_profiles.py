@@ -1,4 +1,6 @@
-"""Profiles are values, and say of themselves what is true: slope, height, breaks, parity, domain, what moving and adding them means."""
+"""Profiles are values, and say of themselves what is true: slope, height, breaks, parity, domain,
+what moving and adding them means.
+"""
 
 import copy
 import pickle
@@ -46,7 +48,7 @@ def solved(profile):
     return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.25))
 
 
-# -- values -----------------------------------------------------------------------------------------------------------
+# -- values ---------------------------------------------------------------------------------------
 
 
 @each
@@ -105,7 +107,7 @@ def test_solving_does_not_change_a_profile(profile):
     assert (hash(profile), repr(profile)) == before
 
 
-# -- geometry ---------------------------------------------------------------------------------------------------------
+# -- geometry -------------------------------------------------------------------------------------
 
 
 def inside(profile, n=41):
@@ -163,7 +165,9 @@ def test_breaks_ascend_inside_the_domain(profile):
 
 @given(strategies.profiles())
 def test_between_breaks_a_profile_has_no_corner(profile):
-    """The slope's second difference goes like the square of the step where no break is near; at a corner it goes like the step."""
+    """The slope's second difference goes like the square of the step where no break is near; at a
+    corner it goes like the step.
+    """
     x, d = inside(profile, 23), 1e-4
     x = x[np.abs(x[:, None] - np.array([*profile.breaks, 1e9])).min(axis=1) > 1e-2]
 
@@ -375,7 +379,9 @@ def test_a_text_slope_cannot_run_code(text):
 
 @pytest.mark.parametrize("exponent", [1.1, 1.2, 1.5, 1.9, 2.5])
 def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
-    """There h' vanishes like |x|^(m-1), and what its pieces miss next to x = 0 is multiplied by the logarithm of their length."""
+    """There h' vanishes like |x|^(m-1), and what its pieces miss next to x = 0 is multiplied by the
+    logarithm of their length.
+    """
     law = {"exponent": exponent, "coefficient": 1.0}
     pressure = sie.solve(sie.Scene(profile=sie.Power(**law), modulus=2.0, half_width=1.0)).pressure
     x = np.array([0.0, 1e-30, 1e-20, 1e-9])

@@ -1,4 +1,6 @@
-"""Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed; several patches are refused, with help."""
+"""Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed; several
+patches are refused, with help.
+"""
 
 import itertools
 import json
@@ -25,7 +27,7 @@ def pressed(profile, load=1.0):
     return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load))
 
 
-# -- the spline ------------------------------------------------------------------------------------------------------
+# -- the spline -----------------------------------------------------------------------------------
 
 
 def test_the_interpolating_spline_is_not_a_knot():
@@ -79,7 +81,9 @@ def test_a_smoothing_spline_tends_to_the_natural_one_through_the_points(n, lam):
 
 
 def test_cross_validation_finds_the_smallest_score():
-    """Against the definition, with the matrix from h to f(x) column by column from SciPy's spline."""
+    """Against the definition, with the matrix from h to f(x) column by column from SciPy's
+    spline.
+    """
     x, rng = np.linspace(0.0, 1.0, 60), np.random.default_rng(5)
     h = np.cos(4.0 * x) + 0.05 * rng.standard_normal(60)
 
@@ -113,7 +117,7 @@ def test_a_noisy_trace_presses_as_the_smooth_one_within_a_percent():
         )
 
 
-# -- what is not a trace ---------------------------------------------------------------------------------------------
+# -- what is not a trace --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -156,7 +160,7 @@ def test_a_contact_that_would_reach_the_end_of_the_trace_is_refused():
         pressed(sie.Sampled(X, H), 100.0).edges  # noqa: B018 -- computes it
 
 
-# -- files -----------------------------------------------------------------------------------------------------------
+# -- files ----------------------------------------------------------------------------------------
 
 TABLE = [
     (x, h) for x, h in zip([-2.0, -1.0, 0.0, 1.0, 2.5], [4.0, 1.25, 0.0, 1.5, 6.0], strict=True)
@@ -293,7 +297,7 @@ def test_a_line_scan_of_surface_topography_is_taken(tmp_path, monkeypatch):
     )
 
 
-# -- what a trace is like --------------------------------------------------------------------------------------------
+# -- what a trace is like -------------------------------------------------------------------------
 
 
 def test_levelling_takes_out_the_line_and_nothing_else():
@@ -330,7 +334,7 @@ def test_a_trace_of_heights_upside_down_fits_no_pad():
         sie.Sampled(X, -H).fit_rounded_flat()
 
 
-# -- several patches -------------------------------------------------------------------------------------------------
+# -- several patches ------------------------------------------------------------------------------
 
 
 WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
@@ -452,7 +456,7 @@ def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
     assert not says or "smooth" in says
 
 
-# -- all that follows from the pressure ------------------------------------------------------------------------------
+# -- all that follows from the pressure -----------------------------------------------------------
 
 
 def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function():
@@ -476,7 +480,7 @@ def test_friction_stress_yield_and_tension_of_a_trace_are_those_of_its_function(
     assert sampled.peak_tension().value == pytest.approx(exact.peak_tension().value, rel=1e-5)
 
 
-# -- a mesh result beside it -----------------------------------------------------------------------------------------
+# -- a mesh result beside it ----------------------------------------------------------------------
 
 SCENE = """
 [profile]

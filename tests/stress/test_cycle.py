@@ -1,4 +1,6 @@
-"""What a cycle does: histories are the states' stresses, ranges their extremes, and Ruiz' parameters their products."""
+"""What a cycle does: histories are the states' stresses, ranges their extremes, and Ruiz'
+parameters their products.
+"""
 
 import numpy as np
 import pytest

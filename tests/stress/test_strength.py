@@ -1,4 +1,6 @@
-"""Where the body yields first and where its surface is torn most: against 30 digits, and against brute force."""
+"""Where the body yields first and where its surface is torn most: against 30 digits, and against
+brute force.
+"""
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from oracles.normal_contact import mp
 from sie.stress import peak_search
 
 NU = 0.3
-# P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed form
+# P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed
+# form
 KNOWN = {
     (0.0, 0.0): (4.88003571108, False), (0.3, 0.0): (5.32116806054, False), (0.5, 0.0): (5.00129193126, False),
     (0.8, 0.0): (3.52415662624, False), (0.0, 0.3): (4.081253, True), (0.3, 0.3): (3.883460, True),
@@ -167,7 +170,8 @@ def test_no_point_of_a_fine_scan_is_worse_than_the_maximum_found(scene, friction
     s = solution.stress(x, y)
     scan = np.sqrt(s.j2) if criterion == "mises" else s.max_shear
     assert scan[np.isfinite(scan)].max() <= found.stress * (1 + 1e-12)
-    # An edge is known beyond its double, and next to it the stress changes like the root of the distance.
+    # An edge is known beyond its double, and next to it the stress changes like the root of the
+    # distance.
     here = solution.stress(found.x + np.spacing(found.x) * np.arange(-4.0, 5.0), found.y)
     around = np.sqrt(here.j2) if criterion == "mises" else here.max_shear
     assert abs(around[4] - found.stress) <= 1e-9 * found.stress + np.ptp(
@@ -222,7 +226,9 @@ def test_an_unknown_criterion_is_refused():
 @pytest.mark.parametrize("modulus", [1e-100, 1e100])
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
-    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface, however small the contact."""
+    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface,
+    however small the contact.
+    """
 
     def limit(length, modulus):
         P = 0.01 * modulus * length
@@ -255,7 +261,9 @@ def test_an_incompressible_body_yields_at_once_under_a_sharp_edge(criterion):
 
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion):
-    """Straight below the apex the shear stress tends to E*A/π (Johnson 1985, § 5.2), the largest there is: P/k = P π/(E*A)."""
+    """Straight below the apex the shear stress tends to E*A/π (Johnson 1985, § 5.2), the largest
+    there is: P/k = P π/(E*A).
+    """
     scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2)
     found = sie.solve(scene).elastic_limit(criterion)
     assert found.load == pytest.approx(0.2 * np.pi / (0.1 * scene.Estar), rel=1e-13)
@@ -296,7 +304,7 @@ def test_a_compression_that_nothing_relieves_is_the_largest_tension():
     assert value == -1e-4 and abs(x) > 100.0
 
 
-# -- maxima beside edges and breaks, and what they cost ----------------------------------------------------------------
+# -- maxima beside edges and breaks, and what they cost -------------------------------------------
 
 
 def around(solution, x, criterion="mises"):
@@ -321,7 +329,9 @@ LOPSIDED_CORNERS = {
 @pytest.mark.parametrize("criterion", ["mises", "tresca"])
 @pytest.mark.parametrize("case", LOPSIDED_CORNERS)
 def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, criterion):
-    """The largest stress may lie as near to a jump of h' as 1e-6 half-widths, above what it tends to there."""
+    """The largest stress may lie as near to a jump of h' as 1e-6 half-widths, above what it tends
+    to there.
+    """
     breaks, pieces, load = LOPSIDED_CORNERS[case]
     solution = sie.solve(
         sie.Scene(profile=sie.Piecewise(breaks, pieces), modulus=1.0, poisson=0.5, normal_load=load)
@@ -385,7 +395,9 @@ def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
 @pytest.mark.parametrize("exponent", [1.2644369020018338, 1.51, 1.67])
 @pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
 def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):
-    """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not follow all of them."""
+    """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not
+    follow all of them.
+    """
     counted = []
     asked = peak_search.potentials
     monkeypatch.setattr(

@@ -1,4 +1,6 @@
-"""The stress in the body: 40-digit references at every depth, the laws of elasticity, and nothing computed that is not asked for."""
+"""The stress in the body: 40-digit references at every depth, the laws of elasticity, and nothing
+computed that is not asked for.
+"""
 
 import tracemalloc
 from functools import cache
@@ -51,12 +53,14 @@ def peak(solution):
     return float(p[np.isfinite(p)].max())
 
 
-# -- references --------------------------------------------------------------------------------------------------------
+# -- references -----------------------------------------------------------------------------------
 
 
 @cache
 def places(case):
-    """Abscissae of a case and, for the reference, the same ones with the edges as they are beyond double precision."""
+    """Abscissae of a case and, for the reference, the same ones with the edges as they are beyond
+    double precision.
+    """
     (x1, x2), r, m, truth = (
         solved(case).edges,
         solved(case).half_width,
@@ -184,11 +188,13 @@ def test_the_potentials_of_the_rounded_punch_are_the_closed_forms_ones(a):
     assert np.abs(dF / exact_dF - 1)[far].max() <= 1e-13
 
 
-# -- laws --------------------------------------------------------------------------------------------------------------
+# -- laws -----------------------------------------------------------------------------------------
 
 
 def derivatives(function, x, y, span):
-    """(∂/∂x, ∂/∂y) of functions that are analytic around (x, y), by Chebyshev interpolation in a cross of that size."""
+    """(∂/∂x, ∂/∂y) of functions that are analytic around (x, y), by Chebyshev interpolation in a
+    cross of that size.
+    """
     nodes = np.polynomial.chebyshev.chebpts1(20)
 
     def slope(values):
@@ -290,7 +296,9 @@ def test_a_half_circle_carries_the_load(scene, radius):
 
 @EVERY
 def test_far_away_only_the_resultant_tells(scene):
-    """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ), about the line of action; what differs falls off like 1/r³."""
+    """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ), about the line of action; what differs falls off
+    like 1/r³.
+    """
     solution = sliding(scene)
     P, Q = solution.normal_load, solution.shear.resultant
     origin = solution.moment / P
@@ -353,7 +361,7 @@ def test_bulk_stress_is_added_along_the_surface_only():
     assert pulled.zz - plain.zz == pytest.approx(0.15)
 
 
-# -- invariants --------------------------------------------------------------------------------------------------------
+# -- invariants -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("plane", ["strain", "stress"])
@@ -408,7 +416,7 @@ def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
     assert solution.elastic_limit().load == 0.0 and solution.peak_tension().value == np.inf
 
 
-# -- only what is asked for --------------------------------------------------------------------------------------------
+# -- only what is asked for -----------------------------------------------------------------------
 
 
 class Watched(Density):
@@ -478,7 +486,7 @@ def test_a_million_points_hold_at_most_ten_arrays_of_that_size():
     assert most <= 10 * 8e6
 
 
-# -- bad questions -----------------------------------------------------------------------------------------------------
+# -- bad questions --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""What the tests of the closed forms share: contexts, principal values, and laws that any function of `analytic` keeps."""
+"""What the tests of the closed forms share: contexts, principal values, and laws that any function
+of `analytic` keeps.
+"""
 
 import math
 from collections.abc import Callable, Sequence
@@ -63,7 +65,9 @@ def every_call(calls: Sequence[Call]) -> Any:
 
 
 def call(function: Callable[..., Any], given: dict[str, Any], **options: Any) -> Any:
-    """The value, a pair as an array or list, of the call with its position first, as users write it."""
+    """The value, a pair as an array or list, of the call with its position first, as users write
+    it.
+    """
     rest = {name: value for name, value in given.items() if name not in ("x", "z")}
     return function(*(given[name] for name in ("x", "z") if name in given), **rest, **options)
 
@@ -175,9 +179,11 @@ def of_every_call(calls: Sequence[Call]) -> type:
 
 
 def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[Any]) -> Any:
-    """(1/pi) PV∫ density(t)/(x-t) dt from the first to the last of `breaks`, 30 digits, by t = m + r cos(angle).
+    """(1/pi) PV∫ density(t)/(x-t) dt from the first to the last of `breaks`, 30 digits, by t = m +
+    r cos(angle).
 
-    PV∫ dt/((x-t) sqrt(r² - (t-m)²)) = 0 takes the pole away, and the angle the square roots at the ends.
+    PV∫ dt/((x-t) sqrt(r² - (t-m)²)) = 0 takes the pole away, and the angle the square roots at the
+    ends.
     """
     lo, hi = mp.convert(breaks[0]), mp.convert(breaks[-1])
     m, r = (lo + hi) / 2, (hi - lo) / 2
@@ -203,7 +209,9 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
 def resultant(
     density: Callable[[Any], Any], breaks: Sequence[Any], weight: Callable[[Any], Any] = lambda t: 1
 ) -> Any:
-    """∫ density(t) weight(t) dt from the first to the last of `breaks`, 30 digits, by the same angle."""
+    """∫ density(t) weight(t) dt from the first to the last of `breaks`, 30 digits, by the same
+    angle.
+    """
     lo, hi = mp.convert(breaks[0]), mp.convert(breaks[-1])
     m, r = (lo + hi) / 2, (hi - lo) / 2
 

@@ -1,4 +1,5 @@
-"""What every contact obeys, measured from values of the pressure alone, in doubles, by a quadrature of the tests' own.
+"""What every contact obeys, measured from values of the pressure alone, in doubles, by a quadrature
+of the tests' own.
 
 x = m - r cos ψ,  ψ in [0, π],  dx = r sin ψ dψ:   16 Gauss-Legendre nodes on panels graded to every break and halved between them
 """
@@ -12,7 +13,9 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def rule(interval, breaks=(), extra=()):
-    """Nodes x inside the contact and weights of ∫ dx; `extra` are places to grade to besides the breaks (a principal value's)."""
+    """Nodes x inside the contact and weights of ∫ dx; `extra` are places to grade to besides the
+    breaks (a principal value's).
+    """
     x1, x2 = interval
     m, r = 0.5 * (x1 + x2), 0.5 * (x2 - x1)
     inner = [b for b in {*breaks, *extra} if x1 < b < x2]
@@ -21,7 +24,8 @@ def rule(interval, breaks=(), extra=()):
     for lo, hi in pairwise(marks):
         steps = (hi - lo) * 0.5 * 0.25 ** np.arange(0, 40)
         steps = steps[steps > GRADED_TO]
-        # towards an edge nothing is graded: in ψ even a sharp one is smooth, and x next to it has no digits
+        # towards an edge nothing is graded: in ψ even a sharp one is smooth, and x next to it has
+        # no digits
         cuts += [
             lo + (hi - lo) * np.linspace(0, 1, 25),
             lo + steps * (lo > 0.0),
@@ -47,7 +51,9 @@ def load_and_moment(pressure, interval, breaks=()):
 
 
 def principal_value(pressure, interval, x, breaks=()):
-    """1/π PV∫ p(t)/(x - t) dt at one x inside: p(x) taken out, whose own integral is a logarithm."""
+    """1/π PV∫ p(t)/(x - t) dt at one x inside: p(x) taken out, whose own integral is a
+    logarithm.
+    """
     x1, x2 = interval
     t, weight = rule(interval, breaks, extra=(x,))
     here = float(pressure(np.array([x]))[0])
@@ -70,7 +76,9 @@ def rounding_of_x(pressure, interval, breaks=()):
 
 
 def peak(pressure, interval, breaks=()):
-    """The largest pressure between 1e-3 r of the edges and 1e-6 r of the breaks, where it may be infinite."""
+    """The largest pressure between 1e-3 r of the edges and 1e-6 r of the breaks, where it may be
+    infinite.
+    """
     x1, x2 = interval
     r = 0.5 * (x2 - x1)
     x = np.concatenate(

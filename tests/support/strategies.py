@@ -1,6 +1,8 @@
-"""Random contacts for hypothesis, all of them with an answer: lengths and slopes near 1 (the laws of scaling do the rest).
+"""Random contacts for hypothesis, all of them with an answer: lengths and slopes near 1 (the laws
+of scaling do the rest).
 
-Slopes of piecewise profiles are continuous, or jump upwards, exactly: breaks and coefficients are multiples of powers of two.
+Slopes of piecewise profiles are continuous, or jump upwards, exactly: breaks and coefficients are
+multiples of powers of two.
 """
 
 from fractions import Fraction
@@ -12,7 +14,9 @@ import sie
 
 
 def between(lo, hi):
-    """Numbers of a size that contacts have: what the ends of the range of doubles do is tested apart."""
+    """Numbers of a size that contacts have: what the ends of the range of doubles do is tested
+    apart.
+    """
     return st.floats(lo, hi, allow_nan=False).map(lambda v: v if abs(v) > 1e-100 else 0.0)
 
 
@@ -27,7 +31,9 @@ def dyadic(lo, hi, bits=8):
 
 @st.composite
 def chains(draw, jumps=True):
-    """Convex, piecewise linear slope on 2 to 8 pieces, from below -1/2 to above 1/2: unequal corners, flats, two radii, wedges."""
+    """Convex, piecewise linear slope on 2 to 8 pieces, from below -1/2 to above 1/2: unequal
+    corners, flats, two radii, wedges.
+    """
     n = draw(st.integers(2, 8))
     gaps = draw(st.lists(dyadic(1 / 256, 1), min_size=n - 2, max_size=n - 2))
     inner = draw(
@@ -120,7 +126,9 @@ def profiles(draw):
 
 @st.composite
 def scenes(draw, profile=None, sharp=True):
-    """A profile, a load or (round profiles) a half-width, a tilt that the profile's slopes can bear."""
+    """A profile, a load or (round profiles) a half-width, a tilt that the profile's slopes can
+    bear.
+    """
     if profile is None and sharp and draw(st.integers(0, 4)) == 0:
         E, P, tilt = draw(log_between(0.1, 10)), draw(log_between(1e-3, 3)), draw(dyadic(-0.2, 0.2))
         return sie.Scene(profile=draw(sharp_profiles()), modulus=E, normal_load=P, tilt=tilt)

@@ -1,4 +1,6 @@
-"""The paper's equations (24) to (35) on random punches: quadrature, both packages, and the forms that are misprinted."""
+"""The paper's equations (24) to (35) on random punches: quadrature, both packages, and the forms
+that are misprinted.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,6 @@
-"""Every wrong program that validation lists is caught by its checker, and the right program is not."""
+"""Every wrong program that validation lists is caught by its checker, and the right program is
+not.
+"""
 
 import pytest
 

@@ -1,4 +1,6 @@
-"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called blind, the page needs nothing else."""
+"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called
+blind, the page needs nothing else.
+"""
 
 import json
 import math
@@ -34,7 +36,7 @@ def claim(measured, control, **given):
     return Claim("what", "who", measured, control, "wrong", **({"high": 1.0} | given))
 
 
-# -- verdicts -------------------------------------------------------------------------------------------------------------
+# -- verdicts -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -176,7 +178,7 @@ def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
     )
 
 
-# -- topics ---------------------------------------------------------------------------------------------------------------
+# -- topics ---------------------------------------------------------------------------------------
 
 
 UNTIMED = (
@@ -195,7 +197,9 @@ UNTIMED = (
 
 @pytest.mark.parametrize("name", UNTIMED)
 def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
-    """Topics that do not measure time, or one ratio of it that is far from its bar (stress, slip, sampled)."""
+    """Topics that do not measure time, or one ratio of it that is far from its bar (stress, slip,
+    sampled).
+    """
     (section,), _ = run([name], quick=True)
     assert section.found.claims
     for made in section.found.claims:
@@ -263,7 +267,7 @@ def test_random_contacts_are_the_same_in_every_run():
     assert one[:2] == two[:2]
 
 
-# -- peers and truths -----------------------------------------------------------------------------------------------------
+# -- peers and truths -----------------------------------------------------------------------------
 
 
 def test_the_peers_are_right_where_they_should_be():
@@ -295,7 +299,9 @@ def test_the_periodic_elements_reach_westergaards_wave():
 
 
 def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(monkeypatch):
-    """A module that is always there stands for an installed code, with a wrong answer that the race must see."""
+    """A module that is always there stands for an installed code, with a wrong answer that the race
+    must see.
+    """
     from validation.topics import work_precision  # noqa: PLC0415
 
     def flat(gap, spacing, load):
@@ -349,7 +355,7 @@ def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
     assert (one, eight) == (pytest.approx(1e-3), pytest.approx(8e-3))
 
 
-# -- the page -------------------------------------------------------------------------------------------------------------
+# -- the page -------------------------------------------------------------------------------------
 
 
 def a_section(name="one"):
@@ -539,7 +545,7 @@ def test_one_topic_by_the_command_line(tmp_path, capsys):
     assert "report.html" in capsys.readouterr().out
 
 
-# -- the README's table -----------------------------------------------------------------------------------------------------
+# -- the README's table ---------------------------------------------------------------------------
 
 KEPT = json.loads(readme.KEPT.read_text(encoding="utf-8"))
 
@@ -557,7 +563,9 @@ def test_a_table_that_was_changed_by_hand_is_seen():
 
 @pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
 def test_what_the_readme_says_is_still_so(kept_row):
-    """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the machine's, and are not compared."""
+    """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the
+    machine's, and are not compared.
+    """
     case = next(c for c in cases.chosen(quick=True) if str(c) == kept_row[0])
     now = pressure.row(case)
     for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):

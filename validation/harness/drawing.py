@@ -1,4 +1,5 @@
-"""Drawing, apart from computing: Matplotlib figures in one style, and SVG that can stand inside a page, several of them together.
+"""Drawing, apart from computing: Matplotlib figures in one style, and SVG that can stand inside a
+page, several of them together.
 
 Figures are drawn as narrow as a phone, so that their letters stay readable there.
 """
@@ -40,7 +41,9 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing with its caption, which says what is seen, in which units, and where each curve comes from."""
+    """A drawing with its caption, which says what is seen, in which units, and where each curve
+    comes from.
+    """
 
     name: str
     drawing: Any
@@ -63,7 +66,9 @@ def drawn(figure: Figure) -> Drawn:
 def axes(
     rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: float = FOOT
 ) -> tuple[Any, Any]:
-    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array); head and foot for each panel."""
+    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array);
+    head and foot for each panel.
+    """
     import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
     from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
 
@@ -77,7 +82,9 @@ def axes(
 
 
 def _margins(drawing: Any) -> None:
-    """Room for the labels on both sides, by counting letters: Matplotlib's own layouts take half the time of a figure to measure them."""
+    """Room for the labels on both sides, by counting letters: Matplotlib's own layouts take half
+    the time of a figure to measure them.
+    """
     room = {"left": MARGIN, "right": MARGIN}
     for axis in (ax.yaxis for ax in drawing.axes):
         ticks = axis.get_major_formatter().format_ticks(axis.get_majorticklocs())
@@ -100,7 +107,9 @@ def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
 
 
 def _decades(ax: Any, name: str, axis: Any) -> None:
-    """A logarithmic axis, ticks as plain text, which costs a hundredth of Matplotlib's formulas: powers of ten, or 1, 2, 5 of a few."""
+    """A logarithmic axis, ticks as plain text, which costs a hundredth of Matplotlib's formulas:
+    powers of ten, or 1, 2, 5 of a few.
+    """
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator  # noqa: PLC0415
 
     (ax.set_xscale if name == "x" else ax.set_yscale)("log")
@@ -126,7 +135,9 @@ def tick(value: float, _: int = 0) -> str:
 def draw(
     ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None
 ) -> None:
-    """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for zero)."""
+    """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for
+    zero).
+    """
     for k, curve in enumerate(curves):
         y = np.array(curve.y, dtype=float)
         y = y if floor is None else np.maximum(y, floor)
@@ -144,7 +155,9 @@ def legend(ax: Any, **options: Any) -> None:
 
 
 def legend_above(ax: Any, columns: int) -> None:
-    """Of many curves: outside, where it hides none; as many lines as it has belong to the `head` of the axes."""
+    """Of many curves: outside, where it hides none; as many lines as it has belong to the `head` of
+    the axes.
+    """
     ax.legend(
         fontsize=8,
         frameon=False,

@@ -1,6 +1,8 @@
-"""Distances between answers: doubles held against numbers of many digits, nothing lost in the comparison.
+"""Distances between answers: doubles held against numbers of many digits, nothing lost in the
+comparison.
 
-Of many numbers the worst is taken by `largest` and `smallest`: Python's max and min pass over a nan, and so over an answer that is none.
+Of many numbers the worst is taken by `largest` and `smallest`: Python's max and min pass over a
+nan, and so over an answer that is none.
 """
 
 from __future__ import annotations
@@ -28,7 +30,9 @@ def smallest(numbers: Iterable[float]) -> float:
 def apart(
     found: Sequence[float] | np.ndarray[Any, Any], true: Sequence[Any], factor: float = 1.0
 ) -> float:
-    """The largest difference over the largest true value; `factor` spoils the answer, for a control."""
+    """The largest difference over the largest true value; `factor` spoils the answer, for a
+    control.
+    """
     values = [mp.mpmathify(complex(v) if np.iscomplexobj(v) else float(v)) for v in np.ravel(found)]
     exact = [mp.mpmathify(t) for t in true]
     if len(values) != len(exact):

@@ -1,4 +1,5 @@
-"""What a topic finds: claims with a verdict, tables, curves and maps. Values that JSON can hold; nothing here computes or draws.
+"""What a topic finds: claims with a verdict, tables, curves and maps. Values that JSON can hold;
+nothing here computes or draws.
 
 A topic is a module of `validation.topics` with
 
@@ -22,7 +23,8 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim, who makes it, the number measured in this run, the bar it is held to, and proof that the measure can fail.
+    """One claim, who makes it, the number measured in this run, the bar it is held to, and proof
+    that the measure can fail.
 
     low, high   the bar: it holds if low <= measured <= high
     control     the same measure on a wrong input, which `wrong` names: it must miss the bar, by a number: nan proves nothing
@@ -44,7 +46,9 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """holds, refuted (an erratum, as listed), fails, or blind: the control passed, so that the measure proves nothing."""
+        """holds, refuted (an erratum, as listed), fails, or blind: the control passed, so that the
+        measure proves nothing.
+        """
         if math.isnan(self.control) or self.within(self.control) != bool(self.erratum):
             return "blind"
         if math.isnan(self.measured) or self.within(self.measured) == bool(self.erratum):
@@ -74,7 +78,9 @@ def checked(
     named: str,
     **bar: Any,
 ) -> Claim:
-    """A claim whose number and whose control are one function of a right and of a wrong input; `named` says what is wrong with it."""
+    """A claim whose number and whose control are one function of a right and of a wrong input;
+    `named` says what is wrong with it.
+    """
     return Claim(what, by, float(measure(right)), float(measure(wrong)), named, **bar)
 
 
@@ -90,7 +96,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Curve:
-    """Points (x, y) of the figure named `figure`; `style` is "line", "points" (another origin, on top of a line) or "both"."""
+    """Points (x, y) of the figure named `figure`; `style` is "line", "points" (another origin, on
+    top of a line) or "both".
+    """
 
     figure: str
     label: str
@@ -165,7 +173,9 @@ class Found(list[Record]):
 
 
 def plain(value: Any) -> Any:
-    """Only what JSON knows: arrays become lists, NumPy's numbers Python's, and inf and nan words."""
+    """Only what JSON knows: arrays become lists, NumPy's numbers Python's, and inf and nan
+    words.
+    """
     if isinstance(value, dict):
         return {k: plain(v) for k, v in value.items()}
     if hasattr(value, "tolist"):
@@ -178,7 +188,9 @@ def plain(value: Any) -> Any:
 
 
 def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
-    """All records but the `Doing`s, which are told; of a topic that breaks off those that it came to, and a claim that fails."""
+    """All records but the `Doing`s, which are told; of a topic that breaks off those that it came
+    to, and a claim that fails.
+    """
     found = Found()
     try:
         for record in records:

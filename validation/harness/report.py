@@ -1,4 +1,6 @@
-"""One HTML page that needs nothing else: claims with verdicts, figures as inline SVG, tables; readable on a phone and without a network."""
+"""One HTML page that needs nothing else: claims with verdicts, figures as inline SVG, tables;
+readable on a phone and without a network.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Topics computed and drawn: those that measure time one after the other while nothing else runs, the others beside each other.
+"""Topics computed and drawn: those that measure time one after the other while nothing else runs,
+the others beside each other.
 
 A ratio of times measured in turns is no such time: what runs beside slows both.
 """
@@ -71,7 +72,9 @@ def computed(
 
 
 def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
-    """A topic's figures as SVG, and the seconds they took; none if the topic broke off or has none."""
+    """A topic's figures as SVG, and the seconds they took; none if the topic broke off or has
+    none.
+    """
     start = time.perf_counter()
     if found.broken or importlib.util.find_spec(f"{FIGURES}.{name}") is None:
         return [], 0.0
@@ -81,7 +84,9 @@ def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
 
 @contextmanager
 def workers(topics: int) -> Iterator[Executor]:
-    """A process for each core, each with one thread of its own; this process alone for a single topic or core."""
+    """A process for each core, each with one thread of its own; this process alone for a single
+    topic or core.
+    """
     cores = os.cpu_count() or 1
     if min(topics, cores) == 1:
         yield Here()

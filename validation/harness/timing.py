@@ -1,4 +1,6 @@
-"""Run times that a busy machine does not spoil: two programs in turns, medians of their ratio in the same run."""
+"""Run times that a busy machine does not spoil: two programs in turns, medians of their ratio in
+the same run.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def medians(runs: Sequence[Callable[[], Any]], patience: float = PATIENCE) -> li
 
 
 def fastest(runs: Sequence[Callable[[], Any]], patience: float = PATIENCE) -> list[float]:
-    """Shortest seconds of each, in turns: for growth, as what a busy machine adds does not grow with the work."""
+    """Shortest seconds of each, in turns: for growth, as what a busy machine adds does not grow
+    with the work.
+    """
     return _in_turns(runs, patience, min)[0]
 
 

@@ -1,4 +1,6 @@
-"""Races besides the pressure: the potential inside the body, the shear of partial slip, and a profile known by samples only."""
+"""Races besides the pressure: the potential inside the body, the shear of partial slip, and a
+profile known by samples only.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ def _points(make: Runner, sizes: Sequence[int], error: Callable[[Any], float]) -
 
 
 def interior(quick: bool) -> Iterator[Record]:
-    """The potential F of the rounded punch at a depth of 0.01 b: closed in each panel, or by quadrature, or by the paper's series."""
+    """The potential F of the rounded punch at a depth of 0.01 b: closed in each panel, or by
+    quadrature, or by the paper's series.
+    """
     yield Doing("interior")
     density = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
@@ -84,7 +88,9 @@ def interior(quick: bool) -> Iterator[Record]:
 
 
 def partial_slip(quick: bool) -> Iterator[Record]:
-    """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P: the zones are found and two pressures taken, by each method."""
+    """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P: the zones are found and two
+    pressures taken, by each method.
+    """
     yield Doing("partial slip")
     P, f, Q = 0.3, 0.5, 0.09
     scene = sie.Scene(
@@ -139,7 +145,9 @@ def partial_slip(quick: bool) -> Iterator[Record]:
 
 
 def sampled(quick: bool) -> Iterator[Record]:
-    """A parabola known at n points only: what is left is the interpolation's error, or the elements' own."""
+    """A parabola known at n points only: what is left is the interpolation's error, or the
+    elements' own.
+    """
     yield Doing("sampled")
     x = np.linspace(-0.95, 0.95, 1001)
     truth = 0.5 * np.sqrt((1 - x) * (1 + x))

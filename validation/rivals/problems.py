@@ -1,6 +1,8 @@
-"""The contacts on which the methods race: a question, the truth at some points, and the cost of a closed form to measure time by.
+"""The contacts on which the methods race: a question, the truth at some points, and the cost of a
+closed form to measure time by.
 
-E* = 1. Where a closed form exists it is evaluated in mpmath; else quadrature in 40 digits, or in 25 for sliding.
+E* = 1. Where a closed form exists it is evaluated in mpmath; else quadrature in 40 digits, or in 25
+for sliding.
 """
 
 from __future__ import annotations
@@ -27,7 +29,9 @@ REACH = 75  # in u, s = tanh u: beyond, less than the 25 digits is left
 
 @dataclass(frozen=True)
 class Problem:
-    """`scene` for the package; `slope` on [lo, hi] for the peers; `truth(x)` of a float, to more than 16 digits."""
+    """`scene` for the package; `slope` on [lo, hi] for the peers; `truth(x)` of a float, to more
+    than 16 digits.
+    """
 
     name: str
     says: str
@@ -113,7 +117,9 @@ def _of_case(name: str, case: cases.Case, says: str) -> Problem:
 
 
 def sliding(coupling: float = 0.3) -> Problem:
-    """A rounded flat that slides on a dissimilar body: βf = coupling, a = 1/2, R = 1, half-width 1."""
+    """A rounded flat that slides on a dissimilar body: βf = coupling, a = 1/2, R = 1, half-width
+    1.
+    """
     profile = sie.RoundedFlat(0.5, 1.0)
     scene = sie.Scene(
         profile=profile,
@@ -130,9 +136,11 @@ def sliding(coupling: float = 0.3) -> Problem:
 
 
 class Sliding:
-    """The sliding rounded flat by quadrature: p = E*/2 cos²(πε)/π w ∫ (H(t) - H_x(x)) / (w (t - x)) dt, H_x the piece at x, continued.
+    """The sliding rounded flat by quadrature: p = E*/2 cos²(πε)/π w ∫ (H(t) - H_x(x)) / (w (t - x))
+    dt, H_x the piece at x, continued.
 
-    With w = (t - x1)^(1/2+ε) (x2 - t)^(1/2-ε); the centre from ∫ H/w dt = 0. (Muskhelishvili 1953, §§ 107-113.)
+    With w = (t - x1)^(1/2+ε) (x2 - t)^(1/2-ε); the centre from ∫ H/w dt = 0. (Muskhelishvili 1953,
+    §§ 107-113.)
     """
 
     def __init__(
@@ -153,7 +161,9 @@ class Sliding:
         )
 
     def _integral(self, f: Callable[[int, Any], Any], m: Any) -> Any:
-        """∫ f(piece, t)/w dt in the variable u, s = tanh u, where the ends are exponentially far; s from the nearer end."""
+        """∫ f(piece, t)/w dt in the variable u, s = tanh u, where the ends are exponentially far; s
+        from the nearer end.
+        """
         total = mp.zero
         cuts = [-mp.inf, mp.atanh((-self.a - m) / self.r), mp.atanh((self.a - m) / self.r), mp.inf]
         for k in range(3):
@@ -194,8 +204,8 @@ class Sliding:
 def wavy(height: float = 0.01, share: float = 0.4) -> Problem:
     """Westergaard's wave h = Δ (1 - cos 2πx), period 1, in contact on a share of it.
 
-    With u = tan πx the periodic kernel π cot π(x-ξ) dξ becomes dv/(u - v), but for a constant that symmetry takes away: the package
-    solves it as a contact with the slope h'(x(u)).
+    With u = tan πx the periodic kernel π cot π(x-ξ) dξ becomes dv/(u - v), but for a constant that
+    symmetry takes away: the package solves it as a contact with the slope h'(x(u)).
     """
     b = math.tan(0.5 * math.pi * share)
 
@@ -203,7 +213,9 @@ def wavy(height: float = 0.01, share: float = 0.4) -> Problem:
         return 4.0 * math.pi * height * u / (1.0 + u * u)
 
     def pressure(u: Any, lib: Any = np) -> Any:
-        """2 p̄ cos πx sqrt(sin² πa - sin² πx)/sin² πa, p̄ = π E* Δ sin² πa (Westergaard 1939); (b-u)(b+u) keeps the edge's digits."""
+        """2 p̄ cos πx sqrt(sin² πa - sin² πx)/sin² πa, p̄ = π E* Δ sin² πa (Westergaard 1939);
+        (b-u)(b+u) keeps the edge's digits.
+        """
         edge = lib.sqrt((b - u) * (b + u) / ((1 + u * u) * (1 + b * b)))
         return 2 * lib.pi * height * edge / lib.sqrt(1 + u * u)
 

@@ -1,4 +1,6 @@
-"""What every race of `work_precision` shares: the yardstick of time, colours, and a curve of error against time."""
+"""What every race of `work_precision` shares: the yardstick of time, colours, and a curve of error
+against time.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ Point = tuple[int, float, float, float]  # size, error, seconds, ratio to the cl
 
 
 def closed_form() -> Any:
-    """The yardstick: the closed form of the rounded punch, as `analytic` evaluates it, to full accuracy."""
+    """The yardstick: the closed form of the rounded punch, as `analytic` evaluates it, to full
+    accuracy.
+    """
     return rounded_flat.pressure(_X, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)
 
 

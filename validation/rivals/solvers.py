@@ -1,6 +1,8 @@
-"""What others do, written small: global Gauss-Chebyshev, the dense Erdogan-Gupta solver of the textbooks, an FFT boundary-element solver.
+"""What others do, written small: global Gauss-Chebyshev, the dense Erdogan-Gupta solver of the
+textbooks, an FFT boundary-element solver.
 
-None of it shares code with the packages. The first two are told where the contact ends, which this package finds by itself.
+None of it shares code with the packages. The first two are told where the contact ends, which this
+package finds by itself.
 
     E*/2 H(x) = 1/π PV∫ p(t)/(x - t) dt on [lo, hi],       p = w g,  w(s) = sqrt(1 - s²),  s from -1 to 1
 """
@@ -22,7 +24,9 @@ CONVERGED = 1e-14
 def gauss_chebyshev(
     slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0
 ) -> Array:
-    """One series for the whole contact: H = Σ c_k T_k from n samples by one transform, p = E*/2 sqrt(1 - s²) Σ c_k U_{k-1}."""
+    """One series for the whole contact: H = Σ c_k T_k from n samples by one transform, p = E*/2
+    sqrt(1 - s²) Σ c_k U_{k-1}.
+    """
     theta = (np.arange(n) + 0.5) * np.pi / n
     c = dct(slope(0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(theta)), type=2) / n
     s = (2.0 * x - lo - hi) / (hi - lo)
@@ -35,7 +39,8 @@ def gauss_chebyshev(
 def erdogan_gupta(
     slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0
 ) -> Array:
-    """The quadrature of Erdogan & Gupta (1972), both ends bounded: n nodes, n + 1 collocation points, the middle one left out (n even).
+    """The quadrature of Erdogan & Gupta (1972), both ends bounded: n nodes, n + 1 collocation
+    points, the middle one left out (n even).
 
     Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i),   t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2)),  by elimination;
     between the nodes the polynomial through them, in the barycentric form.
@@ -60,9 +65,11 @@ def erdogan_gupta_matrix(n: int) -> tuple[Array, Array, Array]:
 def boundary_elements(
     gap: Array, spacing: float, load: float, *, periodic: bool = False, modulus: float = 1.0
 ) -> Array:
-    """Constant pressures on equal elements under a load, by conjugate gradients with FFT products (Polonsky & Keer 1999).
+    """Constant pressures on equal elements under a load, by conjugate gradients with FFT products
+    (Polonsky & Keer 1999).
 
-    `gap` at the elements' centres. The surface sinks by -2/(πE*) ∫ p ln|x - t| dt, or, periodic, by 2/(E* |k|) for each wave number k.
+    `gap` at the elements' centres. The surface sinks by -2/(πE*) ∫ p ln|x - t| dt, or, periodic, by
+    2/(E* |k|) for each wave number k.
     """
     convolved = (
         _periodic(len(gap), spacing, modulus) if periodic else _free(len(gap), spacing, modulus)
@@ -106,7 +113,7 @@ def _periodic(n: int, spacing: float, modulus: float) -> Callable[[Array], Array
     return lambda p: irfft(2.0 / (modulus * wave) * rfft(p), n)
 
 
-# -- codes of others, where they are installed (extra `peers`) --------------------------------------------------------
+# -- codes of others, where they are installed (extra `peers`) ------------------------------------
 
 
 def tamaas(gap: Array, spacing: float, load: float) -> Array:
@@ -124,7 +131,9 @@ def tamaas(gap: Array, spacing: float, load: float) -> Array:
 
 
 def contact_mechanics(gap: Array, spacing: float, load: float) -> Array:
-    """ContactMechanics (Pastewka et al.): periodic FFT half-space, E* = 1, its own Polonsky-Keer solver."""
+    """ContactMechanics (Pastewka et al.): periodic FFT half-space, E* = 1, its own Polonsky-Keer
+    solver.
+    """
     from ContactMechanics import PeriodicFFTElasticHalfSpace  # noqa: PLC0415
     from ContactMechanics.Systems import NonSmoothContactSystem  # noqa: PLC0415
     from SurfaceTopography import UniformLineScan  # noqa: PLC0415

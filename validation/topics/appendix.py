@@ -1,9 +1,12 @@
-"""The paper's appendix, equation by equation: each side evaluated to 50 digits, and both packages held against it.
+"""The paper's appendix, equation by equation: each side evaluated to 50 digits, and both packages
+held against it.
 
-The left-hand sides are principal values by quadrature in mpmath; "identity" is how many digits the right-hand side agrees to. The closed
-forms of `analytic` are evaluated in mpmath and in NumPy; the solver `sie` is given a profile whose pressure is that integral: the rounded
-punch for (24), (25) and (32), and for (29) and (31) a single step of the slope, whose pressure is E*/2 ln|...|. Where the form that our
-copy of the paper prints is not the identity, the digits it has are shown beside: errata.
+The left-hand sides are principal values by quadrature in mpmath; "identity" is how many digits the
+right-hand side agrees to. The closed forms of `analytic` are evaluated in mpmath and in NumPy; the
+solver `sie` is given a profile whose pressure is that integral: the rounded punch for (24), (25)
+and (32), and for (29) and (31) a single step of the slope, whose pressure is E*/2 ln|...|. Where
+the form that our copy of the paper prints is not the identity, the digits it has are shown beside:
+errata.
 """
 
 from __future__ import annotations
@@ -43,7 +46,9 @@ CASES = (
 
 @dataclass(frozen=True)
 class Setting:
-    """One punch and one point: a, b, R and x as exact doubles; `spoiled` changes φ0 of the right-hand sides."""
+    """One punch and one point: a, b, R and x as exact doubles; `spoiled` changes φ0 of the
+    right-hand sides.
+    """
 
     a: float
     b: float
@@ -102,9 +107,11 @@ class Setting:
 
 @dataclass(frozen=True)
 class Equation:
-    """`left` by quadrature, `right` as it should read, `printed` as our copy prints it where that is another thing.
+    """`left` by quadrature, `right` as it should read, `printed` as our copy prints it where that
+    is another thing.
 
-    `numpy` and `exact` are the closed forms of `analytic`, `solver` the answer of `sie`; None where the equation is not one of theirs.
+    `numpy` and `exact` are the closed forms of `analytic`, `solver` the answer of `sie`; None where
+    the equation is not one of theirs.
     """
 
     name: str
@@ -184,7 +191,9 @@ def _split(s: Setting) -> Any:
 
 
 def _misprinted_root(s: Setting) -> Any:
-    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits tell that it is another number."""
+    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits tell that
+    it is another number.
+    """
     b, x = few.mpf(s.b), few.mpf(s.x)
     lo, hi = (few.mpf(angle) for angle in s.angles["right"])
     cut = min(max(few.mpf(s.phi), lo), hi)
@@ -200,7 +209,9 @@ def _punch(s: Setting) -> float:
 
 
 def _step(s: Setting) -> float:
-    """A slope that steps up at x = a only, upright in [-b, b]: its pressure is E*/2 w(x) times the second of (31)."""
+    """A slope that steps up at x = a only, upright in [-b, b]: its pressure is E*/2 w(x) times the
+    second of (31).
+    """
     share = np.arccos(s.a / s.b) / np.pi
     solution = sie.solve(
         sie.Scene(
@@ -300,7 +311,9 @@ def agreed(equation: Equation, s: Setting) -> dict[str, float]:
 
 
 def wrong_digits(equation: Equation, s: Setting, spoiled: Setting) -> dict[str, float]:
-    """The same of wrong inputs: φ0, or a of the closed forms, off by WRONG in 50 digits, answers rounded to ten digits in doubles."""
+    """The same of wrong inputs: φ0, or a of the closed forms, off by WRONG in 50 digits, answers
+    rounded to ten digits in doubles.
+    """
     truth = equation.left(s)
     found = {"identity": digits(equation.right(spoiled), truth)}
     if equation.closed is not None:

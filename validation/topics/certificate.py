@@ -1,11 +1,14 @@
-"""Does the certificate know? Random contacts, right ones and wrong ones, each with its true error beside the certificate's estimate.
+"""Does the certificate know? Random contacts, right ones and wrong ones, each with its true error
+beside the certificate's estimate.
 
-Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar bodies, parabolas known by samples, and the
-shear of rounded flats in partial slip, of random sizes, loads and moduli, whose truth is a closed form in 22 digits; half of the answers
-are then made wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the certificate's back. The
-estimate must never be smaller than a third of the true error. That is the largest at one to three random places within 0.95 r of the
-centre, over the peak (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of its
-spline explains.
+Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar
+bodies, parabolas known by samples, and the shear of rounded flats in partial slip, of random sizes,
+loads and moduli, whose truth is a closed form in 22 digits; half of the answers are then made
+wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the
+certificate's back. The estimate must never be smaller than a third of the true error. That is the
+largest at one to three random places within 0.95 r of the centre, over the peak (of f p, for a
+shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of
+its spline explains.
 """
 
 from __future__ import annotations
@@ -40,7 +43,9 @@ SHARE = 1 / 3
 REACH, AT = (
     0.95,
     3,
-)  # of the half-width; places in each contact, one where the closed form is itself an integral or an iteration
+    # Of the half-width; places in each contact, one where the closed form is itself an integral or an
+    # iteration
+)
 
 Truth = Callable[[Any], Any]
 
@@ -53,7 +58,9 @@ class Judged(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """`form` is the truth of `quantity`, a function of an mpmath number; `rounding` what the profile's own doubles do to it."""
+    """`form` is the truth of `quantity`, a function of an mpmath number; `rounding` what the
+    profile's own doubles do to it.
+    """
 
     kind: str
     scene: sie.Scene
@@ -138,7 +145,9 @@ def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
 
 
 def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
-    """A parabola at random points: its spline is the parabola, but for the rounding of the spline's coefficients."""
+    """A parabola at random points: its spline is the parabola, but for the rounding of the spline's
+    coefficients.
+    """
     b, E, _ = sizes
     x = b * np.sort(np.concatenate(([-2.0, 2.0], rng.uniform(-1.9, 1.9, int(rng.integers(8, 30))))))
     x = x[np.concatenate(([True], np.diff(x) > 1e-3 * b))]
@@ -238,7 +247,9 @@ def judged(rng: np.random.Generator, wrong: bool) -> Judged:
 
 
 def peak_of(solution: sie.Solution) -> float:
-    """The largest pressure, in rims however thin, to within 1e-6 r of the breaks, where it may be infinite."""
+    """The largest pressure, in rims however thin, to within 1e-6 r of the breaks, where it may be
+    infinite.
+    """
     m, r = solution.centre, solution.half_width
     (x1, x2), breaks = solution.edges, np.array(solution.scene.profile.breaks)
     rims = [b + share * ((x2 if b > m else x1) - b) for b in breaks for share in (0.2, 0.4, 0.6)]

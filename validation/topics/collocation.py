@@ -1,10 +1,12 @@
 """The general solver of Cauchy equations, which takes what the contact's own panels do not.
 
-Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking; the largest relative error of the
-four stress intensity factors against Willmore's elliptic integrals (1949) in 40 digits. Closed: sliding parabola and bonded flat punch:
-largest error of the traction over the closed form. Growth: a crack with a kernel as narrow as a thin layer's, n doubling; seconds by
-LAPACK and by GMRES for the same matrix, its condition number and how far the two differ; a last row has the exponents p of time ~ n^p
-fitted to it. The kernel is sampled and nodes are made before the clock starts.
+Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking;
+the largest relative error of the four stress intensity factors against Willmore's elliptic
+integrals (1949) in 40 digits. Closed: sliding parabola and bonded flat punch: largest error of the
+traction over the closed form. Growth: a crack with a kernel as narrow as a thin layer's, n
+doubling; seconds by LAPACK and by GMRES for the same matrix, its condition number and how far the
+two differ; a last row has the exponents p of time ~ n^p fitted to it. The kernel is sampled and
+nodes are made before the clock starts.
 """
 
 from __future__ import annotations
@@ -33,7 +35,9 @@ TIMED = True
 LIGAMENTS = tuple(10.0**-k for k in range(9))
 SIZES = (200, 400, 800, 1600, 3200)
 QUICK_SIZES = (100, 200, 400)
-COMPARED_FROM = 3200  # unknowns, at which iteration is well ahead: GMRES takes over at some 600, which a busy machine blurs
+# Unknowns, at which iteration is well ahead: GMRES takes over at some 600, which a busy machine
+# blurs
+COMPARED_FROM = 3200
 FITTED = 8  # exponents are those of the last eightfold: below, calls cost more than their work
 LARGEST_CONDITION = 400  # its singular values cost more than all the rest
 REPEATS = 3
@@ -59,7 +63,7 @@ def rows(quick: bool = False) -> Iterator[Row]:
     yield from growth(QUICK_SIZES if quick else SIZES)
 
 
-# -- accuracy ---------------------------------------------------------------------------------------------------------
+# -- accuracy -------------------------------------------------------------------------------------
 
 
 def two_cracks(ligament: float, spoiled: float = 0.0) -> Row:
@@ -117,7 +121,7 @@ def bonded_punch(beta: float) -> Row:
     )
 
 
-# -- growth -----------------------------------------------------------------------------------------------------------
+# -- growth ---------------------------------------------------------------------------------------
 
 
 def thin_layer(factor: float = 1.0, height: float = 0.02) -> sie.CauchyEquation:
@@ -160,7 +164,7 @@ def _seconds(run: Callable[[], Any]) -> float:
     return min(times)
 
 
-# -- the page ---------------------------------------------------------------------------------------------------------
+# -- the page -------------------------------------------------------------------------------------
 
 BAR = 1e-13
 SPOILED = 1e-11  # relative error of the control

@@ -1,7 +1,9 @@
-"""What is skipped, why, what it saves, and that the answer is the same: each scene solved with every skip, and with none.
+"""What is skipped, why, what it saves, and that the answer is the same: each scene solved with
+every skip, and with none.
 
-"run" and "skip" are what `sie.plan` says before anything is computed; the stages that were filled afterwards are those it names. Times are
-medians in turns; `sie.solve(scene, economy=())` switches all skips off, and then one of them at a time.
+"run" and "skip" are what `sie.plan` says before anything is computed; the stages that were filled
+afterwards are those it names. Times are medians in turns; `sie.solve(scene, economy=())` switches
+all skips off, and then one of them at a time.
 """
 
 from __future__ import annotations
@@ -136,7 +138,9 @@ def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
 
 
 def stress_of(scene: sie.Scene) -> Iterator[Claim]:
-    """What is asked for by name is planned, and nothing else: the stress fills one more stage than the pressure and the shear."""
+    """What is asked for by name is planned, and nothing else: the stress fills one more stage than
+    the pressure and the shear.
+    """
     solution = sie.solve(scene)
     _ = solution.stress(0.3, 0.2).xx
     planned = sie.plan(scene, "stress").stages

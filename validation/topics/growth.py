@@ -1,7 +1,9 @@
-"""Growth of time and memory with the pieces of the profile, the points asked for, the unknowns and the patches of a Cauchy equation, the
-steps of a load path. The patches are coupled by a dense matrix and grow faster than the rest; no claim is made of them.
+"""Growth of time and memory with the pieces of the profile, the points asked for, the unknowns and
+the patches of a Cauchy equation, the steps of a load path. The patches are coupled by a dense
+matrix and grow faster than the rest; no claim is made of them.
 
-Straight lines in a diagram of logarithms; the exponent is that of the last three sizes. The control is a dense sum.
+Straight lines in a diagram of logarithms; the exponent is that of the last three sizes. The control
+is a dense sum.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ SIZES = {
 
 
 def of_pieces(n: int) -> Callable[[], Any]:
-    """Solve, and 101 pressures, with half of n pieces in contact: the corners of a parabola in facets of its slope."""
+    """Solve, and 101 pressures, with half of n pieces in contact: the corners of a parabola in
+    facets of its slope.
+    """
     x = np.linspace(-0.99, 0.99, 101)
     breaks = np.linspace(-2.0, 2.0, n + 1)
     rise = np.diff(breaks) * (1.0 + 0.5 * np.sin(np.arange(n)))
@@ -81,7 +85,9 @@ def of_steps(n: int) -> Callable[[], Any]:
 
 
 def of_pairs(n: int) -> Callable[[], Any]:
-    """What a program does that does not part near from far: a logarithm for each piece and point."""
+    """What a program does that does not part near from far: a logarithm for each piece and
+    point.
+    """
     e, x = np.linspace(-1.0, 1.0, n), np.linspace(-0.9, 0.9, n)
     return lambda: np.log(np.abs(x[:, None] - e[None, :]) + 1e-300).sum(axis=1)
 

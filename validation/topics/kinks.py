@@ -1,11 +1,13 @@
 """Edges on and beside the kinks of a slope, against 100 digits.
 
-A contact is drawn whose right edge lies on a break of the slope: where h'' jumps, or h' itself. The load at which that is so, or the
-half-width, is then missed by a relative 1e-15 to 1e-4 to either side, and the scene is asked with its tilt or with its moment. Its pieces
-are polynomials, whose integrals over a contact are exact (`oracles.polynomial_pieces`).
+A contact is drawn whose right edge lies on a break of the slope: where h'' jumps, or h' itself. The
+load at which that is so, or the half-width, is then missed by a relative 1e-15 to 1e-4 to either
+side, and the scene is asked with its tilt or with its moment. Its pieces are polynomials, whose
+integrals over a contact are exact (`oracles.polynomial_pieces`).
 
-The edges are the roots of the conditions in 100 digits, by Newton's method from those of the solver, with what is left of them
-verified; the root of the distance from the break stands for the distance where h' jumps.
+The edges are the roots of the conditions in 100 digits, by Newton's method from those of the
+solver, with what is left of them verified; the root of the distance from the break stands for the
+distance where h' jumps.
 
 `python -m validation.topics.kinks 3000` prints the table of so many contacts.
 """
@@ -35,13 +37,14 @@ LEFT = mp.mpf(10) ** -45  # of the conditions, relative
 PLACES = (-0.999999, -0.999, -0.7, -0.31, 0.013, 0.43, 0.81, 0.999, 0.999999)
 BESIDE = (1e-9, 1e-6, 1e-3)  # of r, from every break
 EPS = float(np.finfo(float).eps)
-ULPS = 4.0  # of what is given: each of the numbers may be half of one off in the answer and in the scene
+# Of what is given: each of the numbers may be half of one off in the answer and in the scene
+ULPS = 4.0
 MOST = 60  # evaluations of the edge integrals
 SCANNED = 60  # points where the pressure's sign is looked at
 CLOSED = 1e-3  # of the slopes in the contact times r: a smaller gap beside it may be none
 
 
-# -- scenes whose right edge is on a break ------------------------------------------------------------------------------
+# -- scenes whose right edge is on a break --------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -67,7 +70,9 @@ def rounded(rng: np.random.Generator) -> Shape:
 
 
 def chain(rng: np.random.Generator, *, degree: int = 1, jumps: bool = False) -> Shape:
-    """2 to 6 pieces of random polynomials, that meet but for rounding, or jump upwards; the outer two are steep straight lines."""
+    """2 to 6 pieces of random polynomials, that meet but for rounding, or jump upwards; the outer
+    two are steep straight lines.
+    """
     n = int(rng.integers(2, 7))
     breaks = np.sort(rng.uniform(-1.5, 1.5, n - 1)).tolist()
     rows: list[list[float]] = []
@@ -90,7 +95,9 @@ def chain(rng: np.random.Generator, *, degree: int = 1, jumps: bool = False) -> 
 
 
 def mirrored(rng: np.random.Generator) -> Shape:
-    """A symmetric profile of straight pieces, whose edges leave two breaks at once; h' may jump there."""
+    """A symmetric profile of straight pieces, whose edges leave two breaks at once; h' may jump
+    there.
+    """
     breaks = np.sort(rng.uniform(0.1, 1.5, int(rng.integers(1, 4)))).tolist()
     value, jumping = 0.0, []
     rows = [[0.0, rng.uniform(0.0, 1.0)]]
@@ -140,7 +147,8 @@ class Trial:
     shape: Shape
     scene: sie.Scene
     at: float
-    missed: float  # the relative distance of the load or half-width from the one that puts the edge on the break
+    # The relative distance of the load or half-width from the one that puts the edge on the break
+    missed: float
 
 
 def trial(rng: np.random.Generator, shape: Shape, given: str) -> Trial | None:
@@ -220,7 +228,7 @@ def _gap(contact: Exact, x: np.ndarray) -> np.ndarray:
     )
 
 
-# -- the truth, next to the answer ----------------------------------------------------------------------------------------
+# -- the truth, next to the answer ----------------------------------------------------------------
 
 
 def truth(trial: Trial, found: Interval) -> tuple[Exact, Number]:
@@ -284,7 +292,9 @@ def truth(trial: Trial, found: Interval) -> tuple[Exact, Number]:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The errors of the edges over r, of the pressure over its peak, evaluations; or the words of the refusal."""
+    """The errors of the edges over r, of the pressure over its peak, evaluations; or the words of
+    the refusal.
+    """
 
     edges: float = 0.0
     pressure: float = 0.0
@@ -308,8 +318,9 @@ def outcome(trial: Trial, spoiled: float = 0.0) -> Outcome:
     x += [float(b + side * d * r) for b in exact.breaks for d in BESIDE for side in (-1, 1)]
     x = [v for v in x if (1 - abs(mp.mpf(v) - exact.m) / r) > mp.mpf(10) ** -7]
     true = np.array([float(exact.pressure(v, mp.mpf(trial.scene.Estar) / 2)) for v in x])
-    # What ulps of what was given change is no error: under a load more by dP the pressure is more by
-    # dP/(π w), an edge moves by dP/(G r JR); a slope as large as the tilt carries π G r times itself
+    # What ulps of what was given change is no error: under a load more by dP the pressure is more
+    # by dP/(π w), an edge moves by dP/(G r JR); a slope as large as the tilt carries π G r times
+    # itself
     w = np.array([float(mp.sqrt((v - exact.x1) * (exact.x2 - v))) for v in map(mp.mpf, x)])
     given = (
         solution.normal_load
@@ -337,7 +348,7 @@ def drawn(seed: int, kind: str, given: str) -> Trial:
             return asked
 
 
-# -- the topic ----------------------------------------------------------------------------------------------------------
+# -- the topic ------------------------------------------------------------------------------------
 
 
 def compute(quick: bool) -> Iterator[Record]:

@@ -1,7 +1,9 @@
-"""Ciavarella, Hills & Monno, "The influence of rounded edges on indentation by a flat punch" (1998), computed anew.
+"""Ciavarella, Hills & Monno, "The influence of rounded edges on indentation by a flat punch"
+(1998), computed anew.
 
-Figs 2 to 8 come from the general solver, which knows nothing of rounded punches but their slope; on top stand points of the closed forms,
-which share no code with it. Then what the paper says in words, with numbers. Refuted is what the numbers contradict: the errata.
+Figs 2 to 8 come from the general solver, which knows nothing of rounded punches but their slope; on
+top stand points of the closed forms, which share no code with it. Then what the paper says in
+words, with numbers. Refuted is what the numbers contradict: the errata.
 """
 
 from __future__ import annotations
@@ -53,7 +55,7 @@ def _form(ratio: float) -> dict[str, float]:
     return {"half_flat": ratio, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
 
 
-# -- pressures and stick zones ----------------------------------------------------------------------------------------
+# -- pressures and stick zones --------------------------------------------------------------------
 
 
 def figure_2() -> Iterator[Record]:
@@ -145,7 +147,7 @@ def figure_3() -> Iterator[Record]:
                 steepness(lambda c: c), "a load linear in c, as a wedge's", high=0.02)  # fmt: skip
 
 
-# -- stresses ---------------------------------------------------------------------------------------------------------
+# -- stresses -------------------------------------------------------------------------------------
 
 
 def root_j2(ratio: float, f: float, x: Any, y: Any) -> Any:
@@ -292,7 +294,9 @@ def figure_8(quick: bool) -> Iterator[Record]:
 
 
 def closed_tension(ratio: float, c: Any) -> Any:
-    """2 [E*(b-a)/(2R) - F_c(b)] over P/(πb); F_c the potential of the pressure in a contact of half-width c, none if c <= a."""
+    """2 [E*(b-a)/(2R) - F_c(b)] over P/(πb); F_c the potential of the pressure in a contact of
+    half-width c, none if c <= a.
+    """
     P = rounded_flat.load(**_form(ratio))
 
     def at(c: float) -> float:
@@ -306,7 +310,7 @@ def closed_tension(ratio: float, c: Any) -> Any:
     return np.array([at(float(v)) for v in np.atleast_1d(c)])
 
 
-# -- what it says in words --------------------------------------------------------------------------------------------
+# -- what it says in words ------------------------------------------------------------------------
 
 
 def statements() -> Iterator[Claim]:

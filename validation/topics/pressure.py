@@ -1,8 +1,9 @@
 """The pressure of normal contact against 40 digits, and its certificate.
 
-The reference is quadrature in 40 digits that shares nothing with the package. The error is the largest |p - p_ref| over the peak, at points
-across the contact, next to its breaks and to within 1e-3 r of its edges; that of the load is of P where the half-width is given, of the
-half-width where P is.
+The reference is quadrature in 40 digits that shares nothing with the package. The error is the
+largest |p - p_ref| over the peak, at points across the contact, next to its breaks and to within
+1e-3 r of its edges; that of the load is of P where the half-width is given, of the half-width where
+P is.
 """
 
 from __future__ import annotations

@@ -1,9 +1,12 @@
-"""Indenters known by samples: the spline's exact pressure, growth with samples and points, and a trace with noise.
+"""Indenters known by samples: the spline's exact pressure, growth with samples and points, and a
+trace with noise.
 
-Spline: h at 1000 points, the not-a-knot cubic through them from SciPy; edges by Newton and the pressure by quadrature, both in 40 digits on
-that spline, against `sie.Sampled` of the same samples. Growth: solve, with as many pressures as samples, from 100 to 10^4 of both. Noise: a
-parabola with white noise of 1e-4 of its radius; the smoothing is chosen by cross validation, and the half-width is held against Hertz. What
-noise does without smoothing is the control: the package refuses it with a sentence.
+Spline: h at 1000 points, the not-a-knot cubic through them from SciPy; edges by Newton and the
+pressure by quadrature, both in 40 digits on that spline, against `sie.Sampled` of the same samples.
+Growth: solve, with as many pressures as samples, from 100 to 10^4 of both. Noise: a parabola with
+white noise of 1e-4 of its radius; the smoothing is chosen by cross validation, and the half-width
+is held against Hertz. What noise does without smoothing is the control: the package refuses it with
+a sentence.
 """
 
 from __future__ import annotations
@@ -52,7 +55,7 @@ def compute(quick: bool) -> Iterator[Record]:
     yield from noise(NOISY[not quick])
 
 
-# -- the spline ----------------------------------------------------------------------------------------------------------
+# -- the spline -----------------------------------------------------------------------------------
 
 
 def heights(x: Any) -> Any:
@@ -110,7 +113,7 @@ def spline(n: int) -> Iterator[Record]:
     yield Curve("spline", "40 digits", at, [float(p) for p in exact], "points")
 
 
-# -- growth ----------------------------------------------------------------------------------------------------------------
+# -- growth ---------------------------------------------------------------------------------------
 
 
 def program(n: int) -> Callable[[], Any]:
@@ -155,7 +158,7 @@ def growth(sizes: Sequence[int], patience: float) -> Iterator[Record]:
     )
 
 
-# -- noise -----------------------------------------------------------------------------------------------------------------
+# -- noise ----------------------------------------------------------------------------------------
 
 
 def noisy(n: int, smoothing: Any) -> sie.Scene:
@@ -229,4 +232,4 @@ def noise(n: int) -> Iterator[Record]:
     )
 
 
-# -- drawing ---------------------------------------------------------------------------------------------------------------
+# -- drawing --------------------------------------------------------------------------------------

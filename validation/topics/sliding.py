@@ -1,9 +1,12 @@
-"""Sliding and bonded contacts of dissimilar bodies (Dundurs' β ≠ 0) against closed forms in 30 digits.
+"""Sliding and bonded contacts of dissimilar bodies (Dundurs' β ≠ 0) against closed forms in 30
+digits.
 
-In full sliding q = f p, tan πε = -βf, and the edges' exponents are 1/2 ± ε: the parabola (Hills, Nowell & Sackfield 1993), the sharp flat
-(Muskhelishvili 1953, § 114 a), the flat with rounded edges. In full stick the pressure and the shear of a flat punch oscillate,
-p + iq ~ (b² - x²)^(-1/2) exp(iη ln((b+x)/(b-x))), tanh πη = β. The closed forms share no code with the solver. Errors are over the largest
-value at points within 0.99 of the half-width, potentials at depths from 1e-8 to 100 half-widths over themselves.
+In full sliding q = f p, tan πε = -βf, and the edges' exponents are 1/2 ± ε: the parabola (Hills,
+Nowell & Sackfield 1993), the sharp flat (Muskhelishvili 1953, § 114 a), the flat with rounded
+edges. In full stick the pressure and the shear of a flat punch oscillate, p + iq ~ (b² - x²)^(-1/2)
+exp(iη ln((b+x)/(b-x))), tanh πη = β. The closed forms share no code with the solver. Errors are
+over the largest value at points within 0.99 of the half-width, potentials at depths from 1e-8 to
+100 half-widths over themselves.
 """
 
 from __future__ import annotations
@@ -36,7 +39,9 @@ SHOWN = (0.0, 0.1, 0.3, 0.49)
 
 @dataclass(frozen=True)
 class Slider:
-    """A profile with E* = 1 and a half-width or load; closed forms of x or z and of βf, the pressure in NumPy or mpmath."""
+    """A profile with E* = 1 and a half-width or load; closed forms of x or z and of βf, the
+    pressure in NumPy or mpmath.
+    """
 
     name: str
     profile: sie.Profile
@@ -106,7 +111,9 @@ def compute(quick: bool) -> Iterator[Record]:
 def judged(
     slider: Slider, coupling: float, factor: float = 1.0, truth: float | None = None
 ) -> tuple[float, float, float | None, float]:
-    """Errors of pressure, moment and potential, and what the certificate says; `truth` is the βf of the closed form."""
+    """Errors of pressure, moment and potential, and what the certificate says; `truth` is the βf of
+    the closed form.
+    """
     solution, k = slider.solve(coupling), mp.mpf(coupling if truth is None else truth)
     x = solution.centre + solution.half_width * PLACES
     p = apart(solution.pressure(x), [slider.pressure(mp.mpf(v), k, mp) for v in x.tolist()], factor)
@@ -173,7 +180,7 @@ def _drawn(slider: Slider, k: float) -> Iterator[Curve]:
     )
 
 
-# -- full stick ------------------------------------------------------------------------------------------------------------
+# -- full stick -----------------------------------------------------------------------------------
 
 
 def full_stick(quick: bool) -> Iterator[Record]:
@@ -247,4 +254,4 @@ def _bonded(beta: float, P: float, Q: float, truth: float) -> float:
     return apart(found, [_exact_traction(v, truth, P, Q) for v in PLACES.tolist()])
 
 
-# -- drawing ---------------------------------------------------------------------------------------------------------------
+# -- drawing --------------------------------------------------------------------------------------

@@ -1,10 +1,13 @@
-"""Partial slip of similar bodies against closed forms in 25 digits: first loading, unloading, reloading, bulk stress, cycles.
+"""Partial slip of similar bodies against closed forms in 25 digits: first loading, unloading,
+reloading, bulk stress, cycles.
 
-Under a constant normal load P the tangential load Q rises, falls and rises again. Hertz: Cattaneo (1938), Mindlin (1949), with a bulk
-stress Nowell & Hills (1987); the rounded flat: Ciavarella, Hills & Monno (1998), § 3. Errors are over the largest value; what one ulp of x
-and one of a zone's end do to the slip in zones a millionth long is not counted. The solver is given the loads and finds zones, shear, slip
-and energy; the closed forms, which share no code with it, are evaluated in mpmath for the same doubles. A closed loop must close, and the
-area of the loop of Q over the bodies' shift, by Simpson's rule, must be the energy lost.
+Under a constant normal load P the tangential load Q rises, falls and rises again. Hertz: Cattaneo
+(1938), Mindlin (1949), with a bulk stress Nowell & Hills (1987); the rounded flat: Ciavarella,
+Hills & Monno (1998), § 3. Errors are over the largest value; what one ulp of x and one of a zone's
+end do to the slip in zones a millionth long is not counted. The solver is given the loads and finds
+zones, shear, slip and energy; the closed forms, which share no code with it, are evaluated in
+mpmath for the same doubles. A closed loop must close, and the area of the loop of Q over the
+bodies' shift, by Simpson's rule, must be the energy lost.
 """
 
 from __future__ import annotations
@@ -42,7 +45,9 @@ Shear = Callable[[Any], Any]
 
 @dataclass(frozen=True)
 class Contact:
-    """A profile, and its closed forms as functions of x in mpmath; loads are Q/fP of the turning points so far."""
+    """A profile, and its closed forms as functions of x in mpmath; loads are Q/fP of the turning
+    points so far.
+    """
 
     name: str
     profile: sie.Profile
@@ -50,7 +55,9 @@ class Contact:
     given: dict[str, float]
 
     def exact(self, name: str, x: Sequence[float], *loads: float) -> list[Any]:
-        """`name` of the module at points: the last load is that of now, the others are where it turned."""
+        """`name` of the module at points: the last load is that of now, the others are where it
+        turned.
+        """
         turned = ("largest_load", "least_load")[: len(loads) - 1]
         named = {k: mp.mpf(Q) for k, Q in zip((*turned, "tangential_load"), loads, strict=True)}
         function = getattr(self.module, name)
@@ -105,11 +112,13 @@ def compute(quick: bool) -> Iterator[Record]:
     yield cost(STEPS[not quick])
 
 
-# -- first loading -------------------------------------------------------------------------------------------------------
+# -- first loading --------------------------------------------------------------------------------
 
 
 def loaded(contact: Contact, fraction: float, factor: float = 1.0) -> tuple[float, float, float]:
-    """Errors of the shear, of the slip in the slip zones, and of the half-width of the stick zone."""
+    """Errors of the shear, of the slip in the slip zones, and of the half-width of the stick
+    zone.
+    """
     Q = fraction * FP
     solution = sie.solve(contact.scene(tangential_load=Q))
     b, c = solution.half_width, solution.stick[0][1]
@@ -123,7 +132,9 @@ def loaded(contact: Contact, fraction: float, factor: float = 1.0) -> tuple[floa
 
 
 def _of_ulps(solution: sie.Solution, x: Any) -> float:
-    """What one ulp of x and one of an end of its zone, which is a double too, do to the slip: much in a zone that is short."""
+    """What one ulp of x and one of an end of its zone, which is a double too, do to the slip: much
+    in a zone that is short.
+    """
     here, ulp = solution.slip(x), 2.0 * float(np.spacing(solution.half_width))
     return float(
         max(np.abs(solution.slip(x + d) - here).max() for d in (-ulp, ulp)) / np.abs(here).max()
@@ -174,7 +185,7 @@ def _loading(
         yield Curve("loading", f"{contact.name}: {name}", decades, errors, "both")
 
 
-# -- unloading, reloading, energy ------------------------------------------------------------------------------------------
+# -- unloading, reloading, energy -----------------------------------------------------------------
 
 
 def turned(contact: Contact) -> Iterator[Record]:
@@ -244,7 +255,7 @@ def _without_width(given: dict[str, Any]) -> dict[str, Any]:
     return {k: v for k, v in given.items() if k != "half_width"} | {"modulus": E}
 
 
-# -- bulk stress -----------------------------------------------------------------------------------------------------------
+# -- bulk stress ----------------------------------------------------------------------------------
 
 
 def bulk() -> Iterator[Record]:
@@ -300,7 +311,7 @@ def bulk() -> Iterator[Record]:
     )
 
 
-# -- cycles ----------------------------------------------------------------------------------------------------------------
+# -- cycles ---------------------------------------------------------------------------------------
 
 
 def loops(quick: bool) -> Iterator[Record]:
@@ -329,7 +340,9 @@ def loops(quick: bool) -> Iterator[Record]:
 
 
 def enclosed(amplitude: float, n: int) -> tuple[float, float]:
-    """(energy lost in a cycle, ∮Q dδ by Simpson's rule over the angle of Q = cos on one branch, which the other mirrors)."""
+    """(energy lost in a cycle, ∮Q dδ by Simpson's rule over the angle of Q = cos on one branch,
+    which the other mirrors).
+    """
     angles = np.linspace(0.0, np.pi, n + 1)
     history = sie.follow(PUNCH.scene(), sie.Path([(P, amplitude * FP * np.cos(t)) for t in angles]))
     shift = np.array([s.shift for s in history])
@@ -340,7 +353,9 @@ def enclosed(amplitude: float, n: int) -> tuple[float, float]:
 
 
 def cost(steps: int) -> Claim:
-    """What a step of a long cycle costs: its stick zone, as a share of solving its scene by itself."""
+    """What a step of a long cycle costs: its stick zone, as a share of solving its scene by
+    itself.
+    """
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)[1:]
     path = sie.Path([(P, 0.8 * FP * np.sin(t)) for t in angles])
 
@@ -365,4 +380,4 @@ def cost(steps: int) -> Claim:
     )
 
 
-# -- drawing ---------------------------------------------------------------------------------------------------------------
+# -- drawing --------------------------------------------------------------------------------------

@@ -1,6 +1,8 @@
-"""The time of `solve` and 1001 pressures of each case, over NumPy's evaluation of the rounded punch's closed form at as many points.
+"""The time of `solve` and 1001 pressures of each case, over NumPy's evaluation of the rounded
+punch's closed form at as many points.
 
-The closed form is eq. (32) of Ciavarella, Hills & Monno (1998), as printed. Both are timed in turns, so that a busy machine slows both.
+The closed form is eq. (32) of Ciavarella, Hills & Monno (1998), as printed. Both are timed in
+turns, so that a busy machine slows both.
 """
 
 from __future__ import annotations
@@ -54,7 +56,9 @@ def claim() -> Claim:
 
 
 def cost(case: Case, times: int = 1) -> tuple[float, float]:
-    """(seconds of solve and 1001 pressures, ratio to the closed form); done `times` over, for the control."""
+    """(seconds of solve and 1001 pressures, ratio to the closed form); done `times` over, for the
+    control.
+    """
     x = np.linspace(*solved(case).edges, POINTS)
     scene = case.scene
 

@@ -1,9 +1,11 @@
-"""Where digits begin to go: one number of the contact at a time is taken to its extremes, and beyond what is promised.
+"""Where digits begin to go: one number of the contact at a time is taken to its extremes, and
+beyond what is promised.
 
-Each answer is held against a closed form in 50 digits, at the very doubles that the solver was given, and against its own certificate. An
-answer is full if its error is within the bar; known, if it was refused, or if the certificate owns up to a third of the error; and lost,
-if digits are gone and nothing says so. The frontier is where the first stops. The check of the check: an answer off by 1e-10 must miss
-the bar.
+Each answer is held against a closed form in 50 digits, at the very doubles that the solver was
+given, and against its own certificate. An answer is full if its error is within the bar; known, if
+it was refused, or if the certificate owns up to a third of the error; and lost, if digits are gone
+and nothing says so. The frontier is where the first stops. The check of the check: an answer off by
+1e-10 must miss the bar.
 """
 
 from __future__ import annotations
@@ -183,7 +185,9 @@ def _error(outcome: Any) -> float:
 
 
 def conditions(quick: bool) -> Iterator[Record]:
-    """Of the square systems, against the number of unknowns: this package's Cauchy equations, and the textbook's unscaled matrix."""
+    """Of the square systems, against the number of unknowns: this package's Cauchy equations, and
+    the textbook's unscaled matrix.
+    """
     yield Doing("condition numbers")
     sizes = (8, 16, 32, 64, 128) if quick else (8, 16, 32, 64, 128, 256, 512)
     singular = [

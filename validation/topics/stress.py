@@ -1,8 +1,10 @@
-"""The stress inside against 40 digits at five depths, and its cost against logarithms in the same run.
+"""The stress inside against 40 digits at five depths, and its cost against logarithms in the same
+run.
 
-The error is the largest of xx, yy, xy in full sliding, f = 0.3, over the peak pressure: under the centre's side, beside the contact,
-straight under kinks and edges (there the reference has the edges beyond double precision). The ratio is the time of xx, yy, xy on a 200 x
-200 grid over that of two complex logarithms and one complex square root of that grid, medians in turns.
+The error is the largest of xx, yy, xy in full sliding, f = 0.3, over the peak pressure: under the
+centre's side, beside the contact, straight under kinks and edges (there the reference has the edges
+beyond double precision). The ratio is the time of xx, yy, xy on a 200 x 200 grid over that of two
+complex logarithms and one complex square root of that grid, medians in turns.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""One number of a contact taken to its extremes: error against the truth, and what the certificate says of it.
+"""One number of a contact taken to its extremes: error against the truth, and what the certificate
+says of it.
 
-Each sweep is a function value -> Outcome. Truths are closed forms in 50 digits (of many pieces, a sum of as many in doubles), evaluated at
-the very doubles that the solver was given.
+Each sweep is a function value -> Outcome. Truths are closed forms in 50 digits (of many pieces, a
+sum of as many in doubles), evaluated at the very doubles that the solver was given.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ MARGIN = 0.95  # of the half-width: nearer the edge one ulp of the edge weighs m
 
 @dataclass(frozen=True)
 class Outcome:
-    """error, spoiled (the same of an answer that is off by SPOILED), estimate; refused: the words of the refusal, if it was one."""
+    """error, spoiled (the same of an answer that is off by SPOILED), estimate; refused: the words
+    of the refusal, if it was one.
+    """
 
     error: float = math.nan
     spoiled: float = math.nan
@@ -36,7 +39,9 @@ class Outcome:
     refused: str = ""
 
     def state(self, bar: float) -> str:
-        """full accuracy; known (refused, or the certificate owns up to a third of the error); or lost, with nothing said."""
+        """full accuracy; known (refused, or the certificate owns up to a third of the error); or
+        lost, with nothing said.
+        """
         if self.refused:
             return "known"
         if self.error <= bar:
@@ -46,7 +51,9 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Sweep:
-    """`promised` is the range in which full accuracy is promised, `values` go beyond it; `decades(value)` is the axis of the picture."""
+    """`promised` is the range in which full accuracy is promised, `values` go beyond it;
+    `decades(value)` is the axis of the picture.
+    """
 
     name: str
     axis: str
@@ -67,7 +74,9 @@ class Sweep:
 def _outcome(
     solution: Any, found: Any, true: Any, scale: float, estimate: float | None = None
 ) -> Outcome:
-    """Errors of some values relative to `scale`; all numbers in mpmath, so that nothing is lost in the comparison."""
+    """Errors of some values relative to `scale`; all numbers in mpmath, so that nothing is lost in
+    the comparison.
+    """
 
     def error(factor: float) -> float:
         return largest(
@@ -80,11 +89,13 @@ def _outcome(
     )
 
 
-# -- the rounded punch from flat to round -------------------------------------------------------------------------------
+# -- the rounded punch from flat to round ---------------------------------------------------------
 
 
 def flatness(share: float, given: str) -> Outcome:
-    """share in (-1, 1): a/b = share if positive, else 1 - |share|; pressure at places of the flat and the rim, load or rim."""
+    """share in (-1, 1): a/b = share if positive, else 1 - |share|; pressure at places of the flat
+    and the rim, load or rim.
+    """
     thin = share < 0
     a, rim = (1.0, -share / (1.0 + share)) if thin else (share, 1.0 - share)
     if given == "width":
@@ -128,7 +139,7 @@ def logit(share: float) -> float:
     return math.log10(a / rest)
 
 
-# -- scale, pieces, gaps, coupling, depth -------------------------------------------------------------------------------
+# -- scale, pieces, gaps, coupling, depth ---------------------------------------------------------
 
 
 @lru_cache(maxsize=1)
@@ -154,9 +165,11 @@ def scale(length: float, modulus: float) -> Outcome:
 
 
 def pieces(n: float) -> Outcome:
-    """n/2 rounded flats of one radius on top of each other, a = d/2, 3d/2, …: h' is a polygon whose every corner counts.
+    """n/2 rounded flats of one radius on top of each other, a = d/2, 3d/2, …: h' is a polygon whose
+    every corner counts.
 
-    d is a power of two, so that its coefficients are exact; a sum of positive doubles, each right to rounding, is so too.
+    d is a power of two, so that its coefficients are exact; a sum of positive doubles, each right
+    to rounding, is so too.
     """
     corners = max(int(n) // 2, 1)
     d = 2.0 ** -math.ceil(math.log2(corners + 1))
@@ -178,7 +191,9 @@ def pieces(n: float) -> Outcome:
 
 
 def gap(width: float) -> Outcome:
-    """Two like flats side by side, [-1, -k] and [k, 1], under P/2 each: p = (P/π) |x| / sqrt((x² - k²)(1 - x²)); a gap of 2k."""
+    """Two like flats side by side, [-1, -k] and [k, 1], under P/2 each: p = (P/π) |x| / sqrt((x² -
+    k²)(1 - x²)); a gap of 2k.
+    """
     k = 0.5 * width
     equation = sie.CauchyEquation(
         ((-1.0, -k), (k, 1.0)), g=0.0, b=-1.0, ends="singular", total=(0.5, 0.5)
@@ -197,7 +212,9 @@ def gap(width: float) -> Outcome:
 
 
 def coupling(beta_f: float) -> Outcome:
-    """Sliding Hertz, tan πε = -βf: p = (E* cos πε/2R)(c2-x)^(1/2-ε)(c1+x)^(1/2+ε), c1, c2 = w(1 ∓ 2ε) (Hills, Nowell & Sackfield 1993)."""
+    """Sliding Hertz, tan πε = -βf: p = (E* cos πε/2R)(c2-x)^(1/2-ε)(c1+x)^(1/2+ε), c1, c2 = w(1 ∓
+    2ε) (Hills, Nowell & Sackfield 1993).
+    """
     friction = min(
         max(2.0, 2.5 * abs(beta_f)), abs(beta_f) / (2.0 * SIMILAR)
     )  # bodies of a smaller β are similar
@@ -229,7 +246,9 @@ def _punch() -> sie.Solution:
 
 
 def depth(y: float) -> Outcome:
-    """The potential F(x + iy) of the rounded punch under, beside and far from the contact, relative to itself."""
+    """The potential F(x + iy) of the rounded punch under, beside and far from the contact, relative
+    to itself.
+    """
     z = np.array([0.1, 0.5, 0.8, 1.0, 1.3]) + 1j * y
     punch = {"half_flat": 0.5, "radius": 1.0, "modulus": 1.0, "half_width": 1.0, "lib": mp}
     true = [rounded_flat.potential(mp.mpc(v), **punch) for v in z.tolist()]
@@ -251,7 +270,9 @@ def at_kink(distance: float, ratio: float = 0.5) -> Outcome:
 
 
 def at_edge(distance: float, ratio: float = 0.5) -> Outcome:
-    """The pressure so many b from the edge, the half-width being given: relative to itself, though it vanishes there."""
+    """The pressure so many b from the edge, the half-width being given: relative to itself, though
+    it vanishes there.
+    """
     solution = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(ratio, 1.0), modulus=1.0, half_width=1.0)
     )
@@ -271,7 +292,8 @@ def _of_punch(solution: sie.Solution, ratio: float, x: Any, scale: float | None)
 
 
 def partial_slip(ratio: float) -> Outcome:
-    """Q/fP -> half-width of the stick zone of the rounded punch: P(c) = P - Q/f (Ciavarella 1998); share < 0 is 1 - |share|.
+    """Q/fP -> half-width of the stick zone of the rounded punch: P(c) = P - Q/f (Ciavarella 1998);
+    share < 0 is 1 - |share|.
 
     Q/f is given as a double, so that near fP the difference is what two doubles leave.
     """

@@ -1,10 +1,11 @@
 """Error against run time: this package and what others do, on the same contacts, in the same run.
 
-Each method answers the same question, the pressure at 1001 points, and its error is taken at about 24 of them, off every grid, against a
-truth of more than 16 digits; elements are measured at their own centres. Times are medians over repeats in which the method and NumPy's
-closed form of the rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are told where the contact ends; this package
-and the boundary elements find it. Tamaas and ContactMechanics run where they are installed (pip install -e ".[peers]"); they are
-periodic, and so is their contact.
+Each method answers the same question, the pressure at 1001 points, and its error is taken at about
+24 of them, off every grid, against a truth of more than 16 digits; elements are measured at their
+own centres. Times are medians over repeats in which the method and NumPy's closed form of the
+rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are told where the contact
+ends; this package and the boundary elements find it. Tamaas and ContactMechanics run where they are
+installed (pip install -e ".[peers]"); they are periodic, and so is their contact.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ GRID_REACH = 1.6  # elements cover so many half-widths to each side
 
 @dataclass(frozen=True)
 class Method:
-    """`answer(problem, n)` is the run to be timed; `error(problem, answer, n)` judges what it returned."""
+    """`answer(problem, n)` is the run to be timed; `error(problem, answer, n)` judges what it
+    returned.
+    """
 
     name: str
     sizes: tuple[int, ...]
@@ -61,7 +64,9 @@ def _dense(problem: Problem, n: int) -> Callable[[], Any]:
 
 
 def _collocation(problem: Problem, n: int) -> Callable[[], Any]:
-    """A constant is set free, for the sampled right-hand side need not be consistent with the ends."""
+    """A constant is set free, for the sampled right-hand side need not be consistent with the
+    ends.
+    """
     tangent = math.tan(math.pi * problem.epsilon)
 
     def run() -> Any:
@@ -108,7 +113,9 @@ def _closed_on(problem: Problem, x: Any) -> Any:
 
 
 def _closed_load(problem: Problem) -> float:
-    """∫p dx over a period, by Gauss-Chebyshev quadrature in x/a: p is sqrt(a² - x²) times an analytic function."""
+    """∫p dx over a period, by Gauss-Chebyshev quadrature in x/a: p is sqrt(a² - x²) times an
+    analytic function.
+    """
     a = math.atan(problem.edges[1]) / math.pi
     theta = (np.arange(1, 200)) * np.pi / 200
     return float(

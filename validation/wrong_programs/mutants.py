@@ -1,8 +1,10 @@
-"""Wrong programs by name, with the checker that must catch each: errors from 1 down to 1e-12 of the pressure.
+"""Wrong programs by name, with the checker that must catch each: errors from 1 down to 1e-12 of the
+pressure.
 
-Some are formulas with a term wrong in place of the pressure; the others are this package itself with one of its parts replaced while it
-solves. The certificate catches what breaks the equations; what is wrong in the question (a constant, the sign of β) satisfies wrong
-equations perfectly, and only a closed form that shares no code can tell.
+Some are formulas with a term wrong in place of the pressure; the others are this package itself
+with one of its parts replaced while it solves. The certificate catches what breaks the equations;
+what is wrong in the question (a constant, the sign of β) satisfies wrong equations perfectly, and
+only a closed form that shares no code can tell.
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ class Mutant:
     number: Callable[[bool], float]
 
 
-# -- formulas with a term wrong ---------------------------------------------------------------------------------------
+# -- formulas with a term wrong -------------------------------------------------------------------
 
 
 def stand_in(
@@ -104,13 +106,15 @@ STAND_INS = (
 )  # fmt: skip
 
 
-# -- this package, with a part replaced -------------------------------------------------------------------------------
+# -- this package, with a part replaced -----------------------------------------------------------
 
 
 def replaced(
     name: str, says: str, part: Callable[[], AbstractContextManager[Any]], scene: sie.Scene, truth: Callable[[Any], Any] | None = None
 ) -> Mutant:  # fmt: skip
-    """The package solves with a part replaced; then its certificate is asked, or a closed form of `analytic` at points of the contact."""
+    """The package solves with a part replaced; then its certificate is asked, or a closed form of
+    `analytic` at points of the contact.
+    """
 
     def number(wrong: bool) -> float:
         with part() if wrong else nullcontext(), np.errstate(all="ignore"):
@@ -204,7 +208,9 @@ REPLACED = (
 
 
 def _shear(name: str, says: str, right: dict[str, float], wrong: dict[str, float]) -> Mutant:
-    """The shear of another load in place of the right one, judged by the certificate of the shear."""
+    """The shear of another load in place of the right one, judged by the certificate of the
+    shear.
+    """
     common: dict[str, Any] = {
         "profile": sie.RoundedFlat(0.5, 1.0),
         "modulus": 1.0,

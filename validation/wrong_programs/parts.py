@@ -1,6 +1,8 @@
-"""Wrong programs of the newer parts: shear, load paths, sliding, bonded punches, traces, stress inside, sums over many pieces.
+"""Wrong programs of the newer parts: shear, load paths, sliding, bonded punches, traces, stress
+inside, sums over many pieces.
 
-Each is this package with one of its parts replaced while it solves; its answer is held against a closed form that shares no code with it.
+Each is this package with one of its parts replaced while it solves; its answer is held against a
+closed form that shares no code with it.
 """
 
 from __future__ import annotations
@@ -69,7 +71,7 @@ def _property(target: Any, name: str, change: Callable[[Any], Any]) -> Part:
     return lambda: patch.object(target, name, new_callable=Changed)
 
 
-# -- shear and load paths ------------------------------------------------------------------------------------------------
+# -- shear and load paths -------------------------------------------------------------------------
 
 
 def _shear() -> Any:
@@ -135,7 +137,7 @@ def _true_bulk() -> Any:
     )
 
 
-# -- dissimilar bodies -----------------------------------------------------------------------------------------------------
+# -- dissimilar bodies ----------------------------------------------------------------------------
 
 FRICTIONAL = sie.Scene(
     profile=RIM, modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, normal_load=P
@@ -169,7 +171,7 @@ def _true_stuck() -> Any:
     return bonded_flat.pressure(PLACES, **given) + 1j * bonded_flat.shear(PLACES, **given)
 
 
-# -- traces, many pieces, stress -------------------------------------------------------------------------------------------
+# -- traces, many pieces, stress ------------------------------------------------------------------
 
 
 def _natural(x: Any, h: Any) -> Any:

@@ -1,6 +1,8 @@
-"""Wrong programs, by name: what they get wrong, and the pressure that comes of it. The certificate must see each, whatever its size.
+"""Wrong programs, by name: what they get wrong, and the pressure that comes of it. The certificate
+must see each, whatever its size.
 
-`Wrong` stands in for a solution's pressure. Some are formulas with a term wrong, some are this package with one of its parts replaced.
+`Wrong` stands in for a solution's pressure. Some are formulas with a term wrong, some are this
+package with one of its parts replaced.
 """
 
 from __future__ import annotations
@@ -73,7 +75,9 @@ SMOOTH = sie.Scene(
 
 
 def closed_form(x: Any, second: float = 1.0, b: float = 1.0) -> Array:
-    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second logarithm."""
+    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second
+    logarithm.
+    """
     a = 0.5
     x = np.abs(x)
     phi, phi0 = np.arcsin(np.clip(x / b, 0, 1)), np.arcsin(a / b)
@@ -94,7 +98,9 @@ def root(x: Any) -> Array:
 def gauss_chebyshev(
     scene: sie.Scene, n: int = 40, shift: float = 0.0, at: int = 7, half: float = 0.0
 ) -> Values:
-    """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by `half` a spacing."""
+    """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by
+    `half` a spacing.
+    """
     solution = sie.solve(scene)
     m, r = solution.centre, solution.half_width
     theta = (np.arange(n) + 0.5 + half) * np.pi / n

@@ -1,4 +1,6 @@
-"""Figs 2 to 8 of the paper, drawn like the originals: lines from the general solver, points from the closed forms."""
+"""Figs 2 to 8 of the paper, drawn like the originals: lines from the general solver, points from
+the closed forms.
+"""
 
 from __future__ import annotations
 
