@@ -33,6 +33,7 @@ that of P and of b - a below 1e-15, that of Fp below 2e-14.
 """
 
 import math
+from numbers import Integral
 
 import numpy as np
 
@@ -226,7 +227,7 @@ def chebyshev_coefficients(
     >>> chebyshev_coefficients(2, half_flat=0.0, half_width=1.0, radius=1.0, modulus=1.0).round(12) + 0
     array([0.5, 0. ])
     """
-    if count != int(count) or count < 0:
+    if not isinstance(count, Integral) or count < 0:
         raise ValueError(f"count = {count} is not a number of coefficients; give an integer >= 0.")
     contact = unit.contact_of(half_flat, half_width, rim, lib)
     R, E = positives(lib, radius=radius, modulus=modulus)

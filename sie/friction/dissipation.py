@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 from sie.contact.edge_integrals import Moments
 from sie.contact.edges import Found, Search
 from sie.contact.normal import Normal, pressure
+from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
@@ -60,6 +61,7 @@ MANY = 24  # a profile of so many breaks is a trace
 WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
 HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
 LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
+THIN = 8.0 * EPS  # of the load: panels reach at least so far below it, however thin a front is
 NODES = 16  # on each part of a panel whose ends are not further apart than ...
 RATIO = 4.0
 MARGIN = 0.02  # of the widest contact: how far beyond it a function is resolved
@@ -127,30 +129,39 @@ class Growth:
     # -- energy -------------------------------------------------------------------------------------------------------
 
     def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
-        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
+        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
+
+        Depths are counted in Q from each load down. LoadError where the load is
+        nothing next to the largest one.
+        """
         rows = [
             (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
             for P, o in zip(loads, fronts, strict=True)
         ]
+        for P, _, _, *surface in rows:
+            if P + max(surface) <= LOWEST * self.top:
+                raise LoadError(
+                    f"energy is lost under P = {P:.6g}, less than {LOWEST:g} of the path's largest "
+                    f"load, {self.top:.6g}: follow the points of small loads as a path of their own"
+                )
         apart = [self._crosses_many_breaks(*row) for row in rows]
         rest = iter(
             self._by_panels(
                 [row for row, many in zip(rows, apart, strict=True) if not many]
             ).tolist()
         )
-        found = np.array(
-            [
-                self._from_potentials(*row) if many else next(rest)
-                for row, many in zip(rows, apart, strict=True)
-            ]
-        )
-        return friction * friction / (math.pi * self._search.half_modulus) * found
+        G = self._search.half_modulus
+        found = [
+            self._from_potentials(*row) / G if many else next(rest)
+            for row, many in zip(rows, apart, strict=True)
+        ]
+        return friction * friction / math.pi * np.array(found)
 
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
-        """∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
+        """2/E* ∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
         ends: list[tuple[float, float, int]] = []
         for P, L, _, *surface in rows:
-            self._cover(P + L, P + max(surface))
+            self._cover(min(P + L, P * (1.0 - THIN)), P + max(surface))
         cuts = self._cuts()
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
@@ -172,7 +183,7 @@ class Growth:
         return total
 
     def _integrals(self, lo: Array, hi: Array, given: Array) -> Array:
-        """∫v d ln r from lo to hi, counted from P."""
+        """2/E* ∫v d ln r from lo to hi, counted from P."""
         P, L, Y, at_L, at_Y = given
         g, w = chebyshev.gauss_legendre(NODES)
         panels = self._panels
@@ -199,9 +210,11 @@ class Growth:
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)
-        v = np.maximum(upper - lower, 0.0) * (at_Y + rise * (Y - middle) - y)
         level = np.maximum(P + y, panels[0].lo)
-        out: Array = (hi - lo) * (weight * v * self._growth(k, level) / level).sum(axis=1)
+        # v in its two factors: loads of 1e160 have no square
+        first = np.maximum(upper - lower, 0.0) / level
+        second = (at_Y + rise * (Y - middle) - y) / self._search.half_modulus
+        out: Array = (hi - lo) * (weight * first * second * self._growth(k, level)).sum(axis=1)
         return out
 
     def _growth(self, k: NDArray[np.int64], y: Array) -> Array:

@@ -215,7 +215,7 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
     at -= at[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
-    s = np.clip((flat - lo[j]) / (0.5 * length[j]) - 1.0, -1.0, 1.0)
+    s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
     values = at[j] + np.array(
         [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
     )

@@ -11,7 +11,8 @@ points of a resolution:
 
 The digits of the contact's edges determine where the sequence starts, so no profile can be made to
 agree with it. SAMPLES is a Fibonacci number: the largest gap between so many points is 4.5e-4 of
-the contact (Sós 1957, three gaps). What is narrower may stay unseen.
+the contact (Sós 1957, three gaps). What is narrower may stay unseen. Towards each edge there is a
+point in every octave of the distance, for a kink close to it changes all that is beyond.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ Known = Callable[[Array], Array]
 
 SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+# Of the contact: how near to an edge points lie; there is one in each octave of the distance.
+CLOSEST, HALVINGS = 2.0**-40, 40
 MISSED = 32.0  # times what the resolution may miss of the largest slope: what differs by more was not seen
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
@@ -73,11 +76,17 @@ def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
 
 
 def scattered(contact: Interval, start_at: int = 0) -> Array:
-    """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine."""
+    """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine.
+
+    And others that halve their distance from an edge down to CLOSEST of the contact.
+    """
     start = zlib.crc32(np.array([contact.x1, contact.x2]).tobytes()) / 2.0**32
-    fractions = np.sort((start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0)
-    x = contact.x1 + (contact.x2 - contact.x1) * fractions
-    return x[(x > contact.x1) & (x < contact.x2)]
+    fractions = (start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
+    width = contact.x2 - contact.x1
+    near = width * CLOSEST ** ((fractions[:HALVINGS] + np.arange(HALVINGS)) / HALVINGS)
+    x = np.concatenate((contact.x1 + width * fractions, contact.x1 + near, contact.x2 - near))
+    x = np.sort(x)
+    return x[(x > contact.x1) & (x < contact.x2) & np.append(True, np.diff(x) > 0.0)]
 
 
 def misfit(
