@@ -21,8 +21,9 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a folder or a module at the top imports only from its own row and from rows
 # before it.
 LAYERS = (
-    ("interrupt", "errors", "arguments", "workers"),
+    ("interrupt", "errors", "workers"),
     ("numerics",),
+    ("arguments",),
     ("profiles",),
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
