@@ -11,7 +11,12 @@ and a step minimises ½ Δq·A Δq + Δq·x 2Δτ/E* over |q| <= f p with ∫q =
 Contact, § 4.2; Duvaut & Lions 1972). A primal-dual active set finds it.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 MOST = 200
 
@@ -19,14 +24,14 @@ MOST = 200
 class Mesh:
     """n elements on the contact (x1, x2): midpoints x, width h, the matrix A at the midpoints."""
 
-    def __init__(self, interval, n, modulus):
-        edges = np.linspace(*interval, n + 1)
+    def __init__(self, interval: tuple[float, float], n: int, modulus: float) -> None:
+        edges = np.linspace(interval[0], interval[1], n + 1)
         self.x, self.h, self.modulus = 0.5 * (edges[:-1] + edges[1:]), edges[1] - edges[0], modulus
         size = (
             interval[1] - interval[0]
         )  # the unit of length in the logarithm: its choice moves δ only
 
-        def primitive(s):  # ∫ ln|s| ds
+        def primitive(s: Array) -> Any:  # ∫ ln|s| ds
             return s * np.log(np.abs(s) / (4.0 * size)) - s
 
         far = np.arange(n) * self.h
@@ -37,7 +42,7 @@ class Mesh:
         )
         self.A = row[np.abs(np.subtract.outer(np.arange(n), np.arange(n)))]
 
-    def step(self, q, bound, Q, strain):
+    def step(self, q: Array, bound: Array, Q: float, strain: float) -> tuple[Array, Array]:
         """(q after the step, Δg): `bound` = f p there, `strain` = 2 Δτ/E*."""
         n = len(q)
         start, free = np.clip(q, -bound, bound), np.ones(n, dtype=bool)

@@ -11,18 +11,22 @@ W(z) = (z - 1)^α (z + 1)^β has no cut but [-1, 1], where it jumps by 2i sin π
 On the interval W is w cos πα ± i w sin πα. Nothing here comes from the package under test.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import mpmath
 import numpy as np
+from numpy.typing import NDArray
 
+Number = Any
+Array = NDArray[Any]
 mp = mpmath.mp.clone()
 mp.dps = 40
 
 
-def exponent(a, b, bounded):
+def exponent(a: Number, b: Number, bounded: bool) -> Number:
     """Of the distance from the right end, in [0, 1) if bounded and in (-1, 0) if not:  a sin πα + b cos πα = 0."""
     a, b = mp.mpmathify(a), mp.mpmathify(b)
     real = mp.im(a) == mp.im(b) == 0
@@ -35,7 +39,7 @@ def exponent(a, b, bounded):
     return up if bounded else up - 1
 
 
-def exponents(a, b, ends):
+def exponents(a: Number, b: Number, ends: tuple[bool, bool]) -> tuple[Number, Number]:
     """(α, β) for ends = (left bounded, right bounded); the left end mirrors the equation, b ->
     -b.
     """
@@ -48,32 +52,32 @@ class Manufactured:
 
     x1: float
     x2: float
-    alpha: Any
-    beta: Any
-    polynomial: tuple = (1.0,)
-    poles: tuple = ()
-    m: Any = field(init=False)
-    r: Any = field(init=False)
+    alpha: Number
+    beta: Number
+    polynomial: tuple[Number, ...] = (1.0,)
+    poles: tuple[tuple[Number, Number], ...] = ()
+    m: Number = field(init=False)
+    r: Number = field(init=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "m", (mp.mpf(self.x1) + mp.mpf(self.x2)) / 2)
         object.__setattr__(self, "r", (mp.mpf(self.x2) - mp.mpf(self.x1)) / 2)
 
     @property
-    def kappa(self):
+    def kappa(self) -> int:
         return -int(mp.nint(mp.re(self.alpha + self.beta)))
 
-    def f(self, s):
+    def f(self, s: Number) -> Number:
         value = mp.mpf(0)
         for c in reversed(self.polynomial):
             value = value * s + mp.mpmathify(c)
         return value + sum(mp.mpmathify(r) / (s - mp.mpmathify(p)) for p, r in self.poles)
 
-    def W(self, z):
+    def W(self, z: Number) -> Number:
         return mp.power(z - 1, self.alpha) * mp.power(z + 1, self.beta)
 
     @cached_property
-    def at_infinity(self):
+    def at_infinity(self) -> dict[int, Number]:
         """Coefficients of W f, from z^(degree - κ) downwards to z^-2."""
         degree = len(self.polynomial) - 1
         size = max(degree - self.kappa, -1) + 3
@@ -97,20 +101,20 @@ class Manufactured:
         )
 
     @cached_property
-    def at_poles(self):
+    def at_poles(self) -> list[tuple[Number, Number]]:
         return [(mp.mpmathify(p), mp.mpmathify(r) * self.W(mp.mpmathify(p))) for p, r in self.poles]
 
-    def subtracted(self, s):
+    def subtracted(self, s: Number) -> Number:
         regular = sum((c * s**k for k, c in self.at_infinity.items() if k >= 0), mp.mpf(0))
         return regular + sum(residue / (s - p) for p, residue in self.at_poles)
 
     # -- what is compared -------------------------------------------------------------------------
 
-    def value(self, x):
+    def value(self, x: Number) -> Number:
         s = (mp.mpf(x) - self.m) / self.r
         return mp.power(1 - s, self.alpha) * mp.power(1 + s, self.beta) * self.f(s)
 
-    def value_at(self, to_right, to_left):
+    def value_at(self, to_right: Number, to_left: Number) -> Number:
         """At these distances from the ends."""
         right, left = mp.mpf(to_right) / self.r, mp.mpf(to_left) / self.r
         return (
@@ -119,7 +123,7 @@ class Manufactured:
             * self.f(left - 1 if left < right else 1 - right)
         )
 
-    def cauchy(self, z):
+    def cauchy(self, z: Number) -> Number:
         """1/π ∫ φ/(z - t) dt; on the interval its principal value."""
         s = (mp.mpmathify(z) - self.m) / self.r
         inside = mp.im(s) == 0 and abs(mp.re(s)) < 1
@@ -127,12 +131,12 @@ class Manufactured:
         return (self.subtracted(s) - Wf) / mp.sinpi(self.alpha)
 
     @property
-    def total(self):
+    def total(self) -> Number:
         residues = sum(residue for _, residue in self.at_poles)
         return self.r * mp.pi / mp.sinpi(self.alpha) * (residues - self.at_infinity.get(-1, 0))
 
     @property
-    def moment(self):
+    def moment(self) -> Number:
         residues = sum(residue * p for p, residue in self.at_poles)
         about_m = (
             self.r**2 * mp.pi / mp.sinpi(self.alpha) * (residues - self.at_infinity.get(-2, 0))
@@ -140,14 +144,19 @@ class Manufactured:
         return about_m + self.m * self.total
 
     @property
-    def intensities(self):
+    def intensities(self) -> tuple[Number, Number]:
         """lim φ (distance)^-exponent at the left and the right end."""
         left = mp.power(2, self.alpha) * self.f(mp.mpf(-1)) * self.r**-self.beta
         right = mp.power(2, self.beta) * self.f(mp.mpf(1)) * self.r**-self.alpha
         return left, right
 
 
-def right_hand_side(densities, a, b, kernels=()):
+def right_hand_side(
+    densities: Sequence[Manufactured],
+    a: Number,
+    b: Number,
+    kernels: Sequence[tuple[Number, Number]] = (),
+) -> Callable[[Any], Array]:
     """g(x), vectorised, of a φ + b/π PV∫ φ/(t - x) dt + Σ c ∫ φ/(t - x - shift) dt for the sum φ;
     `kernels` as pairs (c, shift).
 
@@ -156,20 +165,21 @@ def right_hand_side(densities, a, b, kernels=()):
     """
     a, b = mp.mpmathify(a), mp.mpmathify(b)
 
-    def at(x):
-        x = mp.mpf(float(x))
+    def at(x: float) -> complex:
+        place = mp.mpf(float(x))
         total = mp.mpf(0)
         for d in densities:
-            s = (x - d.m) / d.r
+            s = (place - d.m) / d.r
             own = abs(s) <= 1
-            total -= b * (d.subtracted(s) / mp.sinpi(d.alpha) if own else d.cauchy(x))
+            total -= b * (d.subtracted(s) / mp.sinpi(d.alpha) if own else d.cauchy(place))
             total -= sum(
-                mp.mpmathify(c) * mp.pi * d.cauchy(x + mp.mpmathify(shift)) for c, shift in kernels
+                mp.mpmathify(c) * mp.pi * d.cauchy(place + mp.mpmathify(shift))
+                for c, shift in kernels
             )
         return complex(total)
 
-    def g(x):
-        values = np.array([at(v) for v in np.ravel(x)], dtype=complex).reshape(np.shape(x))
+    def g(x: Any) -> Array:
+        values: Array = np.array([at(v) for v in np.ravel(x)], dtype=complex).reshape(np.shape(x))
         return (
             values
             if np.abs(values.imag).max(initial=0.0) > 1e-25 * np.abs(values).max(initial=1e-300)
@@ -179,7 +189,9 @@ def right_hand_side(densities, a, b, kernels=()):
     return g
 
 
-def needed(densities, tol, g=None):
+def needed(
+    densities: Sequence[Manufactured], tol: float, g: Callable[[Any], Array] | None = None
+) -> tuple[int, ...]:
     """How many coefficients of f (or of g) are above tol: those of its Chebyshev series, which
     decay as any Jacobi series of it do.
     """
@@ -187,13 +199,11 @@ def needed(densities, tol, g=None):
     theta = np.pi * (np.arange(n) + 0.5) / n
     for d in densities:
         s = np.cos(theta)
-        values = (
-            exact(lambda v, d=d: d.f(mp.mpf(v)), s) if g is None else g(float(d.m) + float(d.r) * s)
-        )
+        values = exact(d.f, s) if g is None else g(float(d.m) + float(d.r) * s)
         c = np.abs(np.cos(np.outer(np.arange(n), theta)) @ values)
         sizes.append(int(np.flatnonzero(c > tol * c.max())[-1]) + 1 if c.any() else 1)
     return tuple(sizes)
 
 
-def exact(function, x):
-    return np.array([complex(function(v)) for v in np.asarray(x).tolist()])
+def exact(function: Callable[[Number], Number], x: Any) -> Array:
+    return np.array([complex(function(mp.mpmathify(v))) for v in np.asarray(x).tolist()])

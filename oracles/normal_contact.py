@@ -16,7 +16,7 @@ until the pole is half a panel away: 32 nodes then leave 1e-36.  (Muskhelishvili
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from typing import Any
 
@@ -67,7 +67,7 @@ class Pieces:
     def tilted(self, tilt: float) -> "Pieces":
         return Pieces(
             self.breaks,
-            tuple((lambda t, f=f: f(t) + mp.mpf(tilt)) for f in self.functions),
+            tuple(partial(_tilted, f, mp.mpf(tilt)) for f in self.functions),
             self.kinks,
         )
 
@@ -79,10 +79,14 @@ class Pieces:
         return sum(x > b for b in inner)
 
 
+def _tilted(function: Callable[[Number], Number], tilt: Number, t: Number) -> Number:
+    return function(t) + tilt
+
+
 def polynomials(breaks: Sequence[float], rows: Sequence[Sequence[float]]) -> Pieces:
     """Pieces from coefficients in x, low order first."""
     exact = [[mp.mpf(c) for c in row] for row in rows]
-    return Pieces(tuple(map(mp.mpf, breaks)), tuple((lambda t, c=c: _horner(c, t)) for c in exact))
+    return Pieces(tuple(map(mp.mpf, breaks)), tuple(partial(_horner, c) for c in exact))
 
 
 def smooth(function: Callable[[Number], Number], lo: float = -mp.inf, hi: float = mp.inf) -> Pieces:

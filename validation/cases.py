@@ -55,6 +55,7 @@ def exact(case: Case) -> normal_contact.Contact:
     """The answer in 40 digits; the solver's edges are only where Newton starts."""
     pieces = case.pieces.tilted(case.tilt) if case.tilt else case.pieces
     if all(case.sharp):
+        assert case.load is not None
         return normal_contact.sharp_contact(pieces, 1.0, case.load)
     start = solved(case).edges
     return normal_contact.contact(
@@ -94,8 +95,9 @@ def chain(seed: int, n: int) -> tuple[sie.Piecewise, Pieces]:
         rows.append((value - curvatures[k + 1] * b, curvatures[k + 1]))
         if k + 1 < len(breaks):
             value += curvatures[k + 1] * (breaks[k + 1] - b)
-    rows = [tuple(map(float, row)) for row in rows]
-    return sie.Piecewise([float(b) for b in breaks], rows), polynomials((-INF, *breaks, INF), rows)
+    pieces = [tuple(map(float, row)) for row in rows]
+    inner = breaks.tolist()
+    return sie.Piecewise(inner, pieces), polynomials((-INF, *inner, INF), pieces)
 
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)

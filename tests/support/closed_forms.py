@@ -21,7 +21,9 @@ short.dps = 25
 long = mpmath.MPContext()  # and to tell whether those digits are right
 long.dps = 40
 
-Call = tuple[Callable[..., Any], dict[str, Any]]
+Form = Callable[..., Any]
+Given = dict[str, Any]
+Call = tuple[Form, Given]
 
 STRESS = {
     "pressure",
@@ -58,13 +60,13 @@ UNITS |= dict.fromkeys(
 ) | {"moment": (2, 1)}
 
 
-def every_call(calls: Sequence[Call]) -> Any:
+def every_call(calls: Sequence[Call]) -> pytest.MarkDecorator:
     return pytest.mark.parametrize(
         ("function", "given"), calls, ids=[f"{f.__module__[9:]}.{f.__name__}" for f, _ in calls]
     )
 
 
-def call(function: Callable[..., Any], given: dict[str, Any], **options: Any) -> Any:
+def call(function: Form, given: Given, **options: Any) -> Any:
     """The value, a pair as an array or list, of the call with its position first, as users write
     it.
     """
@@ -76,16 +78,14 @@ def several(value: Any) -> list[Any]:
     return list(value) if isinstance(value, tuple) else [value]
 
 
-def numpy_agrees_with_mpmath(
-    function: Callable[..., Any], given: dict[str, Any], bound: float = 1e-13
-) -> None:
+def numpy_agrees_with_mpmath(function: Form, given: Given, bound: float = 1e-13) -> None:
     for value, exact in zip(
         several(call(function, given)), several(call(function, given, lib=short)), strict=True
     ):
         assert abs(complex(value) - complex(exact)) <= bound * abs(complex(exact))
 
 
-def context_gives_its_digits(function: Callable[..., Any], given: dict[str, Any]) -> None:
+def context_gives_its_digits(function: Form, given: Given) -> None:
     before = mpmath.mp.dps
     for value, exact in zip(
         several(call(function, given, lib=short)),
@@ -96,7 +96,7 @@ def context_gives_its_digits(function: Callable[..., Any], given: dict[str, Any]
     assert mpmath.mp.dps == before
 
 
-def arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -> None:
+def arrays_broadcast(function: Form, given: Given) -> None:
     grown = {
         name: np.full((3, 1) if i % 2 else 4, value)
         for i, (name, value) in enumerate(given.items())
@@ -110,9 +110,7 @@ def arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -> Non
         assert np.ndim(one) == 0
 
 
-def scales(
-    function: Callable[..., Any], given: dict[str, Any], length: float, stress: float
-) -> None:
+def scales(function: Form, given: Given, length: float, stress: float) -> None:
     """Length and stress are powers of 2, or positions next to an end would be rounded."""
     scaled = {
         name: value * length ** UNITS.get(name, (0, 0))[0] * stress ** UNITS.get(name, (0, 0))[1]
@@ -137,7 +135,7 @@ def scales(
         )
 
 
-def bad_numbers_are_refused(function: Callable[..., Any], given: dict[str, Any]) -> None:
+def bad_numbers_are_refused(function: Form, given: Given) -> None:
     for name in given:
         for bad in (math.nan, math.inf, "one"):
             for lib in (np, short):
@@ -151,15 +149,15 @@ def of_every_call(calls: Sequence[Call]) -> type:
 
     class OfEveryCall:
         @each_call
-        def test_numpy_and_mpmath_agree(self, function, given) -> None:
+        def test_numpy_and_mpmath_agree(self, function: Form, given: Given) -> None:
             numpy_agrees_with_mpmath(function, given)
 
         @each_call
-        def test_a_context_gives_all_its_digits(self, function, given) -> None:
+        def test_a_context_gives_all_its_digits(self, function: Form, given: Given) -> None:
             context_gives_its_digits(function, given)
 
         @each_call
-        def test_arrays_broadcast(self, function, given) -> None:
+        def test_arrays_broadcast(self, function: Form, given: Given) -> None:
             arrays_broadcast(function, given)
 
         @each_call
@@ -167,12 +165,12 @@ def of_every_call(calls: Sequence[Call]) -> type:
             ("length", "stress"), [(2.0**-300, 2.0**330), (2.0**300, 2.0**-330)]
         )
         def test_results_scale_with_lengths_and_moduli(
-            self, function, given, length: float, stress: float
+            self, function: Form, given: Given, length: float, stress: float
         ) -> None:
             scales(function, given, length, stress)
 
         @each_call
-        def test_bad_numbers_are_refused(self, function, given) -> None:
+        def test_bad_numbers_are_refused(self, function: Form, given: Given) -> None:
             bad_numbers_are_refused(function, given)
 
     return OfEveryCall

@@ -4,15 +4,23 @@ of the tests' own.
 x = m - r cos ψ,  ψ in [0, π],  dx = r sin ψ dψ:   16 Gauss-Legendre nodes on panels graded to every break and halved between them
 """
 
+from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Pressure = Callable[[Array], Any]
+Ends = tuple[float, float]
+Places = Sequence[float]
 
 GRADED_TO = 1e-13  # of the panel at a break: the logarithm left there weighs less than rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
-def rule(interval, breaks=(), extra=()):
+def rule(interval: Ends, breaks: Places = (), extra: Places = ()) -> tuple[Array, Array]:
     """Nodes x inside the contact and weights of ∫ dx; `extra` are places to grade to besides the
     breaks (a principal value's).
     """
@@ -43,14 +51,14 @@ def rule(interval, breaks=(), extra=()):
     return x[keep], weight[keep]
 
 
-def load_and_moment(pressure, interval, breaks=()):
+def load_and_moment(pressure: Pressure, interval: Ends, breaks: Places = ()) -> tuple[float, float]:
     """∫p dx and ∫p (x - m) dx."""
     x, weight = rule(interval, breaks)
     p = weight * pressure(x)
     return float(p.sum()), float((p * (x - 0.5 * (interval[0] + interval[1]))).sum())
 
 
-def principal_value(pressure, interval, x, breaks=()):
+def principal_value(pressure: Pressure, interval: Ends, x: float, breaks: Places = ()) -> float:
     """1/π PV∫ p(t)/(x - t) dt at one x inside: p(x) taken out, whose own integral is a
     logarithm.
     """
@@ -64,7 +72,7 @@ def principal_value(pressure, interval, x, breaks=()):
     )
 
 
-def rounding_of_x(pressure, interval, breaks=()):
+def rounding_of_x(pressure: Pressure, interval: Ends, breaks: Places = ()) -> float:
     """∫|p(x + 1 ulp) - p(x)| dx: what no pressure of a double x can avoid."""
     x, weight = rule(interval, breaks)
     return float(
@@ -75,7 +83,7 @@ def rounding_of_x(pressure, interval, breaks=()):
     )
 
 
-def peak(pressure, interval, breaks=()):
+def peak(pressure: Pressure, interval: Ends, breaks: Places = ()) -> float:
     """The largest pressure between 1e-3 r of the edges and 1e-6 r of the breaks, where it may be
     infinite.
     """

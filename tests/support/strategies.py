@@ -6,31 +6,34 @@ multiples of powers of two.
 """
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from hypothesis import strategies as st
 
 import sie
 
+Floats = st.SearchStrategy[float]
 
-def between(lo, hi):
+
+def between(lo: float, hi: float) -> Floats:
     """Numbers of a size that contacts have: what the ends of the range of doubles do is tested
     apart.
     """
     return st.floats(lo, hi, allow_nan=False).map(lambda v: v if abs(v) > 1e-100 else 0.0)
 
 
-def log_between(lo, hi):
+def log_between(lo: float, hi: float) -> Floats:
     return st.floats(np.log10(lo), np.log10(hi)).map(lambda e: float(10.0**e))
 
 
-def dyadic(lo, hi, bits=8):
+def dyadic(lo: float, hi: float, bits: int = 8) -> Floats:
     """Multiples of 2^-bits: their sums and products are exact."""
     return st.integers(round(lo * 2**bits), round(hi * 2**bits)).map(lambda n: n / 2**bits)
 
 
 @st.composite
-def chains(draw, jumps=True):
+def chains(draw: st.DrawFn, jumps: bool = True) -> sie.Piecewise:
     """Convex, piecewise linear slope on 2 to 8 pieces, from below -1/2 to above 1/2: unequal
     corners, flats, two radii, wedges.
     """
@@ -57,15 +60,15 @@ def chains(draw, jumps=True):
     return sie.Piecewise([float(b) for b in breaks], [tuple(map(float, row)) for row in rows])
 
 
-def _sinh(x):
+def _sinh(x: Any) -> Any:
     return np.sinh(x)
 
 
-def _wavy(x):
+def _wavy(x: Any) -> Any:
     return x + 0.4 * np.sin(2.0 * x)
 
 
-def _runge(x):
+def _runge(x: Any) -> Any:
     return x * (1.0 + 4.0 / (1.0 + 9.0 * x * x))
 
 
@@ -96,7 +99,7 @@ round_profiles = st.one_of(
 
 
 @st.composite
-def sharp_profiles(draw):
+def sharp_profiles(draw: st.DrawFn) -> sie.Profile:
     """Indenters with ends: contact reaches none, one or both of them."""
     kind = draw(st.sampled_from(["flat", "function", "chain"]))
     if kind == "flat":
@@ -112,7 +115,7 @@ def sharp_profiles(draw):
 
 
 @st.composite
-def profiles(draw):
+def profiles(draw: st.DrawFn) -> sie.Profile:
     """Any kind, a sum of two, moved, mirrored."""
     profile = draw(round_profiles)
     if draw(st.integers(0, 3)) == 0:
@@ -125,7 +128,7 @@ def profiles(draw):
 
 
 @st.composite
-def scenes(draw, profile=None, sharp=True):
+def scenes(draw: st.DrawFn, profile: sie.Profile | None = None, sharp: bool = True) -> sie.Scene:
     """A profile, a load or (round profiles) a half-width, a tilt that the profile's slopes can
     bear.
     """

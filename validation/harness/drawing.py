@@ -20,7 +20,7 @@ from validation.harness.records import Curve, Map
 WIDTH, HEIGHT = 5.0, 3.7  # inches, as are all that follow
 LETTER, LINE, MARGIN = 0.083, 0.22, 0.15  # of a letter, of a line of them, of what stays free
 HEAD, FOOT = 0.28, 0.5  # of a title, of tick labels and a label
-STYLE = {
+STYLE: dict[Any, Any] = {
     "svg.fonttype": "none",
     "svg.hashsalt": "validation",
     "font.family": "sans-serif",
@@ -195,7 +195,7 @@ def svg(figure: Figure) -> str:
     text = io.StringIO()
     with matplotlib.rc_context(STYLE):
         _margins(figure.drawing)
-        canvas = FigureCanvasSVG(figure.drawing)  # `savefig` would draw it twice again
+        canvas: Any = FigureCanvasSVG(figure.drawing)  # `savefig` would draw it twice again
         canvas.print_svg(
             text, metadata={"Date": None, "Creator": None, "Format": None, "Type": None}
         )

@@ -20,6 +20,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from numpy.typing import NDArray
+
+Numbers = Sequence[float] | NDArray[Any]
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -102,8 +106,8 @@ class Curve:
 
     figure: str
     label: str
-    x: Sequence[float]
-    y: Sequence[float]
+    x: Numbers
+    y: Numbers
     style: str = "line"
     about: dict[str, Any] = field(default_factory=dict)
 
@@ -113,9 +117,9 @@ class Map:
     """values[i][j] over x[j], y[i]."""
 
     figure: str
-    x: Sequence[float]
-    y: Sequence[float]
-    values: Sequence[Sequence[float]]
+    x: Numbers
+    y: Numbers
+    values: Sequence[Numbers] | NDArray[Any]
     about: dict[str, Any] = field(default_factory=dict)
 
 

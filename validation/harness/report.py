@@ -113,7 +113,7 @@ def _claims(claims: Sequence[Claim]) -> str:
             f"<br><span class=note>{escape(c.erratum)}</span>" if c.erratum else ""
         )
         control = f"{number(c.control)} <span class=note>{escape(c.wrong)}</span>"
-        cells = (
+        cells: tuple[str, ...] = (
             f'<td><span class="badge {c.verdict}">{c.verdict}</span></td>',
             f"<td>{what}</td>",
             _cell("by", escape(c.by)),
@@ -160,4 +160,4 @@ def number(value: Any) -> str:
         return escape(str(value))
     if isinstance(value, int) or not math.isfinite(value) or value == 0:
         return str(value)
-    return f"{value:.4g}" if 1e-3 <= abs(value) < 1e5 else f"{value:.1e}"
+    return f"{value:.4g}" if 1e-3 <= abs(float(value)) < 1e5 else f"{value:.1e}"

@@ -19,7 +19,7 @@ from validation.rivals.race import PATIENCE, PROMISE, Point, closed_form, curve
 
 DEPTH = 0.01  # half-widths
 NODES = (8, 32, 128, 512, 2048)
-FORM = {"half_flat": 0.5, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
+FORM: dict[str, Any] = {"half_flat": 0.5, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
 Runner = Callable[[int], Callable[[], Any]]
 mp = context(25)
 

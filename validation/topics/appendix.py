@@ -332,7 +332,7 @@ def _to_ten(value: float) -> float:
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    rows = []
+    rows: list[tuple[Any, ...]] = []
     settings = [
         Setting(*case) for case in (QUICK if quick else CASES)
     ]  # each remembers its integrals

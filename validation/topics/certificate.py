@@ -117,7 +117,12 @@ def _pressed(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
 def _sliding(kind: str, rng: np.random.Generator, sizes: tuple[float, float, float]) -> Contact:
     b, E, R = sizes
     coupling = float(rng.uniform(-0.49, 0.49))
-    common = {"modulus": E, "dundurs": coupling / 2.0, "friction": 2.0, "sliding": 1}
+    common: dict[str, Any] = {
+        "modulus": E,
+        "dundurs": coupling / 2.0,
+        "friction": 2.0,
+        "sliding": 1,
+    }
     if kind == "sliding parabola":
         given = {
             "half_width": b,

@@ -8,7 +8,8 @@ all skips off, and then one of them at a time.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ SAVED, NO_LOSS = (
 )  # times; one skip alone may save little, which a busy machine hides, but must not cost
 RIM = sie.RoundedFlat(0.5, 1.0)
 SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
-SLIPPING = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
+SLIPPING: dict[str, Any] = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
 SCENES = {
     "parabola": sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3),
     "rounded flat": sie.Scene(profile=RIM, modulus=1.0, normal_load=0.3),
@@ -52,6 +53,10 @@ SCENES = {
 def answers(solution: sie.Solution, x: Any) -> Any:
     """Pressure and shear."""
     return np.concatenate((solution.pressure(x), solution.shear(x)))
+
+
+def _solved(scene: sie.Scene, x: Any, economy: Collection[str]) -> Any:
+    return answers(sie.solve(scene, economy=economy), x)
 
 
 def difference(pair: tuple[Any, Any]) -> float:
@@ -88,10 +93,7 @@ def one_by_one(quick: bool) -> Iterator[Record]:
         scene, rest = SCENES[name], ECONOMY - {skip}
         x = np.linspace(*sie.solve(scene).edges, 1003)[1:-1]
         seconds = medians(
-            (
-                lambda s=scene, x=x: answers(sie.solve(s), x),
-                lambda s=scene, x=x, rest=rest: answers(sie.solve(s, economy=rest), x),
-            ),
+            (partial(_solved, scene, x, ECONOMY), partial(_solved, scene, x, rest)),
             0.05 if quick else 0.2,
         )
         apart = difference(

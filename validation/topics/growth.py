@@ -42,7 +42,7 @@ def of_pieces(n: int) -> Callable[[], Any]:
     slope = np.concatenate(([0.0], np.cumsum(rise))) - 0.5 * rise.sum()
     curvature = rise / np.diff(breaks)
     rows = np.stack((slope[:-1] - curvature * breaks[:-1], curvature), axis=1)
-    profile = sie.Piecewise(breaks, rows)
+    profile = sie.Piecewise(breaks.tolist(), rows.tolist())
     scene = sie.Scene(profile=profile, modulus=1.0, normal_load=0.5)
     return lambda: sie.solve(scene).pressure(x)
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -173,7 +174,7 @@ def trial(rng: np.random.Generator, shape: Shape, given: str) -> Trial | None:
     if load <= 0 or not _presses(touched):
         return None
     missed = float(rng.choice((-1, 1)) * 10.0 ** rng.uniform(-15, -4))
-    scene = {
+    scene: dict[str, Any] = {
         "load, tilt": {"normal_load": float(load * (1 + missed)), "tilt": tilt},
         "load, moment": {"normal_load": float(load * (1 + missed)), "moment": float(moment)},
         "half-width, tilt": {"half_width": float(touched.r * (1 + missed)), "tilt": tilt},

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -65,7 +66,7 @@ def compute(quick: bool) -> Iterator[Record]:
 
 
 def claims(rows: list[Row]) -> Iterator[Claim]:
-    promise = {"by": "README: to machine precision", "high": PROMISE}
+    promise: dict[str, Any] = {"by": "README: to machine precision", "high": PROMISE}
     yield Claim(
         "largest error of the pressure, over its peak",
         measured=largest(r.error for r in rows),

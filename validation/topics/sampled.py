@@ -193,7 +193,8 @@ def noise(n: int) -> Iterator[Record]:
         "the noise left in the trace",
         high=ONE_PERCENT,
     )
-    x, h = scene.profile.points, scene.profile.heights  # type: ignore[attr-defined]
+    smooth: Any = scene.profile
+    x, h = smooth.points, smooth.heights
     yield Curve("noise", f"{n} points, smoothed by cross validation", s, p)
     yield Curve(
         "noise", "Hertz", s, 0.5 * np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)), "dashed"
@@ -217,17 +218,7 @@ def noise(n: int) -> Iterator[Record]:
             "rms of p / peak",
             "time [s]",
         ),
-        [
-            (
-                n,
-                NOISE,
-                scene.profile.lam,
-                scene.profile.misfit,
-                solution.half_width / b - 1.0,
-                2.0 * rms,
-                seconds,
-            )
-        ],  # type: ignore[attr-defined]
+        [(n, NOISE, smooth.lam, smooth.misfit, solution.half_width / b - 1.0, 2.0 * rms, seconds)],
         "The time is that of smoothing, solving and 401 pressures, once.",
     )
 

@@ -45,19 +45,19 @@ class Slider:
 
     name: str
     profile: sie.Profile
-    loads: dict[str, float]
+    loads: dict[str, Any]
     pressure: Callable[[Any, float, Any], Any]
     potential: Callable[[Any, float], Any] | None = None
     moment: Callable[[float], Any] | None = None
 
     def solve(self, coupling: float) -> sie.Solution:
         """βf = coupling with f = 2."""
-        sliding = {"dundurs": 0.5 * coupling, "friction": 2.0, "sliding": 1}
+        sliding: dict[str, Any] = {"dundurs": 0.5 * coupling, "friction": 2.0, "sliding": 1}
         return sie.solve(sie.Scene(profile=self.profile, modulus=1.0, **sliding, **self.loads))
 
 
-HERTZ = {"half_width": 1.0, "radius": 1.0, "modulus": 1.0}
-FLAT = {"half_width": 1.0, "normal_load": 1.0}
+HERTZ: dict[str, Any] = {"half_width": 1.0, "radius": 1.0, "modulus": 1.0}
+FLAT: dict[str, Any] = {"half_width": 1.0, "normal_load": 1.0}
 PUNCH = {"normal_load": 0.3, "half_flat": 0.5, "radius": 1.0, "modulus": 1.0}
 SLIDERS = (
     Slider(
@@ -233,7 +233,12 @@ def full_stick(quick: bool) -> Iterator[Record]:
 
 def _bonded_scene(beta: float, P: float, Q: float, moment: float = 0.0) -> sie.Scene:
     """Free to tilt, as Q makes it do where β ≠ 0."""
-    loads = {"normal_load": P, "tangential_load": Q, "moment": moment, "friction": math.inf}
+    loads: dict[str, Any] = {
+        "normal_load": P,
+        "tangential_load": Q,
+        "moment": moment,
+        "friction": math.inf,
+    }
     return sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=beta, **loads)
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ import sie
 from analytic import cattaneo, cattaneo_rounded, hertz
 from oracles.principal_value import context
 from validation.harness.measures import apart, largest, relative
-from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
+from validation.harness.records import Claim, Curve, Doing, Numbers, Record, Table, checked
 from validation.harness.timing import fastest
 
 TITLE = "Partial slip: zones, shear, slip, energy, cycles"
@@ -54,7 +55,7 @@ class Contact:
     module: Any
     given: dict[str, float]
 
-    def exact(self, name: str, x: Sequence[float], *loads: float) -> list[Any]:
+    def exact(self, name: str, x: Numbers, *loads: float) -> list[Any]:
         """`name` of the module at points: the last load is that of now, the others are where it
         turned.
         """
@@ -66,7 +67,7 @@ class Contact:
             for v in map(float, x)
         ]
 
-    def scene(self, **loads: float) -> sie.Scene:
+    def scene(self, **loads: Any) -> sie.Scene:
         return sie.Scene(profile=self.profile, modulus=E, normal_load=P, friction=F, **loads)
 
 
@@ -205,7 +206,7 @@ def turned(contact: Contact) -> Iterator[Record]:
         if k:
             first = history[0].shear(x)
             yield checked(
-                lambda q, exact=exact: apart(q, exact),
+                partial(apart, true=exact),
                 history[k].shear(x),
                 first,
                 what=f"{contact.name}: error of the {name[:-6]} shear",

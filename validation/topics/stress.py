@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
+from oracles.half_plane_stress import stresses
 from oracles.normal_contact import mp
 from validation.cases import SMOOTH_CASES, Case, exact, solved
 from validation.harness.measures import largest
 from validation.harness.records import Claim, Curve, Doing, Record, Table
 from validation.harness.timing import compared
-from validation.stress_reference import stresses
 
 TITLE = "The stress inside, against 40 digits"
 SECONDS = (2.0, 29.0)

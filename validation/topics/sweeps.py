@@ -175,9 +175,8 @@ def pieces(n: float) -> Outcome:
     d = 2.0 ** -math.ceil(math.log2(corners + 1))
     b, a, k = corners * d, (np.arange(corners) + 0.5) * d, np.arange(corners + 1.0)
     right = np.stack((-0.5 * d * k * k, k), axis=1)  # h' = k x - d k²/2 after k of the corners
-    profile = sie.Piecewise(
-        np.concatenate((-a[::-1], a)), np.concatenate(((right * (-1.0, 1.0))[:0:-1], right))
-    )
+    rows = np.concatenate(((right * (-1.0, 1.0))[:0:-1], right))
+    profile = sie.Piecewise(np.concatenate((-a[::-1], a)).tolist(), rows.tolist())
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=b))
     x = b * np.array([-0.9, -0.3, 1e-4, 0.77])
     true = [

@@ -207,7 +207,7 @@ REPLACED = (
 )  # fmt: skip
 
 
-def _shear(name: str, says: str, right: dict[str, float], wrong: dict[str, float]) -> Mutant:
+def _shear(name: str, says: str, right: dict[str, Any], wrong: dict[str, Any]) -> Mutant:
     """The shear of another load in place of the right one, judged by the certificate of the
     shear.
     """
@@ -223,6 +223,7 @@ def _shear(name: str, says: str, right: dict[str, float], wrong: dict[str, float
         if is_wrong:
             solution.__dict__["tangential"] = sie.solve(sie.Scene(**common, **wrong)).tangential
         shear = solution.check().shear
+        assert shear is not None
         return largest((shear.residual, abs(shear.equilibrium), shear.excess, -shear.opposing))
 
     return Mutant(name, says, "certificate of the shear", number)

@@ -186,7 +186,7 @@ def _trace() -> Any:
 
 
 def _cut_parabola() -> Any:
-    profile = sie.Piecewise(np.linspace(-2.0, 2.0, 1001), [(0.0, 1.0)] * 1000)
+    profile = sie.Piecewise(np.linspace(-2.0, 2.0, 1001).tolist(), [(0.0, 1.0)] * 1000)
     kinked = profile + sie.RoundedFlat(0.5, 1.0)  # else nothing jumps and nothing is summed
     return sie.solve(sie.Scene(profile=kinked, modulus=1.0, half_width=1.0)).pressure(PLACES)
 

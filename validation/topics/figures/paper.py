@@ -91,10 +91,11 @@ def _contours(found: Found) -> Figure:
     maps = found.maps("figure 4")
     drawing, panels = axes(len(maps), height=2.75)
     for ax, chart in zip(panels, maps, strict=True):
-        levels = np.linspace(0.0, float(np.max(chart.values)), 13)[1:]
-        ax.contour(chart.x, chart.y, chart.values, levels=levels, linewidths=0.7, cmap="viridis")
+        values = np.array(chart.values, dtype=float)
+        levels = np.linspace(0.0, values.max(), 13)[1:]
+        ax.contour(chart.x, chart.y, values, levels=levels, linewidths=0.7, cmap="viridis")
         ax.plot(*chart.about["weakest"], "x", color="tab:red")
-        labelled(ax, "x/b", "y/b", f"{chart.about['title']}: largest {np.max(chart.values):.3f}")
+        labelled(ax, "x/b", "y/b", f"{chart.about['title']}: largest {values.max():.3f}")
         ax.set(aspect="equal", ylim=(2.0, -0.05))
     return Figure(
         "figure-4",
