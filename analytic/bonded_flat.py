@@ -45,9 +45,8 @@ def pressure(
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, dundurs=0.0)), 12)
     1.25
     """
-    x = real("x", x, lib)
     contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
-    return as_result(_pressure(lib, x, contact))
+    return as_result(_pressure(lib, real("x", x, lib), contact))
 
 
 @documented("the shear q, a stress", *SOURCES)
@@ -61,9 +60,8 @@ def shear(
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25
     """
-    x = real("x", x, lib)
     contact = _contact_of(half_width, normal_load, dundurs, shear_load, moment, lib=lib)
-    return as_result(_shear(lib, x, contact))
+    return as_result(_shear(lib, real("x", x, lib), contact))
 
 
 @documented("the rotation h', in radians", *SOURCES)

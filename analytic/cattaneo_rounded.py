@@ -79,9 +79,9 @@ def stick_rim(
     >>> round(float(stick_rim(**given, tangential_load=0.25) / whole), 12)
     1.0
     """
-    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
     used = traction(lib, friction, normal_load, tangential_load)
-    return as_result(zones_of(lib, P, contact, used).stick)
+    contact = contact_of(normal_load, half_flat, radius, modulus, lib)
+    return as_result(zones_of(lib, *contact, used).stick)
 
 
 @documented("the length of a slip zone", *SOURCES)
@@ -95,9 +95,9 @@ def slip_width(
     >>> round(float(slip_width(**given, tangential_load=3 * np.pi / 16)), 12)
     0.5
     """
-    P, contact = contact_of(normal_load, half_flat, radius, modulus, lib)
+    contact = contact_of(normal_load, half_flat, radius, modulus, lib)
     used = traction(lib, friction, normal_load, tangential_load)
-    return as_result(zones_of(lib, P, contact, used).slip)
+    return as_result(zones_of(lib, *contact, used).slip)
 
 
 @documented("the shear q, a stress", *SOURCES)

@@ -178,9 +178,8 @@ def potential(
     z = point(z, lib)
     contact = unit.contact_of(half_flat, half_width, rim, lib)
     R, E = positives(lib, radius=radius, modulus=modulus)
-    cut = on_cut(lib, z, contact.b, contact.low)
-    limit, elsewhere = unit.potential_on_cut, unit.potential_off_cut
-    value = in_plane(lib, cut, side, limit, elsewhere, z, contact)
+    formulas = unit.potential_on_cut, unit.potential_off_cut
+    value = in_plane(lib, on_cut(lib, z, contact.b, contact.low), side, *formulas, z, contact)
     return as_result(scaled(E * (contact.b / R) / lib.pi, value, lib))
 
 
@@ -201,9 +200,8 @@ def potential_derivative(
     z = point(z, lib)
     contact = unit.contact_of(half_flat, half_width, rim, lib)
     R, E = positives(lib, radius=radius, modulus=modulus)
-    cut = on_cut(lib, z, contact.b, contact.low)
-    limit, elsewhere = unit.derivative_on_cut, unit.derivative_off_cut
-    value = in_plane(lib, cut, side, limit, elsewhere, z, contact)
+    formulas = unit.derivative_on_cut, unit.derivative_off_cut
+    value = in_plane(lib, on_cut(lib, z, contact.b, contact.low), side, *formulas, z, contact)
     return as_result(scaled(E / R / lib.pi, value, lib))
 
 

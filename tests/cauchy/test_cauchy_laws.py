@@ -17,6 +17,7 @@ from strategies import between
 
 import sie
 from oracles.manufactured import Manufactured, exact, exponents, mp, needed, right_hand_side
+from validation.topics.collocation import parabola_in_sliding
 
 PROMISE = 1e-13  # of the peak
 KINDS = [(False, False), (True, False), (False, True), (True, True)]
@@ -635,18 +636,8 @@ def test_the_residual_is_small_at_points_that_were_not_used(k):
 
 @pytest.mark.parametrize("strength", [-0.3, -0.05, 0.0, 0.2, 0.3])
 def test_the_sliding_parabola_has_the_pressure_of_the_closed_form(strength):
-    """β f = strength: 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, both ends bounded (Hills, Nowell &
-    Sackfield 1993); E* = R = w = 1.
-    """
+    pressure, x, closed = parabola_in_sliding(strength, 101)
     epsilon = np.arctan(-strength) / np.pi
-    c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
-    pressure = sie.CauchyEquation(
-        (-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded"
-    ).solve()
-    x = np.linspace(-c1, c2, 101)[1:-1]
-    closed = (
-        0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
-    )
     assert pressure(x) == pytest.approx(closed, rel=PROMISE)
     assert pressure.resultant == pytest.approx(np.pi * (0.25 - epsilon**2), rel=PROMISE)
 

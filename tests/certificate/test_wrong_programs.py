@@ -15,21 +15,14 @@ from hypothesis import given
 import sie
 from sie.contact.normal import normal_contact, pressure
 from validation.cases import BUMP, CASES, SINH, Case, solved
-
-
-class Wrong:
-    """A density with other values; `claims` are attributes that lie (resultant, moment)."""
-
-    def __init__(self, density, values, **claims):
-        self.__dict__.update(claims, right=density, values=values)
-
-    def __call__(self, x):
-        return self.values(np.asarray(x, dtype=float))
-
-    def __getattr__(self, name):
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return getattr(self.right, name)
+from validation.wrong_programs.pressures import (
+    PUNCH,
+    SKEW,
+    Wrong,
+    closed_form,
+    gauss_chebyshev,
+    root,
+)
 
 
 def certificate(scene, values=None, **claims):
@@ -55,34 +48,7 @@ def assert_caught(scene, values=None, share=1 / 3, **claims):
     assert not found.error < share * error
 
 
-PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
-SKEW = sie.Scene(
-    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
-    modulus=1.0,
-    half_width=1.125,
-)
 SIZES = (1e-3, 1e-6, 1e-9, 1e-12)
-
-
-def closed_form(x, second=1.0, b=1.0):
-    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second
-    logarithm.
-    """
-    a = 0.5
-    x = np.abs(x)
-    phi, phi0 = np.arcsin(np.clip(x / b, 0, 1)), np.arcsin(a / b)
-    with np.errstate(all="ignore"):
-        first = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
-        logs = first + second * a * np.log(
-            np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2))
-        )
-    return ((np.pi - 2 * phi0) * b * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
-        2 * np.pi
-    )
-
-
-def root(x):
-    return np.sqrt(np.maximum((1 - x) * (1 + x), 1e-30))
 
 
 def right(scene):
@@ -185,26 +151,6 @@ def test_a_panel_of_the_wrong_height_is_caught(size):
 
 
 # -- wrong Gauss-Chebyshev ------------------------------------------------------------------------
-
-
-def gauss_chebyshev(scene, n=40, shift=0.0, at=7, half=0.0):
-    """p = E*/2 sqrt(1 - s²) Σ g_{k+1} U_k(s) from n nodes, one of them shifted, or all of them by
-    `half` a spacing.
-    """
-    solution = sie.solve(scene)
-    m, r = solution.centre, solution.half_width
-    theta = (np.arange(n) + 0.5 + half) * np.pi / n
-    s = np.cos(theta)
-    s[at] += shift
-    H = scene.profile.slope(m + r * s) + solution.tilt
-    theta = (np.arange(n) + 0.5) * np.pi / n
-    g = 2 / n * np.cos(np.arange(n)[:, None] * theta) @ H
-
-    def values(x):
-        phi = np.arccos(np.clip((x - m) / r, -1, 1))
-        return 0.5 * scene.Estar * np.sin(np.arange(1, n) * phi[..., None]) @ g[1:]
-
-    return values
 
 
 ROUND = sie.Scene(profile=SINH, modulus=1.0, half_width=1.5)

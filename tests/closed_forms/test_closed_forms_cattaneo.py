@@ -6,17 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from closed_forms import (
-    EPS,
-    Call,
-    call,
-    coarse,
-    mp,
-    of_every_call,
-    principal_value,
-    resultant,
-    short,
-)
+from closed_forms import EPS, call, coarse, mp, of_every_call, principal_value, resultant, short
 
 from analytic import cattaneo, cattaneo_rounded, hertz, rounded_flat
 
@@ -347,7 +337,7 @@ SLID = {**HERTZ, "tangential_load": 0.35}
 PART = {**ROUNDED, "tangential_load": 0.05}
 SMALL = {**ROUNDED, "tangential_load": 1e-9}
 ENERGY = {"normal_load": 2.0, "friction": 0.3, "tangential_load": 0.35, "modulus": 3.0}
-CALLS: list[Call] = [
+CALLS = [
     (cattaneo.stick_half_width, SLID),
     (cattaneo.slip_width, SLID),
     *((cattaneo.shear, {"x": x, **SLID}) for x in (0.1, -0.9)),

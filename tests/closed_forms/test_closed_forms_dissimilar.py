@@ -7,17 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from closed_forms import (
-    EPS,
-    Call,
-    call,
-    coarse,
-    mp,
-    of_every_call,
-    principal_value,
-    resultant,
-    short,
-)
+from closed_forms import EPS, call, coarse, mp, of_every_call, principal_value, resultant, short
 
 from analytic import (
     bonded_flat,
@@ -363,7 +353,7 @@ def test_thin_rims_keep_their_digits() -> None:
 # --- what holds for all
 # ---------------------------------------------------------------------------------------------
 
-CALLS: list[Call] = [
+CALLS = [
     (sliding_hertz.edges, {"half_width": 1.1, "coupling": 0.3}),
     (sliding_hertz.pressure, {"x": 0.4, **HERTZ, "coupling": -0.49}),
     (sliding_hertz.load, {**HERTZ, "coupling": -0.49}),

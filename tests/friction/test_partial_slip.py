@@ -209,15 +209,10 @@ def test_sliding_is_where_the_rounded_product_is():
     """0.3 x 500 is a little less than 150 in exact arithmetic, and 150 in doubles: that is full
     sliding, as it was meant.
     """
-    solution = sie.solve(
-        sie.Scene(
-            profile=sie.Parabola(1.0),
-            modulus=E,
-            normal_load=500.0,
-            friction=0.3,
-            tangential_load=150.0,
-        )
-    )
+    solution = sie.solve(sie.Scene(
+        profile=sie.Parabola(1.0), modulus=E, normal_load=500.0, friction=0.3,
+        tangential_load=150.0,
+    ))  # fmt: skip
     assert solution.stick == ()
 
 
@@ -413,14 +408,9 @@ def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
     under P + |Q|/f.
     """
     scene = sie.Scene(
-        profile=sie.Flat(1.0),
-        modulus=2.0,
-        normal_load=0.2,
-        friction=0.6,
-        tilt=0.125,
-        tangential_load=0.02,
-        bulk_stress=0.1,
-    )
+        profile=sie.Flat(1.0), modulus=2.0, normal_load=0.2, friction=0.6, tilt=0.125,
+        tangential_load=0.02, bulk_stress=0.1,
+    )  # fmt: skip
     solution = sie.solve(scene)
     assert solution.tangential.kind == "one sign"
     ((lo, hi, sign),) = solution.tangential.slipped
@@ -485,14 +475,9 @@ def test_bulk_stress_alone_slips_to_both_sides(sign):
 def test_the_stress_under_slip_to_both_sides_reaches_the_surface():
     """In each slip zone and in the stick zone: the surface is evaluated by formulas of its own."""
     scene = sie.Scene(
-        profile=sie.Parabola(1.0),
-        modulus=1.0,
-        poisson=0.3,
-        normal_load=0.3,
-        friction=0.5,
-        tangential_load=0.01,
-        bulk_stress=1.0,
-    )
+        profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.5,
+        tangential_load=0.01, bulk_stress=1.0,
+    )  # fmt: skip
     solution = sie.solve(scene)
     ((lo, hi),), b = solution.stick, solution.half_width
     x = np.array([0.5 * (lo - b), 0.5 * (lo + hi), 0.5 * (hi + b)])

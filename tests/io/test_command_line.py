@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command import run
 
 import sie
 from sie import cli as command
@@ -48,17 +49,6 @@ def example(kind, tmp_path):
     path = tmp_path / f"{kind}.toml"
     path.write_text(scene_file.example(kind))
     return str(path)
-
-
-def run(*argv, **options):
-    return subprocess.run(
-        [sys.executable, "-m", "sie", *argv],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-        **options,
-    )
 
 
 def sentence(capsys):
@@ -235,14 +225,9 @@ def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv
 
 def test_the_shear_of_bonded_bodies_is_told(tmp_path):
     flat = sie.Scene(
-        profile=sie.Flat(2.0),
-        modulus=500.0,
-        dundurs=0.3,
-        poisson=0.3,
-        normal_load=20.0,
-        friction=np.inf,
-        tangential_load=3.0,
-    )
+        profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
+        friction=np.inf, tangential_load=3.0,
+    )  # fmt: skip
     told = report.shear_summary(sie.solve(flat), scene_file.UNITS)
     assert "Q = 3" in told and "bonded" in told and "inf" not in told
 

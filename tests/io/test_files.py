@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from command import run
 
 from sie.cli import main
 from sie.io import files
@@ -54,17 +55,6 @@ def refused(argv, capsys):
     out, err = capsys.readouterr()
     assert out == "" and err.startswith("sie: ") and err.count("\n") == 1
     return err
-
-
-def run(*argv, **options):
-    return subprocess.run(
-        [sys.executable, "-m", "sie", *argv],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-        **options,
-    )
 
 
 # -- what is read is not overwritten --------------------------------------------------------------

@@ -12,6 +12,7 @@ matplotlib = pytest.importorskip("matplotlib")
 plot = pytest.importorskip("sie.plots.contact_plot")
 
 STEEL = sie.Elastic(210e3, 0.3)
+PRESSED = {"body": STEEL, "normal_load": 50.0, "friction": 0.5}
 SCENES = {
     "rounded flat": parse(example("rounded-flat")).scene,
     "wedge": parse(example("wedge")).scene,
@@ -174,29 +175,9 @@ def test_matplotlib_s_settings_stay_as_they_were():
 FRETTING = parse(example("fretting-cycle"))
 SHEARED = {
     "partial slip": sie.solve(parse(example("partial-slip")).scene),
-    "sharp edges": sie.solve(
-        sie.Scene(
-            profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, friction=0.5, tangential_load=-10.0
-        )
-    ),
-    "both signs": sie.solve(
-        sie.Scene(
-            profile=sie.Parabola(10.0),
-            body=STEEL,
-            normal_load=50.0,
-            friction=0.5,
-            bulk_stress=300.0,
-        )
-    ),
-    "sliding": sie.solve(
-        sie.Scene(
-            profile=sie.Wedge(0.01),
-            body=STEEL,
-            normal_load=50.0,
-            friction=0.5,
-            tangential_load=25.0,
-        )
-    ),
+    "sharp edges": sie.solve(sie.Scene(profile=sie.Flat(5.0), **PRESSED, tangential_load=-10.0)),
+    "both signs": sie.solve(sie.Scene(profile=sie.Parabola(10.0), **PRESSED, bulk_stress=300.0)),
+    "sliding": sie.solve(sie.Scene(profile=sie.Wedge(0.01), **PRESSED, tangential_load=25.0)),
     "path": sie.follow(FRETTING.scene, sie.Path(FRETTING.path))[-1],
 }
 

@@ -128,14 +128,9 @@ def test_every_load_of_a_scene_can_be_written():
         + "[load]\nhalf_width = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = 4\n"
     ).scene
     assert scene == sie.Scene(
-        profile=sie.Parabola(10.0),
-        modulus=1e5,
-        half_width=1.0,
-        moment=2.0,
-        friction=0.5,
-        tangential_load=3.0,
-        bulk_stress=4.0,
-    )
+        profile=sie.Parabola(10.0), modulus=1e5, half_width=1.0, moment=2.0, friction=0.5,
+        tangential_load=3.0, bulk_stress=4.0,
+    )  # fmt: skip
 
 
 def test_units_are_labels_and_default_to_mm_and_mpa():

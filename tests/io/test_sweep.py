@@ -21,6 +21,7 @@ from sie import workers
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
+THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
 LOADS, TILTS = [0.1, 0.2, 0.4], [0.0, 0.01]
 
 
@@ -195,13 +196,7 @@ def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
 
     monkeypatch.setattr(workers, "as_completed", completed)
     with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [0.1, 0.2, 0.3]},
-            want="half_width",
-            executor=Interrupting(),
-            chunk=1,
-        )
+        sie.sweep(SCENE, **THREE_WIDTHS, executor=Interrupting(), chunk=1)
     assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
 
 
@@ -251,15 +246,7 @@ class Broken(Interrupting):
 
 
 def test_a_worker_that_dies_costs_its_own_chunk_only():
-    found = plain(
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [0.1, 0.2, 0.3]},
-            want="half_width",
-            executor=Broken(),
-            chunk=1,
-        )
-    )
+    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Broken(), chunk=1))
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
     assert found["reason"][2] == "RuntimeError: a worker died"
 

@@ -14,6 +14,9 @@ import sie
 
 STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "tractions", "certificate"}
 ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
+SHEARED = {
+    "profile": sie.RoundedFlat(1.0, 2.0), "modulus": 1.0, "normal_load": 1.0, "friction": 0.5,
+}  # fmt: skip
 SCENES = {
     "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
     "tilted": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, tilt=0.05),
@@ -38,20 +41,8 @@ SCENES = {
         modulus=1.0,
         half_width=2.75,
     ),
-    "partial slip": sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0),
-        modulus=1.0,
-        normal_load=1.0,
-        friction=0.5,
-        tangential_load=0.3,
-    ),
-    "full sliding": sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0),
-        modulus=1.0,
-        normal_load=1.0,
-        friction=0.5,
-        tangential_load=-0.5,
-    ),
+    "partial slip": sie.Scene(**SHEARED, tangential_load=0.3),
+    "full sliding": sie.Scene(**SHEARED, tangential_load=-0.5),
     "both signs": sie.Scene(
         profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3
     ),
@@ -126,13 +117,9 @@ def test_the_footprint_is_the_plan(name, want, economy):
 )
 def test_what_a_solution_is_asked_for_may_be_wanted_by_the_same_name(want):
     scene = sie.Scene(
-        profile=sie.RoundedFlat(1.0, 2.0),
-        modulus=1.0,
-        poisson=0.3,
-        normal_load=1.0,
-        friction=0.5,
+        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5,
         tangential_load=0.3,
-    )
+    )  # fmt: skip
     solution = sie.solve(scene)
     answer = getattr(solution, want)
     if callable(answer):

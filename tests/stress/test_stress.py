@@ -521,15 +521,9 @@ def test_the_stress_in_a_rigid_body_is_refused():
 
 
 def test_partial_slip_is_not_mistaken_for_full_sliding():
-    slipping = sie.solve(
-        sie.Scene(
-            profile=sie.Parabola(1.0),
-            modulus=1.0,
-            normal_load=1.0,
-            friction=0.5,
-            tangential_load=0.4,
-        )
-    )
+    slipping = sie.solve(sie.Scene(
+        profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.4,
+    ))  # fmt: skip
     sliding = slipping.with_(tangential_load=0.5)
     assert slipping.surface_stress(0.0).xy < 0.99 * sliding.surface_stress(
         0.0

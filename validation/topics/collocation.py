@@ -86,22 +86,28 @@ def willmore(a: float, b: float) -> tuple[Any, Any]:
 
 
 def sliding_parabola(strength: float) -> Row:
-    """β f = strength, E* = R = 1, half-width 1 (Hills, Nowell & Sackfield 1993)."""
-    epsilon = np.arctan(-strength) / np.pi
-    c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
-    pressure = sie.CauchyEquation(
-        (-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded"
-    ).solve()
-    x = np.linspace(-c1, c2, 1001)[1:-1]
-    closed = (
-        0.5 * np.cos(np.pi * epsilon) * (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
-    )
+    pressure, x, closed = parabola_in_sliding(strength, 1001)
     return Row(
         f"sliding parabola, βf = {strength}",
         str(pressure.n),
         float(np.abs(pressure(x) / closed - 1).max()),
         pressure.error,
     )
+
+
+def parabola_in_sliding(strength: float, points: int) -> tuple[Any, Any, Any]:
+    """The pressure that solves 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, places, and p in closed form.
+
+    β f = strength, E* = R = 1, half-width 1, both ends bounded (Hills, Nowell & Sackfield 1993).
+    """
+    epsilon = np.arctan(-strength) / np.pi
+    c1, c2 = 1.0 - 2.0 * epsilon, 1.0 + 2.0 * epsilon
+    pressure = sie.CauchyEquation(
+        (-c1, c2), lambda x: 0.5 * x, a=-strength, b=-1.0, ends="bounded"
+    ).solve()
+    x = np.linspace(-c1, c2, points)[1:-1]
+    edges = (c2 - x) ** (0.5 - epsilon) * (c1 + x) ** (0.5 + epsilon)
+    return pressure, x, 0.5 * np.cos(np.pi * epsilon) * edges
 
 
 def bonded_punch(beta: float) -> Row:

@@ -156,13 +156,9 @@ SLIDING = sie.Scene(
     profile=sie.Parabola(1.0), modulus=1.0, dundurs=0.15, friction=2.0, sliding=1, half_width=1.0
 )
 SLIDING_RIM = sie.Scene(
-    profile=sie.RoundedFlat(0.5, 1.0),
-    modulus=1.0,
-    dundurs=0.15,
-    friction=2.0,
-    sliding=1,
+    profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, dundurs=0.15, friction=2.0, sliding=1,
     half_width=1.0,
-)
+)  # fmt: skip
 FLAT = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0, tilt=0.125)
 
 
