@@ -73,12 +73,12 @@ class InequalityError(ContactError):
     Examples
     --------
     >>> import sie
-    >>> bumpy = sie.Parabola(1.0) + sie.FromFunction("0.8*sin(8*x)")
+    >>> hollow = sie.Flat(2.0) + sie.Polynomial((0.0, 0.0, -0.1))
     >>> try:
-    ...     sie.solve(sie.Scene(profile=bumpy, modulus=1.0, normal_load=0.5)).edges
+    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.3)).edges
     ... except sie.InequalityError as error:
-    ...     print([round(edge, 3) for edge in error.reached["edges"]])
-    [-0.851, 0.851]
+    ...     print(error.reached["edges"])
+    (-2.0, 2.0)
     """
 
 
