@@ -245,7 +245,7 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
 
 
 def _place(path: pathlib.Path) -> int | pathlib.Path:
-    """What the system knows the file by."""
+    """The path, or the descriptor of standard output."""
     return 1 if path == pathlib.Path(STANDARD) else path
 
 
@@ -319,7 +319,7 @@ def _drawn(make: Callable[[], Any], path: pathlib.Path) -> bytes:
 
 
 def _figure(solution: Solution, file: SceneFile) -> Any:
-    """The contact, or where the stress is wanted its contours."""
+    """The picture of the contact; contours of the stress if that is wanted."""
     if {"stress", "yield"} & set(file.want):
         from .plots.stress_plot import contours  # noqa: PLC0415
 

@@ -47,15 +47,56 @@ class ContactError(Exception):
 
 
 class LoadError(ContactError):
-    """The profile cannot carry the load or the moment in one contact."""
+    """The profile cannot carry the load or the moment in one contact.
+
+    Notes
+    -----
+    `reached["load"]` is the largest load that it carries, where that is known.
+
+    Examples
+    --------
+    >>> import sie
+    >>> sie.solve(sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=1.0, tilt=0.2)).edges
+    Traceback (most recent call last):
+    sie.errors.LoadError: the profile falls without bound to the left: no lowest point, ...
+    """
 
 
 class InequalityError(ContactError):
-    """One contact would need tension inside it (p < 0) or overlap outside it (gap < 0)."""
+    """One contact would need tension inside it (p < 0) or overlap outside it (gap < 0).
+
+    Notes
+    -----
+    `reached` has the edges and the place x of the violation, and the intervals of it as `tension`
+    or `overlap`.
+
+    Examples
+    --------
+    >>> import sie
+    >>> hollow = sie.Flat(2.0) + sie.Polynomial((0.0, 0.0, -0.1))
+    >>> try:
+    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.3)).edges
+    ... except sie.InequalityError as error:
+    ...     print(error.reached["edges"])
+    (-2.0, 2.0)
+    """
 
 
 class ResolutionError(ContactError):
-    """A function does not settle to the tolerance: noise, a singularity or an undeclared break."""
+    """A function does not settle to the tolerance: noise, a singularity or an undeclared break.
+
+    Notes
+    -----
+    `reached["x"]` is near the place where the function still changes.
+
+    Examples
+    --------
+    >>> import sie
+    >>> noisy = sie.FromFunction("x + 1e-3*sin(1e9*x)")
+    >>> sie.solve(sie.Scene(profile=noisy, modulus=1.0, normal_load=1.0)).edges
+    Traceback (most recent call last):
+    sie.errors.ResolutionError: the slope does not settle: ...
+    """
 
 
 def _rebuilt(kind: type[ContactError], message: str, reached: dict[str, Any]) -> ContactError:

@@ -1,7 +1,7 @@
 """Reading of ordinary files that are not too long, and writing of files whole or not at all.
 
 A file is written under another name beside its place and then moved there; the move is one step, so
-that no reader ever sees half a file. A writer that is killed leaves the other name behind. No
+that no reader opens half a file. A writer that is killed leaves the other name behind. No
 user's file has such a name, and a writer that lives holds a lock on it: the next run that writes in
 the folder removes it.
 """
@@ -99,8 +99,8 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
 def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     """Write all files; they are at their places after the block, or untouched if it fails.
 
-    A reader of the block's words who leaves early (BrokenPipeError) is no failure. A device or a
-    pipe cannot be replaced and is written to as it is. Raises OSError.
+    A BrokenPipeError in the block is no failure. A device or a pipe cannot be replaced and is
+    written to as it is. Raises OSError.
     """
     parts: dict[Path, BinaryIO] = {}
     try:
@@ -130,7 +130,7 @@ def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
 
 @contextmanager
 def _named(contents: Iterable[Path]) -> Iterator[None]:
-    """Puts the names of the files in front of what the system says."""
+    """Put the names of the files in front of the system's message."""
     try:
         yield
     except BrokenPipeError:
@@ -149,7 +149,7 @@ def _is_device(path: Path) -> bool:
 
 
 def _part_name(token: str) -> str:
-    """No user's file has this name by chance: its second half follows from the first."""
+    """A name that no user's file has by chance: its second half follows from the first."""
     return f".sie-{token}-{hashlib.sha256(f'sie {token}'.encode()).hexdigest()[:16]}.part"
 
 
@@ -187,7 +187,7 @@ def _discard(part: BinaryIO) -> None:
 
 
 def _remove_stale(folder: Path) -> None:
-    """Removes the parts of killed writers: names of our own, whose lock nobody holds."""
+    """Remove the parts of killed writers: this module's names, whose lock no process holds."""
     with suppress(OSError):
         for path in folder.glob(".sie-*.part"):
             if path.name == _part_name(path.name.split("-")[1]) and not path.is_symlink():

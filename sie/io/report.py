@@ -83,7 +83,7 @@ def gap_summary(solution: Solution, units: Units) -> str:
 
 
 def shear_summary(solution: Solution, units: Units) -> str:
-    """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
+    """Stick zones, slip zones and dissipated energy; the turning points of a path as a table."""
     if not solution.carries_shear:
         return _rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
@@ -163,7 +163,7 @@ def tension_summary(solution: Solution, units: Units) -> str:
 
 
 def check_summary(solution: Solution, _units: Units) -> str:
-    """The certificate of the equations, and of each trace what its noise leaves open."""
+    """The certificate, and for each trace the error that its noise implies."""
     return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
 
 

@@ -387,7 +387,7 @@ def _body(name: str, value: Any) -> Body:
 
 
 class _Naming:
-    """Puts the table in front of what a value's own check says."""
+    """Puts the name of the table in front of the message that refuses one of its values."""
 
     def __init__(self, where: str) -> None:
         self.where = where
@@ -405,7 +405,7 @@ class _Naming:
 
 
 def wants(where: str, names: Iterable[str]) -> tuple[str, ...]:
-    """The names, if all of them can be asked for; ValueError, with the nearest that can, if not."""
+    """The names, if all of them can be asked for. ValueError, with the nearest name, if not."""
     for name in names:
         if name not in WANTS:
             raise ValueError(f'{where} "{name}" is not known: {suggestion(name, WANTS)}')

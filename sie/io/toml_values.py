@@ -41,7 +41,7 @@ def text(where: str, value: Any) -> str:
 
 
 def flag(where: str, value: Any) -> bool:
-    """true or false."""
+    """A truth value."""
     if not isinstance(value, bool):
         raise ValueError(
             f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes"

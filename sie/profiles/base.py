@@ -398,7 +398,7 @@ class Derived(Profile):
 
     @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
-        """Those of the profile that ends first."""
+        """Whether the ends are corners, for the profile whose end comes first."""
         corners = [True, True]
         for profile, sign, shift, _ in self._parts[0]:
             ends = zip(profile.domain, profile.ends_are_corners, strict=True)

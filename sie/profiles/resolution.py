@@ -128,9 +128,9 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
     middle = 0.5 * (lo + hi)
     parts = [np.stack((lo, middle), axis=1), np.stack((middle, hi), axis=1)]
     for end in (0, 1):
-        at, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
+        origin, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
         away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
-        x = at[:, None] + away
+        x = origin[:, None] + away
         parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
     halves = np.concatenate(parts)
     return halves[halves[:, 0] < halves[:, 1]]  # the last halvings may be less than an ulp
@@ -240,12 +240,12 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
         pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n)))
     )
     primitive = chebyshev.antiderivative(c) * (0.5 * length)[:, None]
-    at = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
-    at -= at[int(np.searchsorted(pieces.breaks, start))]
+    before = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
+    before -= before[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
     s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
-    values = at[j] + np.array(
+    values = before[j] + np.array(
         [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
     )
     return values.reshape(x.shape)

@@ -159,7 +159,7 @@ class Slope:
 
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
-        """Which pieces are flat: they cost nothing."""
+        """Which pieces are flat and need no work."""
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))
@@ -194,7 +194,7 @@ class Slope:
 
     @cached_property
     def few(self) -> bool:
-        """Whether plain floats beat arrays."""
+        """Whether plain floats are faster than arrays."""
         return (
             not self.functions
             and len(self.is_zero) - int(self.is_zero.sum()) <= FEW
@@ -238,16 +238,16 @@ class Slope:
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
-        """(break, what H rises by there), of the inner breaks where that is more than rounding."""
-        found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
+        """(break, rise of H there) of the inner breaks where H jumps by more than rounding."""
+        sides = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
         return tuple(
             (b, above - below)
-            for b, below, above in found
+            for b, below, above in sides
             if abs(above - below) > JUMP * max(abs(below), abs(above))
         )
 
     def corner(self, x: float) -> tuple[float, float]:
-        """What H and H' jump by at a break x; of functions H alone, one ulp beside it."""
+        """Jumps of H and H' at a break x; of functions only that of H, one ulp beside it."""
         j = int(np.searchsorted(self.breaks, x))
         if not 0 < j < len(self.origins):
             return 0.0, 0.0
@@ -324,7 +324,7 @@ class Slope:
         )
 
     def within(self, lo: float, hi: float) -> Slope:
-        """The same slope on [lo, hi] alone, with walls there."""
+        """The same slope on [lo, hi], whose ends become the ends of the indenter."""
         split = self.split_at(lo).split_at(hi)
         kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
         ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])

@@ -68,7 +68,7 @@ def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
 
 
 def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
-    """The same of the smoothing spline with λ = lam > 0; breaks at its knots."""
+    """(breaks, coefficients) of the smoothing spline with λ = lam > 0; breaks at its knots."""
     problem = _Problem(x, h)
     return problem.spline(lam / problem.length**3)
 
@@ -79,7 +79,7 @@ def longest_lambda(x: Array) -> float:
 
 
 def cross_validated(x: Array, h: Array) -> float:
-    """λ of the smallest score."""
+    """The λ of the smallest score of generalised cross validation."""
     from scipy.optimize import minimize_scalar  # noqa: PLC0415
 
     problem = _Problem(x, h)
@@ -119,8 +119,8 @@ def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Arr
     lam /= problem.length**3
     basis = problem.basis(lam)
     rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
-    at = (points - x[0]) / problem.length
-    design = BSpline.design_matrix(at, basis.knots[1:-1], 2) @ basis.first_difference
+    u = (points - x[0]) / problem.length
+    design = BSpline.design_matrix(u, basis.knots[1:-1], 2) @ basis.first_difference
     functional = design.T @ weights.T
     variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
     return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
@@ -138,7 +138,7 @@ class _Problem:
 
     def __init__(self, x: Array, h: Array) -> None:
         self.x, self.length = x, float(x[-1] - x[0])
-        self.at = (x - x[0]) / self.length
+        self.u = (x - x[0]) / self.length
         self.origin = float(h[0])
         self.unit = float(np.ptp(h)) or 1.0
         self.h = (h - self.origin) / self.unit
@@ -151,7 +151,7 @@ class _Problem:
         knots = n if n <= ALL_KNOTS or 2 * knots > n else knots
         if knots not in self._bases:
             self._bases[knots] = _Basis(
-                self.at, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
+                self.u, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
             )
         return self._bases[knots]
 
@@ -171,9 +171,9 @@ class _Problem:
         from scipy.interpolate import BSpline  # noqa: PLC0415
 
         if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
-            return self.x, self._in_given_units(_reinsch(self.at, self.h, lam))
+            return self.x, self._in_given_units(_reinsch(self.u, self.h, lam))
         basis = self.basis(lam)
-        knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
+        knots, spline = self.u[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
         return self.x[basis.chosen], self._in_given_units(
             _pieces(knots, spline(knots), spline(knots, 2))
         )
@@ -199,8 +199,8 @@ def _reinsch(x: Array, h: Array, lam: float) -> Array:
     system[0, 2:] = lam * c[:-2] * a[2:]
     gamma = solveh_banded(system, right_side, check_finite=False)
     f = h.copy()
-    for entries, at in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
-        f[at] -= lam * entries * gamma
+    for entries, part in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
+        f[part] -= lam * entries * gamma
     return _pieces(x, f, np.concatenate(([0.0], gamma, [0.0])))
 
 
@@ -226,16 +226,16 @@ def _pieces(x: Array, f: Array, second: Array) -> Array:
 class _Basis:
     """Cubic B-splines on the chosen points: data and bending energy as banded matrices (upper)."""
 
-    at: Array
+    u: Array
     h: Array
     chosen: NDArray[np.int64]
 
     def __post_init__(self) -> None:
         from scipy.interpolate import BSpline  # noqa: PLC0415
 
-        inner = self.at[self.chosen]
+        inner = self.u[self.chosen]
         self.knots = np.concatenate(([inner[0]] * 3, inner, [inner[-1]] * 3))
-        self.values: Any = BSpline.design_matrix(self.at, self.knots, 3)
+        self.values: Any = BSpline.design_matrix(self.u, self.knots, 3)
         self._gram = _upper(self.values.T @ self.values)
         self._bending = _upper(self._energy(inner))
         self._data = self.values.T @ self.h
@@ -280,7 +280,7 @@ class _Basis:
     @cached_property
     def _probes(self) -> tuple[Array, Array]:
         signs: Array = np.where(
-            np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0
+            np.random.default_rng(0).integers(0, 2, (len(self.u), PROBES)) > 0, 1.0, -1.0
         )
         projected: Array = self.values.T @ signs
         return signs, projected

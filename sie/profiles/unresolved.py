@@ -1,6 +1,6 @@
-"""What the resolution of a function has not seen, looked for where it did not look.
+"""Features of a function that its resolution has missed.
 
-A function is known by its values at some points only. Two things tell that it changes between the
+A function is known by its values at some points only. Two tests show that it changes between the
 points of a resolution:
 
     its values differ from the resolved ones at the points of a low-discrepancy sequence,
