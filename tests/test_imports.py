@@ -21,9 +21,8 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a folder or a module at the top imports only from its own row and from rows
 # before it.
 LAYERS = (
-    ("interrupt", "errors", "workers"),
+    ("interrupt", "errors", "messages", "files", "streams", "arguments", "workers"),
     ("numerics",),
-    ("arguments",),
     ("profiles",),
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
@@ -35,7 +34,7 @@ LAYERS = (
     ("sweep", "charts"),
     ("io",),
     ("plots",),
-    ("cli", "__main__"),
+    ("command_parser", "cli", "__main__"),
 )
 
 

@@ -15,7 +15,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from sie.io.files import write_files
+from sie.files import write_files
 from validation import readme
 from validation.harness.report import Section, machine, number, page
 from validation.harness.running import run

@@ -15,13 +15,14 @@ from command import run
 
 import sie
 from sie import cli as command
+from sie import files
 from sie.certificate.pressure_check import Certificate
 from sie.cli import main
-from sie.io import files, report, sample_points, scene_file
+from sie.io import report, sample_points, scene_file
 from sie.plan import WANTS
-from sie.profiles.shapes import profile_kinds
+from sie.profiles import kinds
 
-KINDS = list(profile_kinds())
+KINDS = list(kinds.KINDS)
 
 
 @pytest.fixture

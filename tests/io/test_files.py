@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from command import run
 
+from sie import files
 from sie.cli import main
-from sie.io import files
 
 posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
 TRACE = "x,h\n" + "".join(f"{k / 10.0},{(k / 10.0) ** 2}\n" for k in range(-20, 21))
@@ -211,7 +211,7 @@ def test_a_scene_without_end_on_standard_input_is_refused():
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from sie.io import files
+from sie import files
 die = lambda *given, **named: os.kill(os.getpid(), signal.SIGKILL)
 setattr(*eval(sys.argv[1]), die)
 files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})

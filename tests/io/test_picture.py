@@ -10,6 +10,7 @@ from sie.io.scene_file import Units, example, parse
 
 matplotlib = pytest.importorskip("matplotlib")
 plot = pytest.importorskip("sie.plots.contact_plot")
+style = pytest.importorskip("sie.plots.style")
 
 STEEL = sie.Elastic(210e3, 0.3)
 PRESSED = {"body": STEEL, "normal_load": 50.0, "friction": 0.5}
@@ -54,7 +55,7 @@ def test_both_axes_say_what_they_are_and_in_which_unit(scene):
 def test_both_edges_run_through_both_panels_and_are_named(scene):
     solution = sie.solve(scene)
     upper, lower = plot.picture(solution).axes
-    factor, _ = plot._scaled(solution.half_width, "mm")
+    factor, _ = style.scaled(solution.half_width, "mm")
     for axes in (upper, lower):
         dotted = {
             line.get_xdata()[0]
@@ -154,19 +155,19 @@ def test_dollars_in_titles_and_units_are_letters():
     figure = plot.picture(
         sie.solve(SCENES["wedge"]), units=Units("$", "$", "$"), title="$1 for $x_"
     )
-    assert plot.picture_bytes(figure, "svg").startswith(b"<?xml")
+    assert style.picture_bytes(figure, "svg").startswith(b"<?xml")
 
 
 @pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
 def test_the_same_picture_is_the_same_file(suffix):
     solution = sie.solve(SCENES["wedge"])
-    one, other = (plot.picture_bytes(plot.picture(solution), suffix) for _ in range(2))
+    one, other = (style.picture_bytes(plot.picture(solution), suffix) for _ in range(2))
     assert one == other
 
 
 def test_matplotlib_s_settings_stay_as_they_were():
     before = dict(matplotlib.rcParams)
-    plot.picture_bytes(plot.picture(sie.solve(SCENES["wedge"])), "eps")
+    style.picture_bytes(plot.picture(sie.solve(SCENES["wedge"])), "eps")
     assert dict(matplotlib.rcParams) == before
 
 
@@ -189,8 +190,8 @@ def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution)
     x, q = drawn["$q$"].get_data()
     _, limit = next(line for label, line in drawn.items() if "f p" in label).get_data()
     assert (np.abs(q) <= limit + 1e-9 * limit.max()).all()
-    factor, _ = plot._scaled(solution.half_width, "mm")
-    scale, _ = plot._scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
+    factor, _ = style.scaled(solution.half_width, "mm")
+    scale, _ = style.scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
     middle = len(x) // 2 + 3
     assert q[middle] == pytest.approx(
         float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max()
@@ -219,7 +220,7 @@ def test_after_a_path_the_loop_goes_through_its_turning_points():
     loop = plot.picture(solution).axes[-1]
     shift, Q = loop.lines[-2].get_data()
     assert pytest.approx([point[1] for point in FRETTING.path]) == Q
-    factor, _ = plot._scaled(max(abs(s.shift) for s in solution.history), "mm")
+    factor, _ = style.scaled(max(abs(s.shift) for s in solution.history), "mm")
     assert shift == pytest.approx(
         [s.shift * factor for s in solution.history], abs=1e-9 * abs(shift).max()
     )
@@ -227,4 +228,6 @@ def test_after_a_path_the_loop_goes_through_its_turning_points():
 
 @pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
 def test_a_picture_of_shear_can_be_written(solution):
-    assert plot.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(b"\x89PNG")
+    assert style.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(
+        b"\x89PNG"
+    )

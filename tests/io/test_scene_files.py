@@ -2,17 +2,17 @@
 with a remedy.
 """
 
-import inspect
+import dataclasses
 import tomllib
 
+import numpy as np
 import pytest
 
 import sie
-from sie.io import scene_file
-from sie.io.scene_file import SceneFileError, example, parse, read
-from sie.profiles.shapes import profile_kinds
+from sie.io.scene_file import MOST_POINTS, SceneFileError, example, parse, read
+from sie.profiles import kinds
 
-KINDS = list(profile_kinds())
+KINDS = list(kinds.KINDS)
 PARABOLA = '[profile]\nkind = "parabola"\nradius = 10.0\n'
 BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
 PAIR = "[pair]\nmodulus = 1e5\n"
@@ -39,7 +39,7 @@ def test_each_example_solves_and_is_certified(kind):
     file = parse(example(kind))
     solution = sie.solve(file.scene)
     assert solution.check().ok
-    assert type(file.scene.profile) is profile_kinds()[kind]
+    assert type(file.scene.profile) is kinds.KINDS[kind]
     assert file.title
 
 
@@ -60,12 +60,46 @@ def test_each_example_is_ascii_so_that_any_shell_may_redirect_it(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_file_may_set_exactly_the_parameters_of_the_profile(kind):
-    parameters = inspect.signature(profile_kinds()[kind]).parameters.values()
-    assert set(scene_file._PARAMETERS[kind]) == {p.name for p in parameters}
-    assert scene_file._OPTIONAL.get(kind, set()) == {
-        p.name for p in parameters if p.default is not p.empty
-    }
+def test_each_kind_of_profile_is_a_public_name(kind):
+    assert kinds.KINDS[kind].__name__ in sie.__all__
+
+
+@dataclasses.dataclass(frozen=True)
+class Cosine(sie.Profile):
+    """h = depth (1 - cos(x/length)), as a new kind of profile."""
+
+    depth: float
+    length: float = 1.0
+
+    @property
+    def pieces(self):
+        return sie.FromFunction(self._slope, domain=(-3.0 * self.length, 3.0 * self.length)).pieces
+
+    def _slope(self, x):
+        return self.depth / self.length * np.sin(x / self.length)
+
+    def height(self, x):
+        return self.depth * (1.0 - np.cos(np.asarray(x) / self.length))
+
+
+@pytest.fixture
+def cosine(monkeypatch):
+    monkeypatch.setitem(kinds.KINDS, "cosine", Cosine)
+
+
+def test_a_line_in_the_table_of_kinds_lets_a_scene_file_name_a_new_kind(cosine):
+    text = PAIR + LOAD + '[profile]\nkind = "cosine"\ndepth = 0.1\nlength = 2.0\n'
+    scene = parse(text).scene
+    assert scene.profile == Cosine(0.1, 2.0)
+    assert sie.solve(scene).check().ok
+
+
+def test_the_parameters_of_a_new_kind_say_what_a_scene_file_must_and_may_hold(cosine):
+    assert profile_of('[profile]\nkind = "cosine"\ndepth = 0.1\n') == Cosine(0.1)
+    missing = PAIR + LOAD + '[profile]\nkind = "cosine"\nlength = 2.0\n'
+    assert "lacks depth: give depth = ..." in refusal(missing)
+    stray = PAIR + LOAD + PARABOLA + "depth = 0.1\n"
+    assert '"depth": it belongs to kind "cosine"' in refusal(stray)
 
 
 def test_the_showcase_still_works_with_its_commented_lines_switched_on():
@@ -406,6 +440,6 @@ def test_a_load_path_that_means_nothing_is_refused(load, said):
 
 def test_a_path_longer_than_a_report_can_list_is_refused():
     text = PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = {}\n"
-    most = [[1.0, 0.1 * (-1) ** k] for k in range(scene_file.MOST_POINTS)]
+    most = [[1.0, 0.1 * (-1) ** k] for k in range(MOST_POINTS)]
     assert len(parse(text.format(most)).path) == len(most)
     assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))

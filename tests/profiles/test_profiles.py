@@ -13,7 +13,8 @@ from strategies import between, dyadic
 
 import sie
 from analytic import power
-from sie.profiles import slope
+from sie.io import scene_file
+from sie.profiles import kinds, slope
 
 INF = float("inf")
 
@@ -23,6 +24,7 @@ def module_level_slope(x):
 
 
 EVERY_KIND = (
+    *(scene_file.parse(scene_file.example(kind)).scene.profile for kind in kinds.KINDS),
     sie.Parabola(2.0),
     sie.RoundedFlat(0.5, 3.0),
     sie.Flat(1.5),
@@ -45,7 +47,7 @@ each = pytest.mark.parametrize("profile", EVERY_KIND, ids=repr)
 
 
 def solved(profile):
-    return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.25))
+    return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1e-3))
 
 
 # -- values ---------------------------------------------------------------------------------------

@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import charts
-from sie.io import files
+from sie import charts, files
 from sie.numerics import cauchy_sums
 from validation import cases, readme
 from validation.__main__ import TOPICS, main, summary

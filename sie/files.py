@@ -1,8 +1,9 @@
-"""Files are read if they are ordinary and not too long, and written whole or not at all.
+"""Reading of ordinary files that are not too long, and writing of files whole or not at all.
 
-A file is written under another name beside its place and then moved there; the move is one step, so that
-no reader ever sees half a file. A writer that is killed leaves the other name behind. No user's file has
-such a name, and a writer that lives holds a lock on it: the next run that writes in the folder removes it.
+A file is written under another name beside its place and then moved there; the move is one step, so
+that no reader ever sees half a file. A writer that is killed leaves the other name behind. No
+user's file has such a name, and a writer that lives holds a lock on it: the next run that writes in
+the folder removes it.
 """
 
 from __future__ import annotations
@@ -27,13 +28,14 @@ KINDS = {
 }
 
 
-# -- reading -----------------------------------------------------------------------------------------------------------
+# -- reading -------------------------------------------------------------------------------------
 
 
 def content(path: str | Path, most: int) -> bytes:
     """The bytes of a regular file, at most so many.
 
-    ValueError, with the remedy, if it is none (a device or a pipe may have no end) or is longer; OSError.
+    ValueError, with the remedy, if it is none (a device or a pipe may have no end) or is longer;
+    OSError.
     """
     path = Path(path)
     mode = path.stat().st_mode
@@ -47,11 +49,11 @@ def content(path: str | Path, most: int) -> bytes:
     return data
 
 
-# -- where a file may be written ---------------------------------------------------------------------------------------
+# -- where a file may be written -----------------------------------------------------------------
 
 
 def writable(path: str | Path) -> Path:
-    """The path, if a file can be written there; ValueError, with the remedy, if not. Nothing is written."""
+    """The path, if a file can be written there; ValueError, with the remedy, if not."""
     path = Path(path)
     if path.is_dir():
         raise ValueError(f"{path} is a directory: give the name of a file in it")
@@ -67,9 +69,9 @@ def writable(path: str | Path) -> Path:
 
 
 def same(one: str | int | Path, other: str | int | Path) -> bool:
-    """Whether both are one file, or would be once written: also by links, or by names that differ in case.
+    """Whether both are one file, or would be one once written.
 
-    A number is the descriptor of an open file.
+    Links, and names that differ in case only, count. A number is the descriptor of an open file.
     """
     try:
         return os.path.samefile(one, other)
@@ -84,7 +86,7 @@ def same(one: str | int | Path, other: str | int | Path) -> bool:
         return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
 
 
-# -- writing -----------------------------------------------------------------------------------------------------------
+# -- writing -------------------------------------------------------------------------------------
 
 
 def write_files(contents: Mapping[Path, bytes]) -> None:
@@ -97,8 +99,8 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
 def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
     """Write all files; they are at their places after the block, or untouched if it fails.
 
-    A reader of the block's words who leaves early (BrokenPipeError) is no failure. A device or a pipe
-    cannot be replaced and is written to as it is. Raises OSError.
+    A reader of the block's words who leaves early (BrokenPipeError) is no failure. A device or a
+    pipe cannot be replaced and is written to as it is. Raises OSError.
     """
     parts: dict[Path, BinaryIO] = {}
     try:
@@ -143,7 +145,7 @@ def _is_device(path: Path) -> bool:
     return path.exists() and not path.is_file()
 
 
-# -- parts: files that are not at their places yet ----------------------------------------------------------------------
+# -- parts: files that are not at their places yet -----------------------------------------------
 
 
 def _part_name(token: str) -> str:
