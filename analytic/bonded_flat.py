@@ -7,7 +7,8 @@ iq,
 
 and with tanh(pi eta) = beta its solution is
 
-    p + iq = cosh(pi eta) [ (P + iQ)/pi + A (x - 2 i eta b) ] (b² - x²)^(-1/2) exp(i eta ln((b+x)/(b-x)))
+    p + iq = cosh(pi eta) [ (P + iQ)/pi + A (x - 2 i eta b) ] (b² - x²)^(-1/2) exp(i phase)
+    phase = eta ln((b+x)/(b-x))
     A = -E* h'/2 = 2 (M + 2 eta b Q)/(pi b² (1 + 4 eta²)),      M = ∫ p x dx
 
 (for A = 0 Muskhelishvili 1953, part V; Johnson 1985, section 2.8). Under M = -2 eta b Q it does not

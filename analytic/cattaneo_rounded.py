@@ -6,7 +6,8 @@ P - Q/f, so that the stick zone [-c, c] is the contact under that load and alway
 > a (Ciavarella, Hills & Monno 1998, eqs 18 to 20; Ciavarella 1998; Jager 1998). With theta(s) =
 arccos(a/s) and s from c to b
 
-    Q/f = P(b) - P(c) = (E*/R) ∫ s theta ds                                  q/f = p_b - p_c = (E*/(pi R)) ∫ s theta/sqrt(s² - x²) ds
+    Q/f = P(b) - P(c) = (E*/R) ∫ s theta ds
+    q/f = p_b - p_c = (E*/(pi R)) ∫ s theta/sqrt(s² - x²) ds
     slip   s(x) = (2f/(pi R)) ∫_c^|x| s theta arccosh(|x|/s) ds
     energy lost in a cycle between ±Q:   W = (8f²/(pi E*)) ∫ (P(b) - P(s)) (P(s) - P(c)) ds/s
 
@@ -14,7 +15,8 @@ After Q_max has turned, q(Q) = q(Q_max) - 2 q((Q_max - Q)/2), and after Q_min, q
 q((Q - Q_min)/2). The differences of loads, with omega = sqrt(s² - a²), y = a (omega_2 -
 omega_1)/(a² + omega_1 omega_2) = tan(theta_2 - theta_1),
 
-    (2R/E*) (P_2 - P_1) = (s_2² - s_1²) theta_1 + omega_2 (omega_2 - omega_1) atan(y) - (a² + omega_1 omega_2) (y - atan(y))
+    (2R/E*) (P_2 - P_1) = (s_2² - s_1²) theta_1 + omega_2 (omega_2 - omega_1) atan(y)
+                          - (a² + omega_1 omega_2) (y - atan(y))
 
 lose no digits, the last term being a third of the second or less; where p_b and p_c are nearly
 equal their difference is integrated. Loads, not widths, are what is given, since Q and f P must be
@@ -128,7 +130,9 @@ def unloading_shear(
     ValueError for loads out of order.
 
     >>> given = dict(normal_load=np.pi / 4, half_flat=0.0, radius=1.0, modulus=1.0, friction=1.0)
-    >>> round(float(unloading_shear(0.0, **given, largest_load=3 * np.pi / 16, tangential_load=-3 * np.pi / 16)), 12)
+    >>> found = unloading_shear(0.0, **given, largest_load=3 * np.pi / 16,
+    ...                         tangential_load=-3 * np.pi / 16)
+    >>> round(float(found), 12)
     -0.25
     """
     used = turned(lib, friction, normal_load, largest_load, tangential_load)

@@ -10,7 +10,8 @@ with M = ∫ p x dx. Beyond |M| = P b/2 the pressure would be negative at one co
 off, and the contact is the interval of length 2r from the other corner at x = s b, s = sign(M), on
 which
 
-    p = P/(pi r) sqrt((r + t)/(r - t)),   t = s x - (b - r),      r = 2(b - |M|/P),      tilt = -2 s P/(pi E* r).
+    p = P/(pi r) sqrt((r + t)/(r - t)),   t = s x - (b - r)
+    r = 2(b - |M|/P),      tilt = -2 s P/(pi E* r).
 
 The functions of that contact carry the word `partial`. Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the
 potential of the pressure.
@@ -158,7 +159,8 @@ def partial_pressure(
     t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside.
     ValueError for moments outside P b/2 <= |M| < P b.
 
-    >>> round(float(partial_pressure(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)), 12)
+    >>> found = partial_pressure(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)
+    >>> round(float(found), 12)
     2.0
     """
     x, (b, P, s, r) = real("x", x, lib), _one_corner(half_width, normal_load, moment, lib)
@@ -177,7 +179,8 @@ def partial_tilt(
 ) -> Number:
     """The tilt h' = -2 s P/(pi E* r) of a flat that touches with one corner, P b/2 <= |M| < P b.
 
-    >>> round(float(partial_tilt(half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi, modulus=1.0)), 12)
+    >>> found = partial_tilt(half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi, modulus=1.0)
+    >>> round(float(found), 12)
     -4.0
     """
     _, P, s, r = _one_corner(half_width, normal_load, moment, lib)
@@ -193,13 +196,17 @@ def partial_moment(
 
     ValueError for |tilt| < 2P/(pi E* b), at which both corners touch.
 
-    >>> round(float(partial_moment(half_width=1.0, normal_load=np.pi, tilt=-4.0, modulus=1.0) / np.pi), 12)
+    >>> found = partial_moment(half_width=1.0, normal_load=np.pi, tilt=-4.0, modulus=1.0)
+    >>> round(float(found / np.pi), 12)
     0.75
     """
     b, P, E = positives(lib, half_width=half_width, normal_load=normal_load, modulus=modulus)
     angle = real("tilt", tilt, lib)
     least = 2 * (P / E / b) / lib.pi
-    remedy = "|tilt| = {} is less than 2P/(pi E* b) = {}: both corners touch; use moment, or a larger tilt."
+    remedy = (
+        "|tilt| = {} is less than 2P/(pi E* b) = {}: both corners touch; "
+        "use moment, or a larger tilt."
+    )
     refuse(abs(angle) * (1 + ROUNDING) < least, remedy, abs(angle), least)
     return as_result(-sign(angle) * P * (b - P / E / lib.pi / abs(angle)))
 
@@ -214,7 +221,8 @@ def partial_potential(
     It is that of a complete contact of half-width r about its own middle, with the moment s P r/2.
     `side` as in `potential`. ValueError for moments outside P b/2 <= |M| < P b.
 
-    >>> round(complex(partial_potential(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)).real, 12)
+    >>> found = partial_potential(0.5, half_width=1.0, normal_load=np.pi, moment=0.75 * np.pi)
+    >>> round(complex(found).real, 12)
     -2.0
     """
     z, (b, P, s, r) = point(z, lib), _one_corner(half_width, normal_load, moment, lib)
@@ -238,7 +246,10 @@ def _checked(
     b, P = positives(lib, half_width=half_width, normal_load=normal_load)
     M = real("moment", moment, lib)
     lever, half = abs(M) / P, b / 2
-    remedy = "|M|/P = {} exceeds half_width/2 = {}: one corner lifts off; use partial_pressure, ..., or a smaller M."
+    remedy = (
+        "|M|/P = {} exceeds half_width/2 = {}: one corner lifts off; "
+        "use partial_pressure, ..., or a smaller M."
+    )
     refuse(lever > half * (1 + ROUNDING), remedy, lever, half)
     return b, P, M
 
@@ -258,9 +269,15 @@ def _one_corner(
     b, P = positives(lib, half_width=half_width, normal_load=normal_load)
     M = real("moment", moment, lib)
     lever, half = abs(M) / P, b / 2
-    few = "|M|/P = {} is less than half_width/2 = {}: both corners touch; use pressure, ..., or a larger M."
+    few = (
+        "|M|/P = {} is less than half_width/2 = {}: both corners touch; "
+        "use pressure, ..., or a larger M."
+    )
     refuse(lever * (1 + ROUNDING) < half, few, lever, half)
-    many = "|M|/P = {} is not less than half_width = {}: the flat would tip over its corner; use a smaller M."
+    many = (
+        "|M|/P = {} is not less than half_width = {}: the flat would tip over its corner; "
+        "use a smaller M."
+    )
     refuse(lever >= b, many, lever, b)
     return b, P, sign(M), b - not_below_zero(2 * lever - b)
 

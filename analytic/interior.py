@@ -66,7 +66,8 @@ def rounded_flat(
     """The stresses under a flat with rounded edges, normal or sliding, from Fp and Fp' in closed
     form (see `rounded_flat`).
 
-    >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)]
+    >>> given = dict(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)
+    >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, **given)]
     [-0.339463081416, -0.139463081416, -0.069731540708]
     """
     parameters = {
@@ -87,7 +88,9 @@ def mcewen(
     """The stresses under the frictionless line contact, as McEwen wrote them (1949; Johnson 1985,
     eq. 4.49):
 
-        s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ],   s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²)),   s_xy = -(p0/b) n (m²-y²)/(m²+n²)
+        s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ]
+        s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²))
+        s_xy = -(p0/b) n (m²-y²)/(m²+n²)
 
     with n + im = sqrt(z² - b²), m > 0. At depth the terms of s_xx cancel like (y/b)²: for numbers
     use `hertz`. y > 0.
@@ -117,7 +120,8 @@ def chebyshev(
     """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs
     22 and 23), y > 0:
 
-        F = sum_n b_n rho^(2n+1),      F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²),      rho = b/(z + sqrt(z² - b²))
+        F = sum_n b_n rho^(2n+1),      rho = b/(z + sqrt(z² - b²))
+        F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²)
 
     exact for a finite sum. For the rounded flat b_n ~ n^-2: what is cut off falls like |rho|^(2N),
     fast at depth only.

@@ -3,14 +3,16 @@
 With W_m = ∫_0^(pi/2) sin^m and xi = |x|/b (Shtaerman 1949; Johnson, Contact Mechanics, 1985,
 section 5.3)
 
-    P = E* C m b^m W_m,      p = (m P/(pi b)) J_m(xi),      J_m(xi) = ∫_xi^1 s^(m-1) / sqrt(s² - xi²) ds,
+    P = E* C m b^m W_m,      p = (m P/(pi b)) J_m(xi)
+    J_m(xi) = ∫_xi^1 s^(m-1) / sqrt(s² - xi²) ds,
 
 which superposes the pressures of rigid flats of half-width b s, 0 < s < 1. J is hypergeometric;
 three positive formulas give it to full relative accuracy for every m, from the centre to the edge:
 
     m > 3           (m-1) J_m = sqrt(1 - xi²) + (m-2) xi² J_(m-2), by parts
     xi² >= 1/2      J_m = k 2F1(1 - m/2, 1; 3/2; k²), k² = 1 - xi²
-    xi² < 1/2       J_m = (xi/e)^(m-1) J_m(e) + sum_k c_k xi^(2k) ∫_(xi/e)^1 s^(m-2-2k) ds, e² = 1/2, c_k = C(2k,k)/4^k
+    xi² < 1/2       J_m = (xi/e)^(m-1) J_m(e) + sum_k c_k xi^(2k) ∫_(xi/e)^1 s^(m-2-2k) ds,
+                    e² = 1/2, c_k = C(2k,k)/4^k
 
 (the last by the binomial series of (1 - xi²/s²)^(-1/2) where s > xi/e). m = 1 is the wedge, m = 2
 the parabola.
@@ -110,9 +112,10 @@ def _shape(exponent: Number, coefficient: Number, lib: Library) -> tuple[Number,
     m = real("exponent", exponent, lib)
     if np.ndim(m) > 0 or not 1 <= m <= LARGEST_EXPONENT:
         raise ValueError(
-            f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 the indenter is a "
-            "cusp pointing down, whose slope is infinite at its tip; each 2 above takes a step of a recurrence, "
-            "and several exponents take a call each."
+            f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 "
+            "the indenter is a cusp pointing down, whose slope is infinite at its tip; each 2 "
+            "above "
+            "takes a step of a recurrence, and several exponents take a call each."
         )
     return as_result(m), positive("coefficient", coefficient, lib)
 

@@ -12,12 +12,13 @@ is
 So written, terms of order one cancel to the order (b - a)^(3/2): at 1 - a/b = 1e-8 half the digits
 are gone. Here the same expressions are written in
 
-    tau = tan(theta/2) = sqrt((b-a)/(b+a)),    T = sqrt((b-|x|)/(b+|x|)),    v = sqrt(z+b)/sqrt(z-b),
+    tau = tan(theta/2) = sqrt((b-a)/(b+a)),   T = sqrt((b-|x|)/(b+|x|)),   v = sqrt(z+b)/sqrt(z-b),
     A(y) = (1+y²) atan(y)/y - 1,               B(y) = 1 - (1-y²) artanh(y)/y = -A(iy),
 
 where A and B are positive, ~ 2y²/3, and every sum is one of positive terms:
 
-    p  = E* b/(pi R) 2 tau T/((1+tau²)(1+T²)) { 2A(tau) + B(tau T) + [B(tau/T) if |x| <= a, else 2 - B(T/tau)] }
+    p  = E* b/(pi R) 2 tau T/((1+tau²)(1+T²)) { 2A(tau) + B(tau T) + end },
+         end = B(tau/T) if |x| <= a, else 2 - B(T/tau)
     P  = E* b²/(2R) 2 tau/(1+tau²) { A(tau) + 2 tau²/(1+tau²) },         dP/db = E* b theta/R
     Fp = E* b/(pi R) 2 tau v/((v²-1)(1+tau²)) { A(tau v) + A(tau/v) - 2A(tau) }
 
@@ -122,7 +123,8 @@ def half_width(
     b - a has the full accuracy of `rim`, but a sum has only that of its larger term: for thin rims
     ask for `rim`.
 
-    >>> round(float(half_width(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0)), 11)
+    >>> found = half_width(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0)
+    >>> round(float(found), 11)
     1.0
     """
     a = not_negative("half_flat", half_flat, lib)
@@ -166,7 +168,8 @@ def potential(
     """The potential Fp(z) = (1/pi) ∫ p(t)/(z-t) dt, complex, at any point z = x + iy off or on the
     contact.
 
-        Fp = E*/(pi R) [ (z-a) atan(tau v) + (z+a) atan(tau/v) - theta sqrt(z²-b²) ],       Fp ~ P/(pi z) far away.
+        Fp = E*/(pi R) [ (z-a) atan(tau v) + (z+a) atan(tau/v) - theta sqrt(z²-b²) ]
+        Fp ~ P/(pi z) far away.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' - i p, and -1 its conjugate. It is Muskhelishvili's function of the pressure (Hills,
@@ -194,7 +197,8 @@ def potential_derivative(
     |x| = b, where p' is infinite, so is the imaginary part (and h'' is the mean of its two values
     at |x| = a).
 
-    >>> complex(potential_derivative(0.9, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)).real
+    >>> found = potential_derivative(0.9, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)
+    >>> complex(found).real
     0.5
     """
     z = point(z, lib)
@@ -217,12 +221,14 @@ def chebyshev_coefficients(
     sqrt(z²-b²)), and
 
         b_n = E* b/(2 pi R (2n+1)) [ sin(2n theta)/n - sin(2(n+1) theta)/(n+1) ]
-            = 2E* b/(pi R (2n+1)) ∫_0^theta sin((2n+1)t) sin(t) dt,        b_0 = 2P/(pi b),      b_n = O(n^-2).
+            = 2E* b/(pi R (2n+1)) ∫_0^theta sin((2n+1)t) sin(t) dt
+        b_0 = 2P/(pi b),      b_n = O(n^-2).
 
     The error relative to the largest of the neighbours is some rounding units plus n of them in the
     phase 2n theta. Arrays of parameters broadcast behind the index n.
 
-    >>> chebyshev_coefficients(2, half_flat=0.0, half_width=1.0, radius=1.0, modulus=1.0).round(12) + 0
+    >>> found = chebyshev_coefficients(2, half_flat=0.0, half_width=1.0, radius=1.0, modulus=1.0)
+    >>> found.round(12) + 0
     array([0.5, 0. ])
     """
     if not isinstance(count, Integral) or count < 0:

@@ -75,7 +75,8 @@ def tilt(
 
     ValueError for moments that lift a corner off.
 
-    >>> round(float(tilt(half_width=1.0, normal_load=np.pi, coupling=0.0, moment=np.pi / 4, modulus=1.0)), 12)
+    >>> found = tilt(half_width=1.0, normal_load=np.pi, coupling=0.0, moment=np.pi / 4, modulus=1.0)
+    >>> round(float(found), 12)
     -1.0
     """
     contact = _contact_of(half_width, normal_load, coupling, moment, lib)

@@ -7,7 +7,8 @@ solution of the equation of sliding,
     E*/2 h'(x) = (1/pi) PV∫ p(t)/(x-t) dt - beta f p(x),
 
     p = cos²(pi eps) E*/(2 pi) w(x) PV∫ h'/(w(t) (t-x)) dt + sin(pi eps) cos(pi eps) E*/2 h'(x)
-    0 = ∫ h'/w dt,      P = cos(pi eps) E*/2 ∫ t h'/w dt,      M = cos(pi eps) E*/2 ∫ t² h'/w dt - P ((1/2-eps) x2 + (1/2+eps) x1)
+    0 = ∫ h'/w dt,      P = cos(pi eps) E*/2 ∫ t h'/w dt
+    M = cos(pi eps) E*/2 ∫ t² h'/w dt - P ((1/2-eps) x2 + (1/2+eps) x1)
 
 (Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993, for the inversion.) The condition
 says how the load divides the rims. All the integrals are incomplete beta functions; with V =
@@ -15,11 +16,12 @@ says how the load divides the rims. All the integrals are incomplete beta functi
 rim on the right contributes to 2 pi R p/(E* cos²(pi eps))
 
     w V2^alpha/(alpha (1+V2)) [A + B(V2/V)]                                      for x <= a
-    w V2^alpha/alpha phi(-V2) + (x-a) (V/V2)^(1-alpha)/(1-alpha) phi(V/V2)       for x >= a, with 1 - alpha in this phi,
+    w V2^alpha/alpha phi(-V2) + (x-a) (V/V2)^(1-alpha)/(1-alpha) phi(V/V2)       for x >= a,
 
-and the rim on the left as in a mirror, with -eps. All terms are positive. Since the two edges
-depend on each other, the functions are given the load, which determines both. `coupling` is beta f,
-positive when the shear on the half-plane points to +x. Without it all this is the rounded flat.
+the last phi with 1 - alpha, and the rim on the left as in a mirror, with -eps. All terms are
+positive. Since the two edges depend on each other, the functions are given the load, which
+determines both. `coupling` is beta f, positive when the shear on the half-plane points to +x.
+Without it all this is the rounded flat.
 """
 
 from typing import NamedTuple
@@ -52,7 +54,9 @@ def rims(
 
     Newton's method in the logarithms of the rims, from those without friction.
 
-    >>> tuple(round(float(d), 11) for d in rims(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0))
+    >>> found = rims(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...              coupling=0.0)
+    >>> tuple(round(float(d), 11) for d in found)
     (0.5, 0.5)
     """
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
@@ -66,7 +70,9 @@ def edges(
 ) -> tuple[Number, Number]:  # fmt: skip
     """The ends (x1, x2) = (-a - d1, a + d2) of the contact under the load P.
 
-    >>> tuple(round(float(x), 11) for x in edges(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0))
+    >>> found = edges(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...               coupling=0.0)
+    >>> tuple(round(float(x), 11) for x in found)
     (-1.0, 1.0)
     """
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
@@ -80,7 +86,8 @@ def pressure(
 ) -> Number:  # fmt: skip
     """The contact pressure p(x) under the load P, and 0 outside. The shear is f times this.
 
-    >>> given = dict(normal_load=0.307092424652189, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
+    >>> given = dict(normal_load=0.307092424652189, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...              coupling=0.0)
     >>> round(float(pressure(0.0, **given)), 12)
     0.123732974194
     """
@@ -99,7 +106,8 @@ def moment(
     """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays
     upright.
 
-    >>> round(float(moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)), 12) + 0.0
+    >>> found = moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
+    >>> round(float(found), 12) + 0.0
     0.0
     """
     E, R = positives(lib, modulus=modulus, radius=radius)

@@ -73,7 +73,8 @@ def tilt(
 ) -> Number:  # fmt: skip
     """The rotation h' = -2 A/E* under the moment M. ValueError for moments that lift a corner off.
 
-    >>> round(float(tilt(inner=1e-9, outer=1.0, normal_load=np.pi, moment=np.pi / 4, modulus=1.0)), 12)
+    >>> found = tilt(inner=1e-9, outer=1.0, normal_load=np.pi, moment=np.pi / 4, modulus=1.0)
+    >>> round(float(found), 12)
     -1.0
     """
     contact = _contact_of(inner, outer, normal_load, moment, lib)

@@ -92,7 +92,9 @@ def edges(
     range of doubles.
 
     >>> P = load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0)
-    >>> tuple(round(float(c), 12) for c in edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0, modulus=1.0))
+    >>> found = edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0,
+    ...               modulus=1.0)
+    >>> tuple(round(float(c), 12) for c in found)
     (1.0, 2.0)
     """
     P, d = positives(lib, normal_load=normal_load, distance=distance)

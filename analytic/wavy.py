@@ -4,7 +4,8 @@ contact on each crest.
 With w = pi z/lambda and S = sin(pi a/lambda), the contacts are |x - n lambda| <= a (Westergaard
 1939; Johnson, Contact Mechanics, 1985, section 13.2), and
 
-    p  = (2 pi E* D/lambda) cos(pi x/lambda) sqrt(S² - sin²(pi x/lambda)),      mean pressure = (pi E* D/lambda) S²
+    p  = (2 pi E* D/lambda) cos(pi x/lambda) sqrt(S² - sin²(pi x/lambda))
+    mean pressure = (pi E* D/lambda) S²
     Fp = (2 pi E* D/lambda) cot(w) S²/(1 + sqrt(1 - S²/sin²(w)))
 
 From the mean pressure pi E* D/lambda on the surfaces touch everywhere, p = mean pressure + (pi E*
@@ -59,7 +60,8 @@ def pressure(
 ) -> Number:  # fmt: skip
     """The pressure p(x) on contacts of half-width a <= lambda/2, and 0 between them.
 
-    >>> round(float(pressure(4.0, half_width=0.5, wavelength=4.0, amplitude=1.0, modulus=2 / np.pi)), 12)
+    >>> found = pressure(4.0, half_width=0.5, wavelength=4.0, amplitude=1.0, modulus=2 / np.pi)
+    >>> round(float(found), 12)
     0.382683432365
     """
     a, L, p1 = _contact(half_width, wavelength, amplitude, modulus, lib=lib)
@@ -73,7 +75,8 @@ def mean_pressure(
     """The mean pressure (pi E* D/lambda) sin²(pi a/lambda) at which the contacts have the
     half-width a.
 
-    >>> round(float(mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)), 12)
+    >>> found = mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)
+    >>> round(float(found), 12)
     0.5
     """
     a, L, p1 = _contact(half_width, wavelength, amplitude, modulus, lib=lib)
@@ -92,7 +95,8 @@ def half_width(
     a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError
     for larger pressures.
 
-    >>> round(float(half_width(mean_pressure=0.5, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)), 12)
+    >>> found = half_width(mean_pressure=0.5, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)
+    >>> round(float(found), 12)
     1.0
     """
     L, p = positives(lib, wavelength=wavelength, mean_pressure=mean_pressure)
@@ -127,7 +131,9 @@ def complete_pressure(
 
     ValueError for mean pressures below `closing_pressure`.
 
-    >>> round(float(complete_pressure(0.5, mean_pressure=4.0, wavelength=1.0, amplitude=1 / np.pi, modulus=3.0)), 12)
+    >>> found = complete_pressure(0.5, mean_pressure=4.0, wavelength=1.0, amplitude=1 / np.pi,
+    ...                           modulus=3.0)
+    >>> round(float(found), 12)
     1.0
     """
     L, p = positives(lib, wavelength=wavelength, mean_pressure=mean_pressure)
@@ -152,7 +158,8 @@ def potential(
     Real z in the contacts are on cuts: there `side` = +1 gives the limit from the body y > 0, E*/2
     h' - i p, and -1 its conjugate.
 
-    >>> round(complex(potential(1.0, half_width=1.0, wavelength=4.0, amplitude=2 / np.pi, modulus=1.0)).real, 12)
+    >>> found = potential(1.0, half_width=1.0, wavelength=4.0, amplitude=2 / np.pi, modulus=1.0)
+    >>> round(complex(found).real, 12)
     0.5
     """
     z = point(z, lib)

@@ -93,7 +93,8 @@ def potential_derivative(
     At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit
     from x > 0).
 
-    >>> round(complex(potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)).imag, 12)
+    >>> found = potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)
+    >>> round(complex(found).imag, 12)
     2.083333333333
     """
     z, (b, A, E) = point(z, lib), _contact(half_width, slope, modulus, lib)

@@ -4,7 +4,7 @@ with the solver that it checks.
 Constant shear on each of n equal elements; the displacement of the indenter relative to the body
 grows by
 
-    Δg = δ - A Δq - (2 Δτ/E*) x,        A q = -2/(π E*) ∫ q(t) ln|x - t| dt        (δ: the rigid shift)
+    Δg = δ - A Δq - (2 Δτ/E*) x,    A q = -2/(π E*) ∫ q(t) ln|x - t| dt    (δ: the rigid shift)
 
 and a step minimises ½ Δq·A Δq + Δq·x 2Δτ/E* over |q| <= f p with ∫q = Q: where q is below its bound
 Δg = 0, at a bound Δg pulls towards it (Kalker 1990, Three-Dimensional Elastic Bodies in Rolling

@@ -1,7 +1,8 @@
 """Densities whose Cauchy integrals are known exactly, in 40 digits: what solvers of Cauchy
 equations are measured against.
 
-    φ(x) = w(s) f(s),   w = (1 - s)^α (1 + s)^β,   α + β = -κ,   f a polynomial plus poles r/(s - p) off [-1, 1],   x = m + r s
+    φ(x) = w(s) f(s),   w = (1 - s)^α (1 + s)^β,   α + β = -κ,   x = m + r s
+    f a polynomial plus poles r/(s - p) off [-1, 1]
 
 W(z) = (z - 1)^α (z + 1)^β has no cut but [-1, 1], where it jumps by 2i sin πα w, and so
 (Muskhelishvili 1953, § 110)
@@ -27,7 +28,10 @@ mp.dps = 40
 
 
 def exponent(a: Number, b: Number, bounded: bool) -> Number:
-    """Of the distance from the right end, in [0, 1) if bounded and in (-1, 0) if not:  a sin πα + b cos πα = 0."""
+    """The exponent α of the distance from the right end: a sin πα + b cos πα = 0.
+
+    It is in [0, 1) where the solution is bounded, and in (-1, 0) where it is not.
+    """
     a, b = mp.mpmathify(a), mp.mpmathify(b)
     real = mp.im(a) == mp.im(b) == 0
     theta = (

@@ -4,14 +4,18 @@ Nothing here comes from the package under test. A profile is the list of its slo
 analytic function of an mpmath number; the contact is found by Newton's method on the conditions,
 the pressure and its potential are one Gauss-Legendre quadrature:
 
-    G = E*/2,  t = m + r sin φ,  w = r cos φ,  R(z) = sqrt(z - x1) sqrt(z - x2),  e the piece next to z, continued to z
+    G = E*/2,  t = m + r sin φ,  w = r cos φ,  R(z) = sqrt(z - x1) sqrt(z - x2)
+    e the piece next to z, continued to z
 
-    both edges smooth    ∫H dφ = 0,  P = G r ∫H sin φ dφ,  F(z) = G H_e(z) - G/π R(z) ∫ (H(t) - H_e(z)) / (t - z) dφ
-    any edges            F(z) = G H_e(z) + 1/(π R(z)) [P - π G H_e(z) (z - m) + G ∫ (H(t) - H_e(z)) w² / (t - z) dφ]
+    both edges smooth    ∫H dφ = 0,  P = G r ∫H sin φ dφ
+                         F(z) = G H_e(z) - G/π R(z) ∫ (H(t) - H_e(z)) / (t - z) dφ
+    any edges            F(z) = G H_e(z) + 1/(π R(z)) [P - π G H_e(z) (z - m)
+                                + G ∫ (H(t) - H_e(z)) w² / (t - z) dφ]
     M                    = m P - G ∫H w² dφ
 
-and p = -Im F(x + i0). The first integrand is entire on the piece e and has a pole at z on the others, towards which the panels are halved
-until the pole is half a panel away: 32 nodes then leave 1e-36.  (Muskhelishvili 1953, §§ 107-113; ∫dt/(w(t-z)) = -π/R.)
+and p = -Im F(x + i0). The first integrand is entire on the piece e and has a pole at z on the
+others, towards which the panels are halved until the pole is half a panel away: 32 nodes then leave
+1e-36. (Muskhelishvili 1953, §§ 107-113; ∫dt/(w(t-z)) = -π/R.)
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -272,14 +276,15 @@ def sharp_contact(pieces: Pieces, modulus: float, load: float) -> Contact:
 
 
 def contact(
-    pieces: Pieces, modulus: float, guess: tuple[float, float], *, load: float | None = None, half_width: float | None = None,
+    pieces: Pieces, modulus: float, guess: tuple[float, float], *,
+    load: float | None = None, half_width: float | None = None,
     symmetric: bool = False, sharp: tuple[bool, bool] = (False, False), moment: float | None = None,
 ) -> Contact:  # fmt: skip
     """Edges, load and moment from the conditions, to 30 digits: Newton from a guess, with the
     residual verified.
 
     symmetric    about x = 0: ∫H dφ = 0 holds by itself
-    sharp        one end of the indenter is an edge; the other is smooth, where P = G r ∫H (1 ± sin φ) dφ
+    sharp        one end of the indenter is an edge; the other is smooth, P = G r ∫H (1 ± sin φ) dφ
     """
     G = mp.mpf(modulus) / 2
     P = None if load is None else mp.mpf(load)

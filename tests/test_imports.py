@@ -113,7 +113,10 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
 
 
 def loaded_after(statement):
-    code = f"import sys; {statement}; import json; print(json.dumps(sorted({{m.split('.')[0] for m in sys.modules}})))"
+    code = (
+        f"import sys; {statement}; import json; "
+        "print(json.dumps(sorted({m.split('.')[0] for m in sys.modules})))"
+    )
     return set(
         json.loads(
             subprocess.run(
@@ -128,7 +131,8 @@ def test_importing_the_solver_loads_neither_mpmath_nor_matplotlib_nor_scipy():
 
 
 def test_a_normal_contact_needs_numpy_only():
-    solve = "sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0)).check()"
+    scene = "sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0)"
+    solve = f"sie.solve({scene}).check()"
     assert not loaded_after(f"import sie; {solve}") & {"mpmath", "matplotlib", "scipy", "analytic"}
 
 

@@ -145,16 +145,20 @@ SMOOTH_CASES = (
 )
 SHARP_CASES = (
     Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, sharp=(True, True)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=0.125, sharp=(True, True)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=1.5, sharp=(True, False)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=-1.5, sharp=(False, True)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=0.125,
+         sharp=(True, True)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=1.5,
+         sharp=(True, False)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=-1.5,
+         sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=5.0, sharp=(True, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=0.6, sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=0.1),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), width=0.625, sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=5.0, tilt=0.25, sharp=(True, True)),
     Case(
-        "cut chain", sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))), polynomials((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
+        "cut chain", sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
+        polynomials((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
         load=2.0, sharp=(True, True),
     ),
 )  # fmt: skip

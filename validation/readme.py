@@ -44,7 +44,8 @@ def first_of_each_kind(report: Mapping[str, Any], name: str, title: str) -> dict
     topic = report["topics"].get(name)
     if topic is None:
         raise ValueError(
-            f"the report has no topic `{name}`, of which the README's table is made: run it without --only, or with it"
+            f"the report has no topic `{name}`, of which the README's table is made: run it "
+            f"without --only, or with it"
         )
     table = next(r for r in topic if r["kind"] == "table" and r["title"] == title)
     first: dict[str, list[Any]] = {}

@@ -3,7 +3,8 @@ relative accuracy.
 
 With 0 < alpha < 1, the exponent of p at an edge being 1 - alpha there,
 
-    phi(y) = (alpha/y^alpha) ∫_0^y s^(alpha-1)/(1-s) ds = sum_n alpha y^n/(alpha+n) = 2F1(1, alpha; 1+alpha; y)
+    phi(y) = (alpha/y^alpha) ∫_0^y s^(alpha-1)/(1-s) ds = sum_n alpha y^n/(alpha+n)
+           = 2F1(1, alpha; 1+alpha; y)
     A      = (1+V) phi(-V) - 1 = sum_n n! Y^n/(1+alpha)_n,  n >= 1,  Y = V/(1+V)
     B(y)   = 1 - (1-y) phi(y)  = sum_n alpha y^n/((alpha+n-1)(alpha+n)),  n >= 1
 

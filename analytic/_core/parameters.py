@@ -16,7 +16,7 @@ MEANING = {
     "half_flat": "half the length of the flat, a length >= 0",
     "half_width": "half the length of the contact, a length > 0",
     "rim": "the difference half_width - half_flat, a length >= 0",
-    "normal_load": "the load P per unit length of the line contact, pressing, a force per length > 0",
+    "normal_load": "the load P per unit length of the contact, pressing, a force per length > 0",
     "slope": "the flank's rise over run, a number > 0",
     "coefficient": "C in h = C |x|**exponent, a length**(1 - exponent) > 0",
     "exponent": "the power in h = C |x|**exponent, one number >= 1",
@@ -29,9 +29,9 @@ MEANING = {
     "dundurs": "Dundurs' second constant beta of the pair, a number between -1/2 and 1/2",
     "shear_load": "the shear load Q per unit length, a force per length",
     "friction": "Coulomb's coefficient f, a number > 0",
-    "tangential_load": "the tangential load Q, a force per length between 0 and friction * normal_load",
-    "largest_load": "the tangential load at which unloading began, between 0 and friction * normal_load",
-    "least_load": "the tangential load at which reloading began, from -largest_load to largest_load",
+    "tangential_load": "the load Q along x, a force per length from 0 to friction * normal_load",
+    "largest_load": "the tangential load where it turned first, from 0 to friction * normal_load",
+    "least_load": "the tangential load where it turned again, from -largest_load to largest_load",
     "bulk_stress": "the tension in the half-plane along its surface, a stress",
     "inner": "the distance from x = 0 to the near ends, a length > 0",
     "outer": "the distance from x = 0 to the far ends, a length > inner",
@@ -109,7 +109,8 @@ def side_of_cut(side: int) -> int:
     """+1 or -1. ValueError otherwise."""
     if not isinstance(side, Hashable) or side not in (1, -1):
         raise ValueError(
-            f"side = {side!r} is neither +1 nor -1; give +1 for the body y > 0, -1 for its mirror image."
+            f"side = {side!r} is neither +1 nor -1; give +1 for the body y > 0, -1 for its mirror "
+            "image."
         )
     return int(side)
 

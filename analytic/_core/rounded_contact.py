@@ -41,7 +41,8 @@ def contact_of(half_flat: Number, half_width: Number, rim: Number, lib: Library)
     if (half_width is None) == (rim is None):
         which = "Neither" if rim is None else "Both"
         raise ValueError(
-            f"{which} of half_width and rim (= half_width - half_flat) given; give exactly one of them."
+            f"{which} of half_width and rim (= half_width - half_flat) given; "
+            "give exactly one of them."
         )
     if rim is None:
         b = positive("half_width", half_width, lib)

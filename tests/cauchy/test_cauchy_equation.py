@@ -69,7 +69,8 @@ def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(firs
         else:
             with pytest.raises(
                 ValueError,
-                match=rf"index {index} asks for {max(index, 0)} side condition\(s\), but {given} given",
+                match=rf"index {index} asks for {max(index, 0)} side condition\(s\), but {given} "
+                rf"given",
             ):
                 sie.CauchyEquation(intervals, 0.0, ends=(first, second), **conditions)
 
@@ -180,8 +181,10 @@ def exact_rule(weight, nodes):
 
 
 EXPONENTS = [
-    (-0.3, 1), (-0.001, 1), (-0.999, 1), (-1e-9, 1), (-1 + 1e-9, 1), (0.4, 0), (0.999, 0), (-0.9999999, 0), (0.5, 0), (0.2, -1),
-    (0.999, -1), (-0.5 + 0.1j, 1), (-0.5 - 1.3j, 1), (0.3 + 0.4j, 0), (0.2j, 0), (0.5 + 0.7j, -1), (0.99 + 0.01j, -1),
+    (-0.3, 1), (-0.001, 1), (-0.999, 1), (-1e-9, 1), (-1 + 1e-9, 1), (0.4, 0), (0.999, 0),
+    (-0.9999999, 0), (0.5, 0), (0.2, -1),
+    (0.999, -1), (-0.5 + 0.1j, 1), (-0.5 - 1.3j, 1), (0.3 + 0.4j, 0), (0.2j, 0), (0.5 + 0.7j, -1),
+    (0.99 + 0.01j, -1),
 ]  # fmt: skip
 
 
@@ -316,7 +319,8 @@ def counted(k, intervals=((-1.0, 1.0),), g=1.0, a=0.0):
 
 
 SMOOTH_KERNELS = [
-    lambda x, t: 0.3, smooth_kernel, lambda x, t: np.cos(5.0 * x * t), lambda x, t: 1.0 / (1.0 + (x - t) ** 2),
+    lambda x, t: 0.3, smooth_kernel, lambda x, t: np.cos(5.0 * x * t),
+    lambda x, t: 1.0 / (1.0 + (x - t) ** 2),
     lambda x, t: 0.2j * np.exp(x),
     # 0/0 at x = t, as a periodic row has it
     lambda x, t: (0.5 / np.tan(0.5 * (t - x)) - 1.0 / (t - x)) / np.pi,
@@ -437,7 +441,8 @@ ILL_POSED = [
     ({"total": None}, r"index 1 asks for 1 side condition\(s\), but 0 given"),
     (
         {"moment": 1.0},
-        r"asks for 1 side condition\(s\), but 2 given: give as many of total and moment, or make other ends",
+        r"asks for 1 side condition\(s\), but 2 given: give as many of total and moment, or make "
+        r"other ends",
     ),
     ({"ends": "bounded"}, r"index -1 asks for 0 side condition\(s\), but 1 given"),
     ({"total": (0.0, 1.0)}, "total is given for 2 intervals, but there are 1"),

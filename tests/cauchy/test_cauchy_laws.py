@@ -46,7 +46,8 @@ def equation_of(densities, a, b, ends, kernels=()):
         totals.append(number(d.total) if d.kappa == 1 and wanted > 0 else None)
         wanted -= totals[-1] is not None
     return sie.CauchyEquation(
-        intervals, right_hand_side(densities, a, b, kernels), a=a, b=b, k=k if kernels else None, ends=[words(e) for e in ends],
+        intervals, right_hand_side(densities, a, b, kernels), a=a, b=b, k=k if kernels else None,
+        ends=[words(e) for e in ends],
         total=tuple(totals) if any(t is not None for t in totals) else None,
     )  # fmt: skip
 
@@ -533,7 +534,7 @@ def test_the_potential_reaches_its_limit_continuously(gap):
 
 
 def test_repeated_integrals_may_be_exchanged_by_the_formula_of_poincare_and_bertrand():
-    """In Tricomi's form  H(φ Hψ + ψ Hφ) = Hφ Hψ - φ ψ,  the left-hand side by a quadrature of its own."""
+    """In Tricomi's form H(φ Hψ + ψ Hφ) = Hφ Hψ - φ ψ; the left side by a quadrature of its own."""
     phi = sie.CauchyEquation(
         (-1.0, 2.0), lambda x: np.exp(0.5 * x), ends="bounded", free=(1.0,)
     ).solve()
@@ -583,7 +584,8 @@ def test_an_affine_map_of_the_lengths_changes_nothing_else(scale, intervals):
         turned = scale < 0
         return sie.CauchyEquation(
             moved[::-1] if turned else moved,
-            lambda x: np.exp(x / scale), a=0.3, b=-b if turned else b, k=lambda x, t: kernel(x / scale, t / scale) / abs(scale),
+            lambda x: np.exp(x / scale), a=0.3, b=-b if turned else b,
+            k=lambda x, t: kernel(x / scale, t / scale) / abs(scale),
             ends=ends[::-1] if turned else ends,
         ).solve()  # fmt: skip
 

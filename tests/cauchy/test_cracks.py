@@ -81,7 +81,8 @@ def test_a_slit_under_a_point_load(place, height):
     """The load p = height/π / ((x - place)² + height²) of unit resultant; for a height of 0 it is
     the point load of the textbooks.
 
-    With ζ = place + i height,  ∫ p sqrt((a + t)/(a - t)) dt = -Im sqrt((ζ + a)/(ζ - a)),  which is sqrt((a + place)/(a - place)) then.
+    With ζ = place + i height,  ∫ p sqrt((a + t)/(a - t)) dt = -Im sqrt((ζ + a)/(ζ - a)),
+    which is sqrt((a + place)/(a - place)) then.
     """
     a, zeta = 1.0, mp.mpc(place, height)
     density = slit(a, lambda x: height / np.pi / ((x - place) ** 2 + height**2))

@@ -298,8 +298,8 @@ def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=50.0)).check()
     assert found.ok
     assert (
-        "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is outside its range"
-        in found.notes[0]
+        "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is "
+        "outside its range" in found.notes[0]
     )
     assert "pressure reaches 25 E*" in found.notes[1]
     assert found.as_dict()["notes"] == list(found.notes)

@@ -231,7 +231,7 @@ def test_a_thin_rim_leaves_the_centre_pressure_of_a_rigid_flat(rim: float) -> No
 
 
 # --- the series
-# -----------------------------------------------------------------------------------------------------
+# ------------------------------------------------------------------------------------------
 
 
 @settings(max_examples=60, deadline=None)
@@ -284,7 +284,7 @@ def test_first_chebyshev_coefficient_carries_the_load(contact: Rounded) -> None:
 
 
 # --- potentials
-# -----------------------------------------------------------------------------------------------------
+# ------------------------------------------------------------------------------------------
 
 
 class Potential(NamedTuple):
@@ -486,7 +486,7 @@ def test_the_sign_of_a_floating_zero_means_nothing(case: Potential) -> None:
 
 
 # --- the other indenters
-# --------------------------------------------------------------------------------------------
+# ------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -642,7 +642,7 @@ def test_complete_and_partial_flat_meet_at_lift_off(sign: int) -> None:
 
 
 # --- what holds for all
-# ---------------------------------------------------------------------------------------------
+# ------------------------------------------------------------------------------------------
 
 
 def test_pressure_is_zero_outside_and_infinite_only_at_corners_and_apex() -> None:

@@ -28,7 +28,8 @@ def straight(breaks, rows):
 
 
 FLAT = Shape(
-    sie.RoundedFlat(1.0, 1.0), (-mp.one, mp.one), ((-mp.one, (mp.zero, mp.one)), (mp.zero, (mp.zero,)), (mp.one, (mp.zero, mp.one)))
+    sie.RoundedFlat(1.0, 1.0), (-mp.one, mp.one),
+    ((-mp.one, (mp.zero, mp.one)), (mp.zero, (mp.zero,)), (mp.one, (mp.zero, mp.one)))
 )  # fmt: skip
 UNEQUAL = straight(
     [0.024680404604208395, 1.3439257285642596, 1.78238721606423],
@@ -61,7 +62,8 @@ def test_a_moment_is_met_where_tilting_moves_the_contact_across_a_straight_part_
     """Newton's steps for the tilt run to and fro between both sides of it."""
     breaks = (-0.9414274571584791, 1.0774521785565838, 1.375368804641461, 1.3936751617452114)
     rows = (
-        (-0.619583920921905, 0.375790832873566), (-0.8172227922082222, 0.1658555162610117), (-0.6385214048871684,),
+        (-0.619583920921905, 0.375790832873566), (-0.8172227922082222, 0.1658555162610117),
+        (-0.6385214048871684,),
         (-4.193920775974172, 2.5850516305798035), (-4.373284932726633, 2.7137503127948572),
     )  # fmt: skip
     moment = 0.0007652261035979348
@@ -162,8 +164,10 @@ def test_a_moment_given_is_met_as_well_as_the_tilt_that_has_it():
 FOUR_BUMPS = sie.Piecewise(
     (-0.7714976878381853, 0.8171731211684752, 1.089730800977856, 1.3460362406775221),
     (
-        (0.6285921920224812, 0.9860914774096601), (0.6916307046659504, -0.05157493735498331, -0.5100892946518819),
-        (-2.128898542200382, 2.9940859144367877, -0.013367198918968986), (-0.08301694260113335, 2.204200001774464, -1.01135069312373),
+        (0.6285921920224812, 0.9860914774096601),
+        (0.6916307046659504, -0.05157493735498331, -0.5100892946518819),
+        (-2.128898542200382, 2.9940859144367877, -0.013367198918968986),
+        (-0.08301694260113335, 2.204200001774464, -1.01135069312373),
         (-0.7733374465351688, 1.3557396390436804),
     ),
 )  # fmt: skip
@@ -256,8 +260,10 @@ def test_a_contact_much_narrower_than_the_first_guess_is_found_beside_a_kink():
 @pytest.mark.parametrize(
     ("profile", "r", "tilt"),
     [
-        (sie.RoundedFlat(1.0, 1.0), 0.2, 0.05), (sie.RoundedFlat(1.0, 1.0), 0.2, -0.4), (sie.RoundedFlat(0.5, 2.0), 0.7, 0.1),
-        (sie.Wedge(0.3), 0.8, 0.05), (sie.Parabola(1.0).shifted(-3.0), 0.5, 0.2), (sie.Power(2.5, 0.75), 0.6, 0.3),
+        (sie.RoundedFlat(1.0, 1.0), 0.2, 0.05), (sie.RoundedFlat(1.0, 1.0), 0.2, -0.4),
+        (sie.RoundedFlat(0.5, 2.0), 0.7, 0.1),
+        (sie.Wedge(0.3), 0.8, 0.05), (sie.Parabola(1.0).shifted(-3.0), 0.5, 0.2),
+        (sie.Power(2.5, 0.75), 0.6, 0.3),
         (sie.FromFunction("sinh(x) + x**2/4"), 0.6, 0.3), (UNEQUAL.profile, 0.4, -1.2),
     ],
 )  # fmt: skip

@@ -42,41 +42,61 @@ def number(pattern, message):
 
 # What is asked, words of the remedy, and what is asked when it is followed.
 SCENES = {
-    "give exactly one: load": (lambda: scene(half_width=1.5, normal_load=1.0), "exactly one", lambda: scene(normal_load=1.0)),
-    "give exactly one: width": (lambda: scene(normal_load=...), "exactly one", lambda: scene(half_width=1.5)),
+    "give exactly one: load": (lambda: scene(half_width=1.5, normal_load=1.0), "exactly one",
+                               lambda: scene(normal_load=1.0)),
+    "give exactly one: width": (lambda: scene(normal_load=...), "exactly one",
+                                lambda: scene(half_width=1.5)),
     "give body": (lambda: scene(modulus=...), "give body = sie.Elastic", lambda: scene(body=STEEL)),
     "or modulus": (lambda: scene(modulus=...), "or modulus = E", lambda: scene(modulus=2.0)),
-    "leave poisson out": (lambda: scene(body=STEEL, poisson=0.3), "leave it out", lambda: scene(body=STEEL)),
-    "leave dundurs out": (lambda: scene(body=STEEL, dundurs=0.1), "leave it out", lambda: scene(body=STEEL)),
-    "give dundurs 0": (lambda: scene(body=STEEL, dundurs=0.1), "or give 0", lambda: scene(body=STEEL, dundurs=0)),
+    "leave poisson out": (lambda: scene(body=STEEL, poisson=0.3), "leave it out",
+                          lambda: scene(body=STEEL)),
+    "leave dundurs out": (lambda: scene(body=STEEL, dundurs=0.1), "leave it out",
+                          lambda: scene(body=STEEL)),
+    "give dundurs 0": (lambda: scene(body=STEEL, dundurs=0.1), "or give 0",
+                       lambda: scene(body=STEEL, dundurs=0)),
     "leave the indenter out": (lambda: scene(modulus=1.0, indenter=STEEL), "leave it out", scene),
-    "give one of them young": (lambda: scene(body=sie.RIGID), "young and poisson", lambda: scene(body=sie.RIGID, indenter=STEEL)),
-    "give tilt or moment": (lambda: scene(tilt=0.1, moment=0.1), "give one", lambda: scene(moment=0.1)),
-    "give friction": (lambda: scene(tangential_load=0.1), "give friction > 0", lambda: scene(tangential_load=0.1, friction=0.2)),
-    "give a finite friction": (lambda: scene(FLAT, sliding=1, friction=math.inf), "finite", lambda: scene(FLAT, sliding=1, friction=0.3)),
+    "give one of them young": (lambda: scene(body=sie.RIGID), "young and poisson",
+                               lambda: scene(body=sie.RIGID, indenter=STEEL)),
+    "give tilt or moment": (lambda: scene(tilt=0.1, moment=0.1), "give one",
+                            lambda: scene(moment=0.1)),
+    "give friction": (lambda: scene(tangential_load=0.1), "give friction > 0",
+                      lambda: scene(tangential_load=0.1, friction=0.2)),
+    "give a finite friction": (lambda: scene(FLAT, sliding=1, friction=math.inf), "finite",
+                               lambda: scene(FLAT, sliding=1, friction=0.3)),
     "sliding, 0": (lambda: scene(sliding=1), "leave it 0", lambda: scene(sliding=0)),
-    "sliding, friction": (lambda: scene(sliding=1), "give friction > 0", lambda: scene(sliding=1, friction=0.3)),
-    "sliding, not Q": (lambda: scene(sliding=1, tangential_load=0.1, friction=0.3), "follows", lambda: scene(sliding=1, friction=0.3)),
-    "bonded, flat": (lambda: scene(friction=math.inf), "give a flat punch", lambda: scene(FLAT, friction=math.inf)),
-    "bonded, finite": (lambda: scene(friction=math.inf), "a finite friction", lambda: scene(friction=0.5)),
+    "sliding, friction": (lambda: scene(sliding=1), "give friction > 0",
+                          lambda: scene(sliding=1, friction=0.3)),
+    "sliding, not Q": (lambda: scene(sliding=1, tangential_load=0.1, friction=0.3), "follows",
+                       lambda: scene(sliding=1, friction=0.3)),
+    "bonded, flat": (lambda: scene(friction=math.inf), "give a flat punch",
+                     lambda: scene(FLAT, friction=math.inf)),
+    "bonded, finite": (lambda: scene(friction=math.inf), "a finite friction",
+                       lambda: scene(friction=0.5)),
     "bonded, load": (
-        lambda: scene(FLAT, friction=math.inf, half_width=1.0), "give normal_load", lambda: scene(FLAT, friction=math.inf)
+        lambda: scene(FLAT, friction=math.inf, half_width=1.0), "give normal_load",
+        lambda: scene(FLAT, friction=math.inf)
     ),
-    "sharp, load": (lambda: scene(FLAT, half_width=1.0), "any load: give a normal_load", lambda: scene(FLAT)),
-    "width on the flat, larger": (lambda: scene(half_width=0.5), "give a larger half_width", lambda: scene(half_width=1.5)),
+    "sharp, load": (lambda: scene(FLAT, half_width=1.0), "any load: give a normal_load",
+                    lambda: scene(FLAT)),
+    "width on the flat, larger": (lambda: scene(half_width=0.5), "give a larger half_width",
+                                  lambda: scene(half_width=1.5)),
     "width on the flat, load": (lambda: scene(half_width=0.5), "or a normal_load", scene),
     "width beyond the indenter": (
         lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=2.0), "at most that",
         lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=0.9),
     ),
-    "less moment": (lambda: scene(FLAT, moment=2.0), "lower the moment", lambda: scene(FLAT, moment=0.4)),
-    "less tilt": (lambda: scene(WEDGE, tilt=2.0), "prescribe less tilt", lambda: scene(WEDGE, tilt=0.5)),
+    "less moment": (lambda: scene(FLAT, moment=2.0), "lower the moment",
+                    lambda: scene(FLAT, moment=0.4)),
+    "less tilt": (lambda: scene(WEDGE, tilt=2.0), "prescribe less tilt",
+                  lambda: scene(WEDGE, tilt=0.5)),
     "narrower domain": (
-        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-1.0, 1.0)), normal_load=5.0), "narrow the domain",
+        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-1.0, 1.0)), normal_load=5.0),
+        "narrow the domain",
         lambda: scene(sie.FromFunction("arctanh(x)", domain=(-0.999, 0.999)), normal_load=5.0),
     ),
     "a root at the end": (
-        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-1.0, 1.0)), normal_load=5.0), "narrow the domain",
+        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-1.0, 1.0)), normal_load=5.0),
+        "narrow the domain",
         lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-0.999, 0.999)), normal_load=5.0),
     ),
     "give a domain": (
@@ -84,12 +104,16 @@ SCENES = {
         lambda: scene(sie.FromFunction("x/(1 + x*x)", domain=(-3.0, 3.0)), normal_load=9.0),
     ),
     "other units": (
-        lambda: scene(sie.Parabola(1e-200)), "choose other units", lambda: scene(sie.Parabola(1e-100), normal_load=1e-100)
+        lambda: scene(sie.Parabola(1e-200)), "choose other units",
+        lambda: scene(sie.Parabola(1e-100), normal_load=1e-100)
     ),
-    "shift less": (lambda: scene(FLAT.shifted(1e20)), "shift it less", lambda: scene(FLAT.shifted(2.0))),
-    "shift before adding": (lambda: scene(FLAT + FLAT.shifted(5.0)), "shift one of them", lambda: scene(FLAT + FLAT.shifted(0.5))),
+    "shift less": (lambda: scene(FLAT.shifted(1e20)), "shift it less",
+                   lambda: scene(FLAT.shifted(2.0))),
+    "shift before adding": (lambda: scene(FLAT + FLAT.shifted(5.0)), "shift one of them",
+                            lambda: scene(FLAT + FLAT.shifted(0.5))),
     "bumps, higher load": (
-        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=0.05), "raise it until they merge",
+        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=0.05),
+        "raise it until they merge",
         lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=60.0),
     ),
 }  # fmt: skip
@@ -155,15 +179,20 @@ HEAD = "[load]\nnormal_load = 5.0\n"
 BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
 ROUND = '[profile]\nkind = "parabola"\nradius = 10.0\n'
 FILES = {
-    "load is normal_load": (BODY + ROUND + "[load]\nload = 5.0\n", 'did you mean "normal_load"?', BODY + ROUND + HEAD),
+    "load is normal_load": (BODY + ROUND + "[load]\nload = 5.0\n", 'did you mean "normal_load"?',
+                            BODY + ROUND + HEAD),
     "another kind's key": (
         BODY + HEAD + ROUND + "half_flat = 1.0\n", 'it belongs to kind "rounded-flat"',
         BODY + HEAD + ROUND.replace("parabola", "rounded-flat") + "half_flat = 1.0\n",
     ),
-    "a table of its own": (BODY + ROUND + HEAD + "pair = 3\n", "write the header [pair]", ROUND + HEAD + "[pair]\nmodulus = 3\n"),
-    "top of the file": (BODY + ROUND + HEAD + 'title = "a"\n', "top of the file", 'title = "a"\n' + BODY + ROUND + HEAD),
-    "pair or body": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "leave one out", BODY + ROUND + HEAD),
-    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "dundurs = 0 alone", BODY + "[pair]\ndundurs = 0\n" + ROUND + HEAD),
+    "a table of its own": (BODY + ROUND + HEAD + "pair = 3\n", "write the header [pair]",
+                           ROUND + HEAD + "[pair]\nmodulus = 3\n"),
+    "top of the file": (BODY + ROUND + HEAD + 'title = "a"\n', "top of the file",
+                        'title = "a"\n' + BODY + ROUND + HEAD),
+    "pair or body": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "leave one out",
+                     BODY + ROUND + HEAD),
+    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "dundurs = 0 alone",
+                      BODY + "[pair]\ndundurs = 0\n" + ROUND + HEAD),
     "a formula": (
         BODY + HEAD + '[profile]\nkind = "function"\nslope = "x^3"\n', "did you mean **?",
         BODY + HEAD + '[profile]\nkind = "function"\nslope = "x**3"\n',
@@ -287,7 +316,8 @@ def half_width(solution):
 
 SWEEPS = {
     "a field": ({"over": {"load": [1.0]}}, "normal_load", {"over": {"normal_load": [1.0]}}),
-    "of the profile": ({"over": {"profile.R": [1.0]}}, "choose radius", {"over": {"profile.radius": [1.0]}}),
+    "of the profile": ({"over": {"profile.R": [1.0]}}, "choose radius",
+                       {"over": {"profile.radius": [1.0]}}),
     "a quantity": ({"want": "width"}, "half_width", {"want": "half_width"}),
     "a function": ({"want": "width"}, "a dict of functions", {"want": {"width": half_width}}),
     "a sequence": ({"over": {"normal_load": 1.0}}, "a sequence", {"over": {"normal_load": [1.0]}}),
@@ -307,11 +337,14 @@ def test_a_sweep_that_follows_its_refusal_s_remedy_has_no_reason_left(name):
 
 HEIGHTS = [f"{x:.2f} {0.5 * x * x:.6f}" for x in np.linspace(-1.0, 1.0, 41)]
 TRACES = {
-    "mend passes over lines": ([*HEIGHTS, "1.05 nan"], {}, "mend = true passes over them", None, {"mend": True}),
+    "mend passes over lines": ([*HEIGHTS, "1.05 nan"], {}, "mend = true passes over them", None,
+                               {"mend": True}),
     "delete such lines": ([*HEIGHTS, "1.05 nan"], {}, "delete such lines", HEIGHTS, {}),
     "mend the file": ([*HEIGHTS, "1.05 oops"], {}, "mend the file", HEIGHTS, {}),
-    "other columns": ([f"a{k} {row}" for k, row in enumerate(HEIGHTS)], {}, "choose other columns", None, {"columns": (1, 2)}),
-    "a number": (HEIGHTS, {"columns": (0, 2)}, "give numbers from 0 to 1", None, {"columns": (0, 1)}),
+    "other columns": ([f"a{k} {row}" for k, row in enumerate(HEIGHTS)], {}, "choose other columns",
+                      None, {"columns": (1, 2)}),
+    "a number": (HEIGHTS, {"columns": (0, 2)}, "give numbers from 0 to 1", None,
+                 {"columns": (0, 1)}),
     "skip fewer": (HEIGHTS, {"skip": 41}, "skip fewer lines", None, {"skip": 4}),
 }  # fmt: skip
 

@@ -251,7 +251,9 @@ KINDS = {
     "two radii": sie.Piecewise([-0.5, 0.25], [(0.5, 1.0), (0.0,), (-0.75, 3.0)]),
     "sharp": sie.Flat(0.6) + sie.Parabola(1.0),
     "function": sie.FromFunction("sinh(x) + x**2/8", domain=(-3.0, 3.0)),
-    "trace": sie.Sampled(np.linspace(-1.6, 1.6, 161), np.linspace(-1.6, 1.6, 161) ** 2 / 2 + np.linspace(-1.6, 1.6, 161) ** 3 / 20),
+    "trace": sie.Sampled(np.linspace(-1.6, 1.6, 161),
+                         np.linspace(-1.6, 1.6, 161) ** 2 / 2 + np.linspace(-1.6, 1.6,
+                                                                            161) ** 3 / 20),
 }  # fmt: skip
 TURNING = [
     (0.1, 0.02),

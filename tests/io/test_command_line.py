@@ -132,7 +132,8 @@ def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
     main(["solve", scene, "--want", want])
     out = capsys.readouterr().out
     marks = {
-        "edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "shear": "\nshear", "check": "integral equation",
+        "edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "shear": "\nshear",
+        "check": "integral equation",
         "stress": "\nstress ", "yield": "elastic limit", "tension": "peak tension",
     }  # fmt: skip
     assert {name for name, mark in marks.items() if mark in out} == {want}

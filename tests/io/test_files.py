@@ -369,7 +369,10 @@ def test_an_interruption_while_modules_are_imported_is_quiet(start, module, fold
 
 
 def test_a_program_of_another_name_keeps_its_handler_of_interruptions():
-    code = "import signal; before = signal.getsignal(signal.SIGINT); import sie; assert signal.getsignal(signal.SIGINT) is before"
+    code = (
+        "import signal; before = signal.getsignal(signal.SIGINT); import sie; "
+        "assert signal.getsignal(signal.SIGINT) is before"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 

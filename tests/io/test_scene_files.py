@@ -116,14 +116,18 @@ def test_the_showcase_still_works_with_its_commented_lines_switched_on():
 
 
 def test_modifiers_are_applied_mirrored_then_tilted_then_shifted():
-    text = '[profile]\nshifted = 0.5\ntilted = 1e-3\nmirrored = true\nkind = "polynomial"\ncoefficients = [0, 0, 1, 1]\n'
+    text = (
+        "[profile]\nshifted = 0.5\ntilted = 1e-3\nmirrored = true\n"
+        'kind = "polynomial"\ncoefficients = [0, 0, 1, 1]\n'
+    )
     assert profile_of(text) == sie.Polynomial((0, 0, 1, 1)).mirrored().tilted(1e-3).shifted(0.5)
 
 
 def test_terms_add_up_and_modifiers_act_on_their_own_term():
     text = (
         PARABOLA
-        + '[[profile.plus]]\nkind = "wedge"\nslope = 0.1\nshifted = 1.0\n[[profile.plus]]\nkind = "flat"\nhalf_width = 3\n'
+        + '[[profile.plus]]\nkind = "wedge"\nslope = 0.1\nshifted = 1.0\n[[profile.plus]]\nkind = '
+        '"flat"\nhalf_width = 3\n'
     )
     assert profile_of(text) == sie.Parabola(10.0) + sie.Wedge(0.1).shifted(1.0) + sie.Flat(3.0)
 
@@ -159,7 +163,8 @@ def test_every_load_of_a_scene_can_be_written():
     scene = parse(
         PAIR
         + PARABOLA
-        + "[load]\nhalf_width = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = 4\n"
+        + "[load]\nhalf_width = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = "
+        "4\n"
     ).scene
     assert scene == sie.Scene(
         profile=sie.Parabola(10.0), modulus=1e5, half_width=1.0, moment=2.0, friction=0.5,

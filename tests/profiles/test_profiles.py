@@ -312,8 +312,11 @@ def test_even_parity_is_declared_only_where_it_is_true(profile):
 
 
 @pytest.mark.parametrize(
-    "profile", [sie.Parabola(1.0), sie.RoundedFlat(1.0, 1.0), sie.Flat(1.0), sie.Wedge(1.0), sie.Power(2.5, 1.0), sie.Polynomial((0, 0, 1)),
-                sie.Piecewise((-1.0, 1.0), ((1.0, 1.0), (0.0,), (-1.0, 1.0))), sie.Wedge(1.0) + sie.Parabola(1.0)], ids=repr,
+    "profile",
+    [sie.Parabola(1.0), sie.RoundedFlat(1.0, 1.0), sie.Flat(1.0), sie.Wedge(1.0),
+     sie.Power(2.5, 1.0), sie.Polynomial((0, 0, 1)),
+                sie.Piecewise((-1.0, 1.0), ((1.0, 1.0), (0.0,), (-1.0, 1.0))),
+                sie.Wedge(1.0) + sie.Parabola(1.0)], ids=repr,
 )  # fmt: skip
 def test_symmetric_profiles_are_known_to_be_even(profile):
     assert profile.parity == "even"
@@ -332,7 +335,8 @@ def test_a_profile_known_to_be_convex_is_convex(profile, one, other):
 @pytest.mark.parametrize(
     "profile",
     [sie.Polynomial((0, 0, 1, 0, -0.1)), sie.Piecewise((0.0,), ((0.0, 1.0), (-0.1, 1.0))),
-     sie.Piecewise((-1.0, 1.0), ((0.0, 1.0), (-1.5, -0.5), (-3.0, 1.0))), sie.FromFunction("x - sin(x)")],
+     sie.Piecewise((-1.0, 1.0), ((0.0, 1.0), (-1.5, -0.5), (-3.0, 1.0))),
+     sie.FromFunction("x - sin(x)")],
     ids=repr,
 )  # fmt: skip
 def test_what_is_not_known_to_be_convex_does_not_say_so(profile):

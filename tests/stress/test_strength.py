@@ -17,7 +17,8 @@ NU = 0.3
 # P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed
 # form
 KNOWN = {
-    (0.0, 0.0): (4.88003571108, False), (0.3, 0.0): (5.32116806054, False), (0.5, 0.0): (5.00129193126, False),
+    (0.0, 0.0): (4.88003571108, False), (0.3, 0.0): (5.32116806054, False),
+    (0.5, 0.0): (5.00129193126, False),
     (0.8, 0.0): (3.52415662624, False), (0.0, 0.3): (4.081253, True), (0.3, 0.3): (3.883460, True),
     (0.5, 0.3): (3.484226, True), (0.8, 0.3): (2.372888, True),
 }  # fmt: skip
@@ -80,8 +81,11 @@ def polished(a, friction, x, y):
     return x, y, j2(x, y)
 
 
-@pytest.mark.parametrize(("a", "f"), [(0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2), (0.5, 0.0), (0.8, 0.05), (0.95, 0.0),
-                                      (0.05, 0.3), (0.5, 0.3), (0.8, 0.5), (0.95, 0.4)])  # fmt: skip
+@pytest.mark.parametrize(("a", "f"),
+                         [(0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2), (0.5, 0.0),
+                          (0.8, 0.05), (0.95, 0.0),
+                                      (0.05, 0.3), (0.5, 0.3), (0.8, 0.5),
+                                      (0.95, 0.4)])  # fmt: skip
 def test_the_elastic_limit_has_twelve_digits_and_its_place_eight(a, f):
     found = punch(a, f).elastic_limit()
     x, y, j2 = polished(a, f, found.x, found.y)

@@ -318,8 +318,10 @@ def test_far_away_only_the_resultant_tells(scene):
 @EVERY
 def test_the_mirrored_scene_has_the_mirrored_stress(scene):
     here, there = sliding(scene), sliding(scene)
-    mirrored = sie.Scene(profile=scene.profile.mirrored(), body=scene.body, modulus=scene.modulus if scene.body is None else None,
-                         poisson=scene.poisson, normal_load=here.normal_load, tilt=-scene.tilt)  # fmt: skip
+    mirrored = sie.Scene(profile=scene.profile.mirrored(), body=scene.body,
+                         modulus=scene.modulus if scene.body is None else None,
+                         poisson=scene.poisson, normal_load=here.normal_load,
+                         tilt=-scene.tilt)  # fmt: skip
     there = sie.solve(mirrored).with_(friction=F, tangential_load=-F * here.normal_load)
     x, y = np.meshgrid(
         np.linspace(-2, 2, 9) * here.half_width, np.array([0.03, 0.4, 3.0]) * here.half_width

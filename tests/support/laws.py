@@ -1,7 +1,9 @@
 """What every contact obeys, measured from values of the pressure alone, in doubles, by a quadrature
 of the tests' own.
 
-x = m - r cos ψ,  ψ in [0, π],  dx = r sin ψ dψ:   16 Gauss-Legendre nodes on panels graded to every break and halved between them
+    x = m - r cos ψ,  ψ in [0, π],  dx = r sin ψ dψ
+
+16 Gauss-Legendre nodes on panels graded to every break and halved between them.
 """
 
 from collections.abc import Callable, Sequence

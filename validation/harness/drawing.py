@@ -145,7 +145,8 @@ def draw(
         shape = {"line": "-", "points": marker, "both": f"{marker}-", "dashed": "--"}[curve.style]
         strong = curve.about.get("strong", False)
         ax.plot(
-            curve.x, y, shape, label=curve.label or None, color=curve.about.get("colour", colour), mew=0.9, ms=7 if strong else 4,
+            curve.x, y, shape, label=curve.label or None, color=curve.about.get("colour", colour),
+            mew=0.9, ms=7 if strong else 4,
             mfc=None if strong else "none", zorder=3 if strong else 2,
         )  # fmt: skip
 

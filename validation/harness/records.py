@@ -31,9 +31,10 @@ class Claim:
     that the measure can fail.
 
     low, high   the bar: it holds if low <= measured <= high
-    control     the same measure on a wrong input, which `wrong` names: it must miss the bar, by a number: nan proves nothing
-    erratum     what is true instead, for a claim that this project says is mistaken: then the measure must miss the bar, and the
-                control, the corrected input, must meet it
+    control     the same measure on a wrong input, which `wrong` names: it must miss the bar,
+                by a number: nan proves nothing
+    erratum     what is true instead, for a claim that this project says is mistaken: then the
+                measure must miss the bar, and the control, the corrected input, must meet it
     """
 
     what: str

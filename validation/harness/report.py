@@ -23,19 +23,27 @@ from validation.harness.records import Claim, Found, Table
 CSS = """
 :root { color-scheme: light; --line: #d8dee4; --soft: #57606a }
 * { box-sizing: border-box }
-body { margin: 0 auto; max-width: 62rem; padding: 1rem; font: 16px/1.5 system-ui, sans-serif; color: #1f2328; background: #fff }
-h1 { font-size: 1.5rem } h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--line); font-size: 1.25rem } h3 { font-size: 1rem }
-nav a { margin-right: .8rem; white-space: nowrap } p.intro { white-space: pre-line; color: var(--soft) }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr)); gap: 1rem }
+body { margin: 0 auto; max-width: 62rem; padding: 1rem; font: 16px/1.5 system-ui, sans-serif;
+  color: #1f2328; background: #fff }
+h1 { font-size: 1.5rem }
+h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--line); font-size: 1.25rem }
+h3 { font-size: 1rem }
+nav a { margin-right: .8rem; white-space: nowrap }
+p.intro { white-space: pre-line; color: var(--soft) }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 25rem), 1fr));
+  gap: 1rem }
 figure { margin: 0; min-width: 0 } figure svg { width: 100%; height: auto; display: block }
 figcaption, .note { font-size: .87rem; color: var(--soft) }
 .scroll { overflow-x: auto } table { border-collapse: collapse; font-size: .87rem; width: 100% }
-th, td { text-align: left; vertical-align: top; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--line) }
+th, td { text-align: left; vertical-align: top; padding: .3rem .6rem .3rem 0;
+  border-bottom: 1px solid var(--line) }
 td.number { font-variant-numeric: tabular-nums; white-space: nowrap }
 .badge { border-radius: .6rem; padding: 0 .5rem; font-weight: 600; white-space: nowrap }
-.holds { background: #dafbe1 } .refuted { background: #fff8c5 } .fails, .blind { background: #ffebe9; color: #a40e26 }
+.holds { background: #dafbe1 } .refuted { background: #fff8c5 }
+.fails, .blind { background: #ffebe9; color: #a40e26 }
 @media (max-width: 40rem) {
-  table.claims thead { display: none } table.claims tr { display: block; padding: .5rem 0; border-bottom: 1px solid var(--line) }
+  table.claims thead { display: none }
+  table.claims tr { display: block; padding: .5rem 0; border-bottom: 1px solid var(--line) }
   table.claims td { display: block; border: 0; padding: .05rem 0 }
   table.claims td[data-label]::before { content: attr(data-label) ": "; color: var(--soft) }
 }
@@ -63,24 +71,30 @@ def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
     links = "".join(f'<a href="#{s.name}">{escape(s.title)}</a> ' for s in sections)
     kind = "quick run" if quick else "whole run"
     body = [
-        f"<h1>plane-contact: every claim computed anew</h1><p><b>{len(claims)} claims</b>: {counts}. "
+        f"<h1>plane-contact: every claim computed anew</h1><p><b>{len(claims)} claims</b>: "
+        f"{counts}. "
         f"A {kind} of {seconds:.0f} s, {escape(machine())}.</p>"
-        "<p class=note>Each claim has a number measured in this run, a bar, and the same measure on a wrong input, which must miss it: "
-        "a measure that its wrong input passes is called blind, and proves nothing. Refuted: a claim of the paper that is listed among its "
+        "<p class=note>Each claim has a number measured in this run, a bar, and the same measure "
+        "on a wrong input, which must miss it: "
+        "a measure that its wrong input passes is called blind, and proves nothing. Refuted: a "
+        "claim of the paper that is listed among its "
         "errata; there the control is the corrected form, which must meet the bar.</p>"
         f"<nav>{links}</nav>"
     ]
     body += [_section(s) for s in sections]
     return (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>plane-contact: validation</title><style>{CSS}</style></head><body>{''.join(body)}</body></html>\n"
+        '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
+        'content="width=device-width, initial-scale=1">'
+        f"<title>plane-contact: "
+        f"validation</title><style>{CSS}</style></head><body>{''.join(body)}</body></html>\n"
     )
 
 
 def machine() -> str:
     """What the times were measured on."""
     return (
-        f"{time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}, "
+        f"{time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, NumPy {np.__version__}, "
+        f"SciPy {scipy.__version__}, "
         f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"
     )
 
@@ -125,7 +139,8 @@ def _claims(claims: Sequence[Claim]) -> str:
         )
         rows.append(f"<tr>{''.join(cells)}</tr>")
     head = "".join(f"<th>{h}</th>" for h in HEADER)
-    return f'<table class="claims"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'
+    body = "".join(rows)
+    return f'<table class="claims"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
 
 
 def _cell(label: str, inner: str, kind: str = "") -> str:

@@ -104,7 +104,8 @@ def workers(topics: int) -> Iterator[Executor]:
                 for _ in range(cores):
                     pool.submit(awake)  # they import while this process does
                 yield pool
-            except BaseException:  # an interrupt too: else the pool would compute all that it was given before it lets go
+            # An interrupt too: else the pool would compute all that it was given before it ends
+            except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 for child in set(multiprocessing.active_children()) - others:
                     child.terminate()

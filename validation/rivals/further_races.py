@@ -82,7 +82,8 @@ def interior(quick: bool) -> Iterator[Record]:
     )
     yield curve(name, "the series (22), (23)", _points(series, nodes[:4], error), says=says)
     yield checked(
-        error, density.cauchy(z), quadrature(64)(), what="potential at a depth of 0.01 b: error over its largest value",
+        error, density.cauchy(z), quadrature(64)(),
+        what="potential at a depth of 0.01 b: error over its largest value",
         by="README: to machine precision", named="Gauss quadrature with 64 nodes", high=PROMISE,
     )  # fmt: skip
 
@@ -139,7 +140,8 @@ def partial_slip(quick: bool) -> Iterator[Record]:
         says=says,
     )
     yield checked(
-        error, package(0)(), series(32)(), what="partial slip: error of the shear over its peak", by="README: to machine precision",
+        error, package(0)(), series(32)(), what="partial slip: error of the shear over its peak",
+        by="README: to machine precision",
         named="two Chebyshev series of 32 terms", high=PROMISE,
     )  # fmt: skip
 
@@ -181,14 +183,17 @@ def sampled(quick: bool) -> Iterator[Record]:
 
     name, says = (
         "race: sampled",
-        "Profile h = cosh x - 1 known at n points; truth: the profile as a function, itself held to 40 digits above",
+        "Profile h = cosh x - 1 known at n points; truth: the profile as a function, itself held "
+        "to 40 digits above",
     )
     sizes = (16, 64) if quick else (16, 32, 64, 128, 256)
     ours, theirs = _points(package, sizes, error), _points(elements, sizes, error)
     yield curve(name, "this package", ours, says=says)
     yield curve(name, "FFT boundary elements", theirs, says=says)
     yield checked(
-        lambda errors: errors[1] / errors[0], (ours[-1][1], theirs[-1][1]), (theirs[-1][1], ours[-1][1]),
-        what=f"sampled at {sizes[-1]} points: the elements' error over this package's", by="this project: what no peer has",
+        lambda errors: errors[1] / errors[0], (ours[-1][1], theirs[-1][1]),
+        (theirs[-1][1], ours[-1][1]),
+        what=f"sampled at {sizes[-1]} points: the elements' error over this package's",
+        by="this project: what no peer has",
         named="the two exchanged", low=100.0,
     )  # fmt: skip

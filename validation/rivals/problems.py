@@ -89,8 +89,10 @@ def kinked(ratio: float) -> Problem:
         -ratio + 1e-3 * (1 - ratio),
     )
     return Problem(
-        f"kinked, a/b = {ratio:g}", "Flat punch with rounded edges, b = R", sie.Scene(profile=profile, modulus=1.0, half_width=1.0),
-        truth=lambda x: rounded_flat.pressure(x, **punch, lib=mp), slope=profile.slope, gap=profile.height,
+        f"kinked, a/b = {ratio:g}", "Flat punch with rounded edges, b = R",
+        sie.Scene(profile=profile, modulus=1.0, half_width=1.0),
+        truth=lambda x: rounded_flat.pressure(x, **punch, lib=mp), slope=profile.slope,
+        gap=profile.height,
         closed=lambda x: rounded_flat.pressure(x, **punch), places=near,
     )  # fmt: skip
 
@@ -98,9 +100,12 @@ def kinked(ratio: float) -> Problem:
 def _wedge() -> Problem:
     profile = sie.Wedge(0.5)
     return Problem(
-        "wedge", "Wedge h = |x|/2, r = 1: h' jumps", sie.Scene(profile=profile, modulus=1.0, half_width=1.0),
-        truth=lambda x: wedge.pressure(x, slope=0.5, half_width=1.0, modulus=1.0, lib=mp), slope=profile.slope, gap=profile.height,
-        closed=lambda x: wedge.pressure(x, slope=0.5, half_width=1.0, modulus=1.0), places=(0.01, -0.002),
+        "wedge", "Wedge h = |x|/2, r = 1: h' jumps",
+        sie.Scene(profile=profile, modulus=1.0, half_width=1.0),
+        truth=lambda x: wedge.pressure(x, slope=0.5, half_width=1.0, modulus=1.0, lib=mp),
+        slope=profile.slope, gap=profile.height,
+        closed=lambda x: wedge.pressure(x, slope=0.5, half_width=1.0, modulus=1.0),
+        places=(0.01, -0.002),
     )  # fmt: skip
 
 
@@ -130,7 +135,8 @@ def sliding(coupling: float = 0.3) -> Problem:
         half_width=1.0,
     )
     return Problem(
-        f"sliding, βf = {coupling:g}", "Rounded flat on a dissimilar body, a = 1/2, r = R = 1", scene, Sliding(coupling).pressure,
+        f"sliding, βf = {coupling:g}", "Rounded flat on a dissimilar body, a = 1/2, r = R = 1",
+        scene, Sliding(coupling).pressure,
         profile.slope, series=False, epsilon=-math.atan(coupling) / math.pi,
     )  # fmt: skip
 
@@ -221,7 +227,8 @@ def wavy(height: float = 0.01, share: float = 0.4) -> Problem:
 
     profile = sie.FromFunction(slope, domain=(-3 * b, 3 * b), parity="even")
     return Problem(
-        "periodic", "Westergaard's wave, 40 % in contact, by u = tan πx", sie.Scene(profile=profile, modulus=1.0, half_width=b),
+        "periodic", "Westergaard's wave, 40 % in contact, by u = tan πx",
+        sie.Scene(profile=profile, modulus=1.0, half_width=b),
         truth=lambda u: pressure(mp.mpf(u), mp), slope=slope, closed=pressure, period=1.0,
         gap=lambda x: height * (1.0 - np.cos(2.0 * np.pi * x)), places=(0.1,),
     )  # fmt: skip

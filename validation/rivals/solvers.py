@@ -4,7 +4,8 @@ textbooks, an FFT boundary-element solver.
 None of it shares code with the packages. The first two are told where the contact ends, which this
 package finds by itself.
 
-    E*/2 H(x) = 1/π PV∫ p(t)/(x - t) dt on [lo, hi],       p = w g,  w(s) = sqrt(1 - s²),  s from -1 to 1
+    E*/2 H(x) = 1/π PV∫ p(t)/(x - t) dt on [lo, hi]
+    p = w g,  w(s) = sqrt(1 - s²),  s from -1 to 1
 """
 
 from __future__ import annotations
@@ -42,7 +43,8 @@ def erdogan_gupta(
     """The quadrature of Erdogan & Gupta (1972), both ends bounded: n nodes, n + 1 collocation
     points, the middle one left out (n even).
 
-    Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i),   t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2)),  by elimination;
+    Σ_j (1 - t_j²)/(n + 1) g(t_j)/(x_i - t_j) = E*/2 H(x_i) by elimination,
+    t_j = cos(jπ/(n+1)),  x_i = cos((2i-1)π/(2n+2));
     between the nodes the polynomial through them, in the barycentric form.
     """
     matrix, t, at = erdogan_gupta_matrix(n)

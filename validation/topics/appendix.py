@@ -242,46 +242,66 @@ def _half_angle(s: Setting) -> Any:
 
 
 EQUATIONS = (
-    Equation("(24)", "the pressure as a principal value = (32)", lambda s: s.pressure, _closed_32, closed=_of_punch, solver=_punch),
-    Equation("(25)", "the same, x added and subtracted", lambda s: s.pressure, _split, closed=_of_punch, solver=_punch),
+    Equation("(24)", "the pressure as a principal value = (32)", lambda s: s.pressure, _closed_32,
+             closed=_of_punch, solver=_punch),
+    Equation("(25)", "the same, x added and subtracted", lambda s: s.pressure, _split,
+             closed=_of_punch, solver=_punch),
     Equation(
         "after (25)", "∫_a^b dt/sqrt(b²-t²) = π/2 - φ0",
-        lambda s: integral(mp, lambda f: mp.one, *s.angles["left"]), _half_angle, lambda s: -_half_angle(s),
+        lambda s: integral(mp, lambda f: mp.one, *s.angles["left"]), _half_angle,
+        lambda s: -_half_angle(s),
         "printed ∫_b^a, which has the other sign: the limits are ∫_a^b",
     ),
     Equation(
         "(26)", "t = 2τb/(1+τ²) makes the integrand rational",
-        lambda s: s.cauchy["right"], lambda s: (1 + s.xi[0] ** 2) / s.b * _substituted(s, lambda t, xi: 1 / ((t - xi) * (1 - t * xi))),
-        _misprinted_root, "printed with the root over (b²-t²)(t-x); it covers b²-t² only, and the integral is a principal value",
+        lambda s: s.cauchy["right"],
+        lambda s: (1 + s.xi[0] ** 2) / s.b
+        * _substituted(s, lambda t, xi: 1 / ((t - xi) * (1 - t * xi))),
+        _misprinted_root,
+        "printed with the root over (b²-t²)(t-x); it covers b²-t² only, and the integral is a "
+        "principal value",
     ),
     Equation(
         "(27)", "partial fractions",
         lambda s: s.cauchy["right"],
-        lambda s: (1 + s.xi[0] ** 2) / (s.b * (1 - s.xi[0] ** 2)) * _substituted(s, lambda t, xi: 1 / (t - xi) - xi / (t * xi - 1)),
+        lambda s: (1 + s.xi[0] ** 2) / (s.b * (1 - s.xi[0] ** 2))
+        * _substituted(s, lambda t, xi: 1 / (t - xi) - xi / (t * xi - 1)),
     ),
     Equation(
-        "(28)", "x1 = 2 ξ1 b/(1+ξ1²), at a", lambda s: mp.mpf(s.a), lambda s: 2 * s.xi[1] * s.b / (1 + s.xi[1] ** 2),
+        "(28)", "x1 = 2 ξ1 b/(1+ξ1²), at a", lambda s: mp.mpf(s.a),
+        lambda s: 2 * s.xi[1] * s.b / (1 + s.xi[1] ** 2),
     ),
     Equation(
-        "(29)", "the principal value is one logarithm", lambda s: s.cauchy["right"], _rational, _misprinted_root,
-        "printed with the root over (b²-t²)(t-x), and without the bar of the principal value", solver=_step,
+        "(29)", "the principal value is one logarithm", lambda s: s.cauchy["right"], _rational,
+        _misprinted_root,
+        "printed with the root over (b²-t²)(t-x), and without the bar of the principal value",
+        solver=_step,
     ),
-    Equation("(30)", "ξ = tan φ0/2 at x = a", lambda s: mp.tan(s.angles["right"][0] / 2), lambda s: s.xi[1]),
+    Equation("(30)", "ξ = tan φ0/2 at x = a", lambda s: mp.tan(s.angles["right"][0] / 2),
+             lambda s: s.xi[1]),
     Equation(
-        "(31) left", "of [-b, -a]", lambda s: s.cauchy["left"], lambda s: _logarithm(s, "left") / (s.b * mp.cos(s.phi)),
+        "(31) left", "of [-b, -a]", lambda s: s.cauchy["left"],
+        lambda s: _logarithm(s, "left") / (s.b * mp.cos(s.phi)),
         solver=lambda s: -_step(Setting(s.a, s.b, -s.x, s.R)),
     ),
     Equation(
-        "(31) right", "of [a, b]", lambda s: s.cauchy["right"], lambda s: _logarithm(s, "right") / (s.b * mp.cos(s.phi)), _misprinted_root,
-        "printed with the root over (b²-t²)(t-x), and without the bar of the principal value", solver=_step,
+        "(31) right", "of [a, b]", lambda s: s.cauchy["right"],
+        lambda s: _logarithm(s, "right") / (s.b * mp.cos(s.phi)), _misprinted_root,
+        "printed with the root over (b²-t²)(t-x), and without the bar of the principal value",
+        solver=_step,
     ),
-    Equation("(32)", "the pressure in closed form", lambda s: s.pressure, _closed_32, closed=_of_punch, solver=_punch),
-    Equation("(33)", "the load as an integral of the slope = (35)", _load_33, _load_35, closed=_load_of_punch, solver=_load),
+    Equation("(32)", "the pressure in closed form", lambda s: s.pressure, _closed_32,
+             closed=_of_punch, solver=_punch),
+    Equation("(33)", "the load as an integral of the slope = (35)", _load_33, _load_35,
+             closed=_load_of_punch, solver=_load),
     Equation(
-        "(34)", "the same in t = b sin φ", _load_33, lambda s: _load_34(s, mp.mpf(s.b) ** 2), lambda s: _load_34(s, mp.one),
-        "printed without the factor b² that (33) and (35) have", closed=_load_of_punch, solver=_load,
+        "(34)", "the same in t = b sin φ", _load_33, lambda s: _load_34(s, mp.mpf(s.b) ** 2),
+        lambda s: _load_34(s, mp.one),
+        "printed without the factor b² that (33) and (35) have", closed=_load_of_punch,
+        solver=_load,
     ),
-    Equation("(35)", "the load in closed form", _load_33, _load_35, closed=_load_of_punch, solver=_load),
+    Equation("(35)", "the load in closed form", _load_33, _load_35, closed=_load_of_punch,
+             solver=_load),
 )  # fmt: skip
 
 
@@ -345,7 +365,8 @@ def compute(quick: bool) -> Iterator[Record]:
         yield from _claims(equation, least, most, wrong_digits(equation, settings[0], spoiled))
         rows.append((equation.name, equation.says, *(least.get(name) for name in NAMES)))
     yield Table(
-        "Digits agreed with principal-value quadrature, the fewest over the cases", ("equation", "says", *NAMES), rows,
+        "Digits agreed with principal-value quadrature, the fewest over the cases",
+        ("equation", "says", *NAMES), rows,
         "Cases (a, b, x, R): " + "; ".join(map(str, QUICK if quick else CASES)),
     )  # fmt: skip
     for name in NAMES:
@@ -378,7 +399,8 @@ def _claims(
     )
     if "printed" in least:
         yield Claim(
-            f"{equation.name} as printed: digits", "paper, appendix (our copy)", printed, least["identity"], "the corrected form",
+            f"{equation.name} as printed: digits", "paper, appendix (our copy)", printed,
+            least["identity"], "the corrected form",
             low=DIGITS - 1, erratum=equation.erratum,
         )  # fmt: skip
     for name, low in (

@@ -40,12 +40,8 @@ COUNTS = (100, 2000)
 SEED = 20260711
 mp = context(22)
 SHARE = 1 / 3
-REACH, AT = (
-    0.95,
-    3,
-    # Of the half-width; places in each contact, one where the closed form is itself an integral or an
-    # iteration
-)
+REACH = 0.95  # of the half-width
+AT = 3  # places in each contact; one where the closed form is an integral or an iteration
 
 Truth = Callable[[Any], Any]
 
@@ -304,7 +300,8 @@ def claims(found: list[Judged]) -> Iterator[Claim]:
     frozen = _least([w._replace(estimate=largest(r.estimate for r in right)) for w in wrong])
     yield Claim(
         f"smallest estimate over true error, {len(found)} random contacts, half of them made wrong",
-        "this project: never less than a third", _least(found), frozen, "wrong answers with the largest estimate of a right one", low=SHARE,
+        "this project: never less than a third", _least(found), frozen,
+        "wrong answers with the largest estimate of a right one", low=SHARE,
     )  # fmt: skip
     yield Claim(
         "largest true error of the right answers", "README: to machine precision",
@@ -313,6 +310,8 @@ def claims(found: list[Judged]) -> Iterator[Claim]:
     )  # fmt: skip
     alarm = [j.estimate / max(j.true, 1e-15) for j in wrong if j.true > 1e-11]
     yield Claim(
-        "median of estimate over true error, where the error is above 1e-11: it does not cry wolf", "this page",
-        float(np.median(alarm)), float(np.median(alarm)) * 1e4, "an estimate ten thousand times too large", high=100.0,
+        "median of estimate over true error, where the error is above 1e-11: it does not cry wolf",
+        "this page",
+        float(np.median(alarm)), float(np.median(alarm)) * 1e4,
+        "an estimate ten thousand times too large", high=100.0,
     )  # fmt: skip

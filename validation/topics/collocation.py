@@ -96,7 +96,7 @@ def sliding_parabola(strength: float) -> Row:
 
 
 def parabola_in_sliding(strength: float, points: int) -> tuple[Any, Any, Any]:
-    """The pressure that solves 1/π PV∫ p/(x - t) dt - β f p = E*/2R x, places, and p in closed form.
+    """The pressure p that solves 1/π PV∫ p/(x - t) dt - β f p = x/2, places, and the closed form.
 
     β f = strength, E* = R = 1, half-width 1, both ends bounded (Hills, Nowell & Sackfield 1993).
     """
@@ -220,7 +220,8 @@ def claims(found: list[Row]) -> Iterator[Claim]:
     words = f"answers off by {SPOILED:.0e}"
     yield Claim(
         "largest error against elliptic integrals and closed forms", "this project: general solver",
-        largest(r.error or 0.0 for r in closed), two_cracks(1.0, SPOILED).error or 0.0, words, high=BAR,
+        largest(r.error or 0.0 for r in closed), two_cracks(1.0, SPOILED).error or 0.0, words,
+        high=BAR,
     )  # fmt: skip
     conditions = [r.condition for r in found if r.condition is not None]
     dense = np.linalg.cond(erdogan_gupta_matrix(200)[0])
@@ -255,5 +256,7 @@ def _agreement(found: list[Row]) -> Claim:
         System(thin_layer(1.0 + SPOILED).problem, (QUICK_SIZES[0],)).by_gmres(),
     )
     apart = largest(r.error or 0.0 for r in found if r.case.startswith("thin layer"))
-    return Claim("thin layer: largest difference of elimination and iteration", "this project: two ways, one answer", apart,
-                 float(np.abs(right - wrong).max() / np.abs(right).max()), f"right-hand side off by {SPOILED:.0e}", high=BAR)  # fmt: skip
+    return Claim("thin layer: largest difference of elimination and iteration",
+                 "this project: two ways, one answer", apart,
+                 float(np.abs(right - wrong).max() / np.abs(right).max()),
+                 f"right-hand side off by {SPOILED:.0e}", high=BAR)  # fmt: skip

@@ -134,7 +134,8 @@ def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
     """Of (time with, time without) the least quotient; exchanged, for the control."""
     pairs = list(times)
     return checked(
-        lambda pairs: smallest(without / with_ for with_, without in pairs), pairs, [pair[::-1] for pair in pairs],
+        lambda pairs: smallest(without / with_ for with_, without in pairs), pairs,
+        [pair[::-1] for pair in pairs],
         what=what, by="this page", named="with and without exchanged", low=low,
     )  # fmt: skip
 

@@ -35,7 +35,8 @@ def compute(quick: bool) -> Iterator[Record]:
             )
         )
         yield Claim(
-            f"{mutant.name}: what the {mutant.checker} measures", "this project: each must be caught", wrong, right,
+            f"{mutant.name}: what the {mutant.checker} measures",
+            "this project: each must be caught", wrong, right,
             "the right program, which must not be caught", low=float(np.nextafter(BAR, 1.0)),
         )  # fmt: skip
     yield Table(

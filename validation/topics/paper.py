@@ -70,7 +70,8 @@ def figure_2() -> Iterator[Record]:
         spoiled = largest((spoiled, float(np.abs(found * (1 + 1e-11) - exact).max() / exact.max())))
         yield Curve("figure 2", f"{ratio:g}", x, solution.pressure(x) / solution.normal_load)
         yield Curve("figure 2 points", f"{ratio:g}", marks, exact, "points")
-    yield Claim("Fig. 2: general solver against closed form (32), largest difference / peak", "both packages", worst, spoiled,
+    yield Claim("Fig. 2: general solver against closed form (32), largest difference / peak",
+                "both packages", worst, spoiled,
                 "pressures off by 1e-11", high=BAR)  # fmt: skip
 
     def centre(rim: float) -> float:
@@ -80,7 +81,8 @@ def figure_2() -> Iterator[Record]:
         )
         return abs(float(solution.pressure(0.0)) * (1.0 + rim) / solution.normal_load - 1 / np.pi)
 
-    yield Claim("§ 3.1: b p(0)/P tends to 1/π as a/b → 1; distance at 1 - a/b = 1e-9", "paper, § 3.1", centre(1e-9), centre(0.25),
+    yield Claim("§ 3.1: b p(0)/P tends to 1/π as a/b → 1; distance at 1 - a/b = 1e-9",
+                "paper, § 3.1", centre(1e-9), centre(0.25),
                 "a/b = 0.8", high=1e-8)  # fmt: skip
 
 
@@ -125,10 +127,12 @@ def figure_3() -> Iterator[Record]:
         spoiled = largest(
             (spoiled, float(np.abs(equation_20(ratio, c * (1 - 1e-11)) - shares).max()))
         )
-    yield Claim("Fig. 3: (20) at the solver's stick zones against the Q/(fP) they were given, largest difference", "both packages", worst,
+    yield Claim("Fig. 3: (20) at the solver's stick zones against the Q/(fP) they were given, "
+                "largest difference", "both packages", worst,
                 spoiled, "zones off by 1e-11", high=2e-13)  # fmt: skip
     least = smallest(stick_of(ratio, 1 - 1e-12) / ratio for ratio in (0.2, 0.5, 0.8))
-    yield Claim("§ 3.2: no stick zone inside the flat; smallest c/a as Q → fP", "paper, § 3.2", least, stick_of(0.0, 1 - 1e-12) / 0.2,
+    yield Claim("§ 3.2: no stick zone inside the flat; smallest c/a as Q → fP", "paper, § 3.2",
+                least, stick_of(0.0, 1 - 1e-12) / 0.2,
                 "a parabola against a = 0.2", low=1.0)  # fmt: skip
 
     def steepness(load: Any) -> float:
@@ -143,7 +147,8 @@ def figure_3() -> Iterator[Record]:
             )
         )
     )
-    yield Claim("§ 3.2: the passage to sliding is smooth in value and slope: slope there over the mean slope", "paper, § 3.2", smooth,
+    yield Claim("§ 3.2: the passage to sliding is smooth in value and slope: slope there over the "
+                "mean slope", "paper, § 3.2", smooth,
                 steepness(lambda c: c), "a load linear in c, as a wedge's", high=0.02)  # fmt: skip
 
 
@@ -219,7 +224,8 @@ def figure_4(quick: bool) -> Iterator[Record]:
         yield Map(
             "figure 4", x, y, found, {"title": f"a/b = {ratio:g}, f = {f:g}", "weakest": place}
         )
-    yield Claim("Fig. 4: √J2 of the general solver against the closed form, largest difference / largest value", "both packages", worst,
+    yield Claim("Fig. 4: √J2 of the general solver against the closed form, largest difference / "
+                "largest value", "both packages", worst,
                 spoiled, "stresses off by 1e-11", high=BAR)  # fmt: skip
 
 
@@ -258,9 +264,11 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
         "points",
     )
     yield checked(
-        lambda found: largest(np.hypot(a.x - b.x, a.y - b.y) for a, b in zip(found, closed, strict=True)),
+        lambda found: largest(np.hypot(a.x - b.x, a.y - b.y) for a,
+                              b in zip(found, closed, strict=True)),
         [weakest(*pair) for pair in pairs], [w._replace(x=w.x + 1e-5) for w in closed],
-        what="Fig. 7: where the material yields first, general solver against closed form, largest distance / b", by="both packages",
+        what="Fig. 7: where the material yields first, general solver against closed form, largest "
+             "distance / b", by="both packages",
         named="places off by 1e-5", high=PLACE,
     )  # fmt: skip
     on_surface = [
@@ -274,8 +282,10 @@ def figures_5_to_7(quick: bool) -> Iterator[Record]:
     def apart(values: Any) -> float:
         return float(np.abs(np.array(values) / exact - 1).max())
 
-    yield Claim("Figs 5, 6: elastic limits of the general solver against those of the closed forms, largest relative difference",
-                "both packages", apart(found), apart(np.array(found) * (1 + 1e-9)), "limits off by 1e-9", high=SAME)  # fmt: skip
+    yield Claim("Figs 5, 6: elastic limits of the general solver against those of the closed "
+                "forms, largest relative difference",
+                "both packages", apart(found), apart(np.array(found) * (1 + 1e-9)),
+                "limits off by 1e-9", high=SAME)  # fmt: skip
 
 
 def figure_8(quick: bool) -> Iterator[Record]:
@@ -289,7 +299,8 @@ def figure_8(quick: bool) -> Iterator[Record]:
         worst = largest((worst, float(np.abs(found - exact).max() / exact.max())))
         spoiled = largest((spoiled, float(np.abs(found * (1 + 1e-11) - exact).max() / exact.max())))
         yield Curve("figure 8 points", f"{ratio:g}", marks, exact, "points")
-    yield Claim("Fig. 8: largest tension against 2f [E*(b-a)/2R - F_c(b)], largest difference over the largest", "both packages", worst,
+    yield Claim("Fig. 8: largest tension against 2f [E*(b-a)/2R - F_c(b)], largest difference over "
+                "the largest", "both packages", worst,
                 spoiled, "tensions off by 1e-11", high=BAR)  # fmt: skip
 
 
@@ -316,17 +327,22 @@ def closed_tension(ratio: float, c: Any) -> Any:
 def statements() -> Iterator[Claim]:
     hertz = limit(0.0)
     crossing = float(brentq(lambda r: limit(r) - hertz, 0.5, 0.6, xtol=1e-12, rtol=1e-12))
-    yield Claim("§ 5.1: the strength is above Hertz's for a/b up to 0.55; distance of the crossing from that", "paper, § 5.1",
+    yield Claim("§ 5.1: the strength is above Hertz's for a/b up to 0.55; distance of the crossing "
+                "from that", "paper, § 5.1",
                 abs(crossing - PRINTED_CROSSING), abs(crossing - 0.5402), "0.5402", high=0.005,
                 erratum=f"it is {crossing:.6f}")  # fmt: skip
-    yield Claim("the strength is Hertz's again at a/b", "this project", crossing, PRINTED_CROSSING, "the paper's 0.55", low=CROSSING - 1e-9,
+    yield Claim("the strength is Hertz's again at a/b", "this project", crossing, PRINTED_CROSSING,
+                "the paper's 0.55", low=CROSSING - 1e-9,
                 high=CROSSING + 1e-9)  # fmt: skip
     strongest = minimize_scalar(
         lambda r: -limit(r), bounds=(0.1, 0.4), method="bounded", options={"xatol": 1e-6}
     )
-    yield Claim(f"§ 5.1: the strength first increases: its largest gain over Hertz, at a/b = {strongest.x:.4f}", "paper, § 5.1",
-                -strongest.fun / hertz - 1, limit(0.6) / hertz - 1, "a/b = 0.6", low=0.05)  # fmt: skip
-    yield Claim("§ 5.1: almost halved at a/b = 0.9: strength over Hertz's", "paper, § 5.1", limit(0.9) / hertz, limit(0.8) / hertz,
+    yield Claim(f"§ 5.1: the strength first increases: its largest gain over Hertz, at a/b = "
+                f"{strongest.x:.4f}", "paper, § 5.1",
+                -strongest.fun / hertz - 1, limit(0.6) / hertz - 1, "a/b = 0.6",
+                low=0.05)  # fmt: skip
+    yield Claim("§ 5.1: almost halved at a/b = 0.9: strength over Hertz's", "paper, § 5.1",
+                limit(0.9) / hertz, limit(0.8) / hertz,
                 "a/b = 0.8", low=0.5, high=0.55)  # fmt: skip
     halved = float(brentq(lambda r: limit(r) / hertz - 0.5, 0.8, 0.97, xtol=1e-9))
     yield Claim(
@@ -340,13 +356,17 @@ def statements() -> Iterator[Claim]:
     )
     tension = closed_tension(0.0, 0.0)[0]
     yield Claim("§ 5.2: the tension at a/b = 0.8 is only double Hertz's: ratio", "paper, § 5.2",
-                float(charts.surface_tension(0.8, [0.0])[0] / tension), float(charts.surface_tension(0.9, [0.0])[0] / tension), "a/b = 0.9",
+                float(charts.surface_tension(0.8, [0.0])[0] / tension),
+                float(charts.surface_tension(0.9, [0.0])[0] / tension), "a/b = 0.9",
                 low=1.8, high=2.2)  # fmt: skip
     yield _jump()
     low = [limit(r, 0.3) / limit(0.0, 0.3) for r in (0.05, 0.1, 0.15, 0.2)]
-    yield Claim("§ 5.1: well below Hertz (by a twentieth at least) at f = 0.3 for a/b = 0.05 to 0.2: largest strength over Hertz's",
-                "paper, § 5.1", largest(low), limit(0.5, 0.3) / limit(0.0, 0.3), "a/b = 0.5", high=0.95,
-                erratum="at 0.05 and 0.1 it is slightly above, at 0.2 it is 1.8 % below")  # fmt: skip
+    yield Claim("§ 5.1: well below Hertz (by a twentieth at least) at f = 0.3 for a/b = 0.05 to "
+                "0.2: largest strength over Hertz's",
+                "paper, § 5.1", largest(low), limit(0.5, 0.3) / limit(0.0, 0.3), "a/b = 0.5",
+                high=0.95,
+                erratum="at 0.05 and 0.1 it is slightly above, at 0.2 it is 1.8 % below",
+                )  # fmt: skip
 
 
 def _jump() -> Claim:
@@ -363,7 +383,8 @@ def _jump() -> Claim:
             )
         return high
 
-    return Claim("§ 5.1, Fig. 7: Hertz's weakest point jumps to the surface at about f = 0.3", "paper, § 5.1", surfaces(0.0), surfaces(0.8),
+    return Claim("§ 5.1, Fig. 7: Hertz's weakest point jumps to the surface at about f = 0.3",
+                 "paper, § 5.1", surfaces(0.0), surfaces(0.8),
                  "a/b = 0.8", low=0.25, high=0.35)  # fmt: skip
 
 
@@ -379,7 +400,8 @@ ERRATA = Table(
         ("(24) to (31)", "∫", "principal values"),
         ("(34)", "no factor b²", "b² times the integrals, as in (33) and (35)"),
         ("§ 5.1", "stronger than Hertz for a/b < 0.55", "for a/b < 0.5402"),
-        ("§ 5.1", "well below Hertz for f ≥ 0.3 at small a/b", "not so: within 2 % of it for a/b ≤ 0.2 at f = 0.3"),
+        ("§ 5.1", "well below Hertz for f ≥ 0.3 at small a/b",
+         "not so: within 2 % of it for a/b ≤ 0.2 at f = 0.3"),
     ),
     "Those of the appendix are evaluated in the next section, the last two above.",
 )  # fmt: skip

@@ -56,7 +56,8 @@ def compute(quick: bool) -> Iterator[Record]:
     yield from claims(rows)
     yield Table(
         TABLE, HEADER, [(r.case, r.error, r.load, r.estimated, r.evaluations) for r in rows],
-        "The certificate is what the solver itself estimates; evaluations are those of the edge integrals."
+        "The certificate is what the solver itself estimates; evaluations are those of the edge "
+        "integrals."
     )  # fmt: skip
     index = list(range(1, len(rows) + 1))
     yield Curve("certificate", "true error, 40 digits", index, [r.error for r in rows], "points")
@@ -82,7 +83,8 @@ def claims(rows: list[Row]) -> Iterator[Claim]:
         **promise,
     )
     yield Claim(
-        "smallest certificate's estimate over the true error (what the edges' own errors and one ulp of x explain is not counted)",
+        "smallest certificate's estimate over the true error (what the edges' own errors and one "
+        "ulp of x explain is not counted)",
         by="this project: a certificate on every answer",
         measured=smallest(r.estimated / max(r.unexplained, EPS) for r in rows),
         control=smallest(r.estimated / r.spoiled_unexplained for r in rows),

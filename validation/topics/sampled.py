@@ -145,7 +145,8 @@ def growth(sizes: Sequence[int], patience: float) -> Iterator[Record]:
         "both",
     )
     yield Claim(
-        f"time of {sizes[-1]} samples and {sizes[-1]} pressures over that of {sizes[0]} and {sizes[0]}",
+        f"time of {sizes[-1]} samples and {sizes[-1]} pressures over that of {sizes[0]} and "
+        f"{sizes[0]}",
         "this project: close to linear",
         times[-1] / times[0],
         many / few,

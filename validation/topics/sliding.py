@@ -157,7 +157,8 @@ def _claims(
     if found[0][2] is not None:
         spoiled = judged(slider, 0.3, 1.0 + SPOILED)[2] or 0.0
         yield Claim(
-            f"sliding {right}: largest relative error of the potential, 1e-8 to 100 half-widths deep",
+            f"sliding {right}: largest relative error of the potential, 1e-8 to 100 half-widths "
+            f"deep",
             by,
             largest(f[2] or 0.0 for f in found),
             spoiled,

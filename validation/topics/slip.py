@@ -175,7 +175,8 @@ def _loading(
     for k, (name, bar) in enumerate(zip(words, (BAR, BAR_OF_SLIP, BAR_OF_SLIP), strict=True)):
         errors = [row[k] for row in found]
         yield Claim(
-            f"{contact.name}, Q/fP from {fractions[0]:g} to 1 - {1 - fractions[-1]:.0e}: largest error of the {name}",
+            f"{contact.name}, Q/fP from {fractions[0]:g} to 1 - {1 - fractions[-1]:.0e}: largest "
+            f"error of the {name}",
             "README: partial slip to 1e-12",
             largest(errors),
             spoiled[k],

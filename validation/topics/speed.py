@@ -50,7 +50,8 @@ def claim() -> Claim:
     case = next(c for c in CASES if c.name == "rounded" and c.width is not None)
     return checked(
         lambda times: cost(case, times)[1], 1, 3,
-        what="rounded punch: time of solve and 1001 pressures over NumPy's closed form (32) at the same points",
+        what="rounded punch: time of solve and 1001 pressures over NumPy's closed form (32) at the "
+             "same points",
         by="this project: at most 6", named="a program that does it three times", high=BAR,
     )  # fmt: skip
 

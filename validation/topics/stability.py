@@ -36,19 +36,29 @@ def all_sweeps(quick: bool) -> tuple[Sweep, ...]:
     flat = (*shares, -1e-16, -1e-18, -1e-20)
     decades = np.arange(-15.0, 0.0, 3.0 if quick else 1.0)
     found = [
-        Sweep("a/b, load given", FLATNESS, lambda v: sweeps.flatness(v, "load"), flat, (-15.2, 15.2), decades=logit),
-        Sweep("a/b, width given", FLATNESS, lambda v: sweeps.flatness(v, "width"), shares, (-15.2, 15.2), decades=logit),
-        Sweep("length", "decades of the length", lambda v: sweeps.scale(v, 1.0), _powers(-300, 300, 50 if quick else 25), (-100, 100)),
-        Sweep("modulus", "decades of E*", lambda v: sweeps.scale(1.0, v), _powers(-300, 300, 100 if quick else 50), (-100, 100)),
-        Sweep("pieces", "decades of their number", sweeps.pieces, _powers(1, 3 if quick else 5, 1), (0, 5)),
-        Sweep("depth", "decades of the depth / b", sweeps.depth, _powers(-18, 12, 3 if quick else 1), (-15, 6)),
-        Sweep("distance to a kink", "decades of the distance / b", sweeps.at_kink, _doubles(decades, 0.5), (-16, 0)),
-        Sweep("distance to an edge", "decades of the distance / b", sweeps.at_edge, _doubles(decades, 1.0), (-16, 0)),
+        Sweep("a/b, load given", FLATNESS, lambda v: sweeps.flatness(v, "load"), flat,
+              (-15.2, 15.2), decades=logit),
+        Sweep("a/b, width given", FLATNESS, lambda v: sweeps.flatness(v, "width"), shares,
+              (-15.2, 15.2), decades=logit),
+        Sweep("length", "decades of the length", lambda v: sweeps.scale(v, 1.0),
+              _powers(-300, 300, 50 if quick else 25), (-100, 100)),
+        Sweep("modulus", "decades of E*", lambda v: sweeps.scale(1.0, v),
+              _powers(-300, 300, 100 if quick else 50), (-100, 100)),
+        Sweep("pieces", "decades of their number", sweeps.pieces, _powers(1, 3 if quick else 5, 1),
+              (0, 5)),
+        Sweep("depth", "decades of the depth / b", sweeps.depth,
+              _powers(-18, 12, 3 if quick else 1), (-15, 6)),
+        Sweep("distance to a kink", "decades of the distance / b", sweeps.at_kink,
+              _doubles(decades, 0.5), (-16, 0)),
+        Sweep("distance to an edge", "decades of the distance / b", sweeps.at_edge,
+              _doubles(decades, 1.0), (-16, 0)),
         Sweep(
-            "βf", "decades of βf", sweeps.coupling, (*_powers(-15, -1, 7 if quick else 2), 0.3, 0.49, *_powers(0, 4, 1)), (-15, -0.3),
+            "βf", "decades of βf", sweeps.coupling,
+            (*_powers(-15, -1, 7 if quick else 2), 0.3, 0.49, *_powers(0, 4, 1)), (-15, -0.3),
         ),
         Sweep(
-            "gap between two punches", "decades of the gap / b", sweeps.gap, _powers(-16, 0, 4 if quick else 1), (-8, 0), certified=False,
+            "gap between two punches", "decades of the gap / b", sweeps.gap,
+            _powers(-16, 0, 4 if quick else 1), (-8, 0), certified=False,
         ),
     ]  # fmt: skip
     if hasattr(sie.Solution, "stick"):
@@ -118,7 +128,8 @@ def compute(quick: bool) -> Iterator[Record]:
             )
         )
     yield checked(
-        in_silence, every, [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
+        in_silence, every,
+        [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
         what="answers of contacts that lost digits in silence", by="this project: stability",
         named=f"answers off by {sweeps.SPOILED:.0e} with the certificates of right ones", high=0,
     )  # fmt: skip
@@ -132,7 +143,8 @@ def compute(quick: bool) -> Iterator[Record]:
 def _promise(sweep: Sweep, inside: list[Outcome]) -> Iterator[Claim]:
     yield Claim(
         f"{sweep.name}: largest error in the promised range", "this project: stability",
-        largest(math.inf if o.refused else o.error for o in inside), smallest(o.spoiled for o in inside if not o.refused),
+        largest(math.inf if o.refused else o.error for o in inside),
+        smallest(o.spoiled for o in inside if not o.refused),
         f"answers off by {sweeps.SPOILED:.0e}", high=sweep.bar,
     )  # fmt: skip
 
@@ -155,7 +167,8 @@ def maps(quick: bool) -> Iterator[Record]:
     values = [[_at_kink(10.0**d, share) for share in shares] for d in near]
     yield Map("map: kink", [logit(s) for s in shares], near, values)
     yield Claim(
-        "largest error next to the end of the flat, over distances to it and a/b", "this project", largest(v for m in values for v in m),
+        "largest error next to the end of the flat, over distances to it and a/b", "this project",
+        largest(v for m in values for v in m),
         sweeps.at_kink(1e-3).spoiled, f"an answer off by {sweeps.SPOILED:.0e}", high=BAR,
     )  # fmt: skip
     lengths = _powers(-100, 100, 100 if quick else 50)
@@ -163,7 +176,8 @@ def maps(quick: bool) -> Iterator[Record]:
     yield Map("map: scale", np.log10(lengths).tolist(), np.log10(lengths).tolist(), values)
     everything = [v for m in values for v in m]
     yield Claim(
-        "largest error over lengths and moduli from 1e-100 to 1e100", "this project", largest(everything),
+        "largest error over lengths and moduli from 1e-100 to 1e100", "this project",
+        largest(everything),
         sweeps.scale(1.0, 1.0).spoiled, f"an answer off by {sweeps.SPOILED:.0e}", high=BAR,
     )  # fmt: skip
 
@@ -204,7 +218,8 @@ def conditions(quick: bool) -> Iterator[Record]:
     yield Curve("condition", "Erdogan-Gupta, unscaled", sizes, textbook, "both")
     growth = [np.polyfit(np.log(sizes[-3:]), np.log(c[-3:]), 1)[0] for c in (coupled, textbook)]
     yield Claim(
-        "condition number of the scaled system: largest, any number of unknowns", "this project: bounded, once scaled",
+        "condition number of the scaled system: largest, any number of unknowns",
+        "this project: bounded, once scaled",
         max(*singular, *coupled), textbook[-1], "the textbook's unscaled matrix", high=10.0,
     )  # fmt: skip
     yield Claim(

@@ -122,7 +122,8 @@ def compute(quick: bool = False) -> Iterator[Record]:
     )
     punch = next(case for case in SMOOTH_CASES if case.name == "rounded" and case.width is not None)
     yield Claim(
-        "rounded punch: stress on a 200 x 200 grid over two logarithms and one root of it", "this project: at most 4",
+        "rounded punch: stress on a 200 x 200 grid over two logarithms and one root of it",
+        "this project: at most 4",
         cost(punch)[1], cost(punch, times=4)[1], "a program that does it four times", high=SPEED,
     )  # fmt: skip
     header = ("case (E* = 1)", *(f"{d:g} b deep" for d in DEPTHS), "200 x 200 [ms]", "ratio")

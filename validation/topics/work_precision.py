@@ -71,7 +71,8 @@ def _collocation(problem: Problem, n: int) -> Callable[[], Any]:
 
     def run() -> Any:
         equation = sie.CauchyEquation(
-            problem.edges, g=lambda x: 0.5 * problem.slope(x), a=tangent, b=-1.0, ends="bounded", free=(1.0,)
+            problem.edges, g=lambda x: 0.5 * problem.slope(x), a=tangent, b=-1.0, ends="bounded",
+            free=(1.0,)
         )  # fmt: skip
         return equation.solve(n=n)(problem.x)
 
@@ -208,7 +209,8 @@ def compute(quick: bool) -> Iterator[Record]:
         "The smallest error of each method",
         ("contact", "method", "error / peak", "unknowns", "time [ms]", "ratio to the closed form"),
         rows,
-        "The ratio is to `analytic.rounded_flat` at as many points, in turns. The largest error of elements sits next to an edge. "
+        "The ratio is to `analytic.rounded_flat` at as many points, in turns. The largest error of "
+        "elements sits next to an edge. "
         "Not raced here: " + (", ".join(_absent()) or "none"),
     )  # fmt: skip
 
@@ -225,7 +227,8 @@ def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[
     yield checked(
         problem.error, problem.solution.pressure(problem.x),
         solvers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x),
-        what=f"{problem.name}: error of this package's pressure / peak", by="README: to machine precision",
+        what=f"{problem.name}: error of this package's pressure / peak",
+        by="README: to machine precision",
         named="one Chebyshev series of 6 terms", high=PROMISE,
     )  # fmt: skip
     rivals = {name: e for name, (e, _) in best.items() if name != "this package"}
@@ -233,6 +236,7 @@ def _claims(problem: Problem, best: dict[str, tuple[float, float]]) -> Iterator[
         series = problem.error(solvers.gauss_chebyshev(problem.slope, *problem.edges, 6, problem.x))
         yield checked(
             lambda ours: smallest(rivals.values()) / ours, best["this package"][0], series,
-            what=f"{problem.name}: the nearest rival's smallest error over this package's", by="this project: what no peer has",
+            what=f"{problem.name}: the nearest rival's smallest error over this package's",
+            by="this project: what no peer has",
             named="one Chebyshev series of 6 terms in its place", low=100.0,
         )  # fmt: skip

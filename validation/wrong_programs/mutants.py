@@ -83,10 +83,14 @@ def _transposed() -> Any:
 
 
 STAND_INS = (
-    stand_in("flipped logarithm", "second logarithm of (32) with the other sign", PUNCH, lambda: lambda x: closed_form(x, second=-1.0)),
-    stand_in("dropped logarithm", "second logarithm of (32) left out", PUNCH, lambda: lambda x: closed_form(x, second=0.0)),
-    stand_in("logarithm off by 1e-11", "its factor 1 + 1e-11", PUNCH, lambda: lambda x: closed_form(x, second=1 + 1e-11)),
-    stand_in("edge off by 1e-12", "the pressure of a wider contact", PUNCH, lambda: lambda x: closed_form(x, b=1 + 1e-12)),
+    stand_in("flipped logarithm", "second logarithm of (32) with the other sign", PUNCH,
+             lambda: lambda x: closed_form(x, second=-1.0)),
+    stand_in("dropped logarithm", "second logarithm of (32) left out", PUNCH,
+             lambda: lambda x: closed_form(x, second=0.0)),
+    stand_in("logarithm off by 1e-11", "its factor 1 + 1e-11", PUNCH,
+             lambda: lambda x: closed_form(x, second=1 + 1e-11)),
+    stand_in("edge off by 1e-12", "the pressure of a wider contact", PUNCH,
+             lambda: lambda x: closed_form(x, b=1 + 1e-12)),
     stand_in("unscaled load", "pressure of twice the load", PUNCH, _scaled(2.0)),
     stand_in("scaled by 1 + 1e-12", "load off in the twelfth digit", PUNCH, _scaled(1 + 1e-12)),
     stand_in(
@@ -99,10 +103,13 @@ STAND_INS = (
     ),
     stand_in("half panel", "half of the right rim left out of the integral", PUNCH, _half_panel),
     stand_in("transposed map", "s for -s: the mirror image of the pressure", SKEW, _transposed),
-    stand_in("centre off by 1e-12", "the pressure shifted", SKEW, lambda: lambda x: sie.solve(SKEW).pressure(x - 1e-12)),
-    stand_in("shifted node", "one of 40 Gauss-Chebyshev nodes moved by 1e-10", SMOOTH, lambda: gauss_chebyshev(SMOOTH, shift=-1e-10)),
+    stand_in("centre off by 1e-12", "the pressure shifted", SKEW,
+             lambda: lambda x: sie.solve(SKEW).pressure(x - 1e-12)),
+    stand_in("shifted node", "one of 40 Gauss-Chebyshev nodes moved by 1e-10", SMOOTH,
+             lambda: gauss_chebyshev(SMOOTH, shift=-1e-10)),
     stand_in("too few nodes", "8 nodes", SMOOTH, lambda: gauss_chebyshev(SMOOTH, n=8, at=0)),
-    stand_in("wrong nodes", "off by 1e-10 of their spacing", SMOOTH, lambda: gauss_chebyshev(SMOOTH, half=1e-10)),
+    stand_in("wrong nodes", "off by 1e-10 of their spacing", SMOOTH,
+             lambda: gauss_chebyshev(SMOOTH, half=1e-10)),
 )  # fmt: skip
 
 
@@ -110,7 +117,8 @@ STAND_INS = (
 
 
 def replaced(
-    name: str, says: str, part: Callable[[], AbstractContextManager[Any]], scene: sie.Scene, truth: Callable[[Any], Any] | None = None
+    name: str, says: str, part: Callable[[], AbstractContextManager[Any]], scene: sie.Scene,
+    truth: Callable[[Any], Any] | None = None
 ) -> Mutant:  # fmt: skip
     """The package solves with a part replaced; then its certificate is asked, or a closed form of
     `analytic` at points of the contact.
@@ -191,11 +199,16 @@ def _second_coefficient_off(density: Any) -> Any:
 
 
 REPLACED = (
-    replaced("sign of β", "the edges' exponents the wrong way round", _property("epsilon", lambda e: -e), SLIDING, _sliding_hertz),
-    replaced("β forgotten", "sliding of dissimilar bodies solved as similar", _property("epsilon", lambda e: 0.0), SLIDING, _sliding_hertz),
-    replaced("E* of one body", "the modulus twice as large", _property("Estar", lambda E: 2 * E), HERTZ, _hertz),
-    replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
-    replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
+    replaced("sign of β", "the edges' exponents the wrong way round",
+             _property("epsilon", lambda e: -e), SLIDING, _sliding_hertz),
+    replaced("β forgotten", "sliding of dissimilar bodies solved as similar",
+             _property("epsilon", lambda e: 0.0), SLIDING, _sliding_hertz),
+    replaced("E* of one body", "the modulus twice as large", _property("Estar", lambda E: 2 * E),
+             HERTZ, _hertz),
+    replaced("E* off by 1e-11", "the modulus off in the eleventh digit",
+             _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
+    replaced("panels off by 1e-11", "V of the contact",
+             _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact",
@@ -226,10 +239,13 @@ def _shear(name: str, says: str, right: dict[str, Any], wrong: dict[str, Any]) -
 
 
 SHEARS = (
-    _shear("shear of the other direction", "q for -q", {"tangential_load": 0.09}, {"tangential_load": -0.09}),
-    _shear("sign of the bulk stress", "the stick zone moved the wrong way", {"tangential_load": 0.09, "bulk_stress": 0.002},
+    _shear("shear of the other direction", "q for -q", {"tangential_load": 0.09},
+           {"tangential_load": -0.09}),
+    _shear("sign of the bulk stress", "the stick zone moved the wrong way",
+           {"tangential_load": 0.09, "bulk_stress": 0.002},
            {"tangential_load": 0.09, "bulk_stress": -0.002}),
-    _shear("stick zone of another load", "Q off by 1e-9", {"tangential_load": 0.09}, {"tangential_load": 0.09 * (1 + 1e-9)}),
+    _shear("stick zone of another load", "Q off by 1e-9", {"tangential_load": 0.09},
+           {"tangential_load": 0.09 * (1 + 1e-9)}),
 )  # fmt: skip
 
 OF_PARTS = tuple(Mutant(name, says, "closed form", measure) for name, says, measure in PARTS)

@@ -23,5 +23,6 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "economy",
         drawing,
-        "Time with what the plan skips, and with all of it computed. The answers are the same to rounding.",
+        "Time with what the plan skips, and with all of it computed. The answers are the same to "
+        "rounding.",
     )

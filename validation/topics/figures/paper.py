@@ -100,7 +100,8 @@ def _contours(found: Found) -> Figure:
     return Figure(
         "figure-4",
         drawing,
-        "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the weakest point.",
+        "Fig. 4. b √J2/P under the punch in sliding, ν = 0.3, in twelfths of the largest; the "
+        "weakest point.",
     )
 
 
@@ -130,7 +131,8 @@ def _limits(found: Found) -> Figure:
     return Figure(
         "figure-5",
         drawing,
-        "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; dotted: Hertz. ν = 0.3.",
+        "Fig. 5. Elastic limit in normal indentation, and the depth at which it is reached; "
+        "dotted: Hertz. ν = 0.3.",
     )
 
 
@@ -152,5 +154,8 @@ def _places(found: Found) -> Figure:
     labelled(ax, "x/b", "y/b")
     ax.set_ylim(0.9, 0.0)
     legend(ax, title="a/b", ncols=3, loc="upper left")
-    caption = "Fig. 7. Where the material yields first below the surface, as f grows (each cross a step), for each a/b. ν = 0.3."
+    caption = (
+        "Fig. 7. Where the material yields first below the surface, as f grows (each cross a "
+        "step), for each a/b. ν = 0.3."
+    )
     return Figure("figure-7", drawing, caption)

@@ -11,7 +11,10 @@ from validation.topics.sliding import SLIDERS
 
 def figures(found: Found) -> Iterator[Figure]:
     for slider in SLIDERS:
-        caption = f"Pressure under a sliding {slider.name}, βf from 0 to 0.49, friction on the half-plane towards +x."
+        caption = (
+            f"Pressure under a sliding {slider.name}, βf from 0 to 0.49, friction on the "
+            "half-plane towards +x."
+        )
         yield _pressures(found, f"p: {slider.name}", "x / length unit", "r p/P", caption)
     yield _pressures(
         found,

@@ -18,7 +18,8 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "slip-loading",
         drawing,
-        "First loading, from next to no slip to next to sliding. The line: the bar, 1e-13. What ulps explain is drawn at 1e-18.",
+        "First loading, from next to no slip to next to sliding. The line: the bar, 1e-13. What "
+        "ulps explain is drawn at 1e-18.",
     )
     for contact in CONTACTS:
         yield _shears(
@@ -43,7 +44,8 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "slip-loops",
         drawing,
-        "Rounded flat: Q over the shift beyond the elastic one, first loading left out; the area is the energy lost.",
+        "Rounded flat: Q over the shift beyond the elastic one, first loading left out; the area "
+        "is the energy lost.",
     )
 
 

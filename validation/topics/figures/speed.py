@@ -18,5 +18,6 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "ratio",
         drawing,
-        "Solving a case and 1001 pressures, as a multiple of 1001 values of the rounded punch's formula.",
+        "Solving a case and 1001 pressures, as a multiple of 1001 values of the rounded punch's "
+        "formula.",
     )

@@ -91,7 +91,8 @@ def _frontier(found: Found) -> Figure:
     legend_above(ax, 4)
     return Figure(
         "frontier", drawing,
-        "How far each number can be taken. Green: full accuracy; yellow: refused, or the certificate owns up; red: lost in silence. "
+        "How far each number can be taken. Green: full accuracy; yellow: refused, or the "
+        "certificate owns up; red: lost in silence. "
         "Below each row, what is promised.",
     )  # fmt: skip
 
