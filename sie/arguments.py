@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .numerics.interval import EPS
-
 # A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
-FINEST = 2.0 * EPS
+FINEST = 2.0 * sys.float_info.epsilon
 # Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are such
 # products, loads and moments, may be larger, and so may coefficients of powers of a length.
 LARGEST, LARGEST_LOAD, LARGEST_COEFFICIENT = 1e150, 1e250, 1e300

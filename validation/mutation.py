@@ -18,7 +18,7 @@ import numpy as np
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
 from sie.contact import normal
-from sie.traction import panels, sliding_panels
+from sie.traction import potential
 
 from . import peers
 from .figures import Figure, axes, labelled, legend_above
@@ -193,11 +193,11 @@ REPLACED = (
     replaced("β forgotten", "sliding of dissimilar bodies solved as similar", _property("epsilon", lambda e: 0.0), SLIDING, _sliding_hertz),
     replaced("E* of one body", "the modulus twice as large", _property("Estar", lambda E: 2 * E), HERTZ, _hertz),
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
-    replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
+    replaced("panels off by 1e-11", "V of the contact", _times(potential, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact",
-             _times(sliding_panels.SlidingPanels, "on_contact", _off_by(1e-11)), SLIDING_RIM),
+             _times(potential, "on_contact", _off_by(1e-11)), SLIDING_RIM),
 )  # fmt: skip
 
 

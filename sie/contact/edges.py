@@ -33,7 +33,6 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
 from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
-from sie.traction.sliding_panels import sliding_moments
 
 from .edge_integrals import Moments, moments
 from .edge_refinement import MAX_POLISHING, ROUNDINGS, Bracket, Place, Polish
@@ -97,10 +96,8 @@ class Search:
 
     def moments(self, contact: Interval) -> Moments:
         self.evaluations += 1
-        if self.epsilon:
-            return sliding_moments(self.slope, contact, self.epsilon, self.keep_zero)
         if self.axis is None:
-            return moments(self.slope, contact, keep_zero=self.keep_zero)
+            return moments(self.slope, contact, None, self.keep_zero, self.epsilon)
         half = moments(
             self.slope, contact, self.axis, self.keep_zero
         )  # the symmetry makes the others zero
@@ -123,37 +120,30 @@ class Search:
         k = k or self.moments(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
-        if self.epsilon:
-            return self._finished_sliding(contact, P, tilt, sharp, k)
-        g0 = G * I0 / np.pi
-        C = (P / r - G * k.I1) / np.pi if any(sharp) else 0.0
-        k1, k2 = (max(C + g0, 0.0) if sharp[0] else 0.0), (max(C - g0, 0.0) if sharp[1] else 0.0)
-        return Edges(
-            contact, P, contact.m * P - G * r * r * k.C2, tilt, sharp, k1, k2, I0, self.evaluations
-        )
+        k1, k2 = self._singular_ends(contact, P, sharp, k)
+        # F(z) ~ P/(πz) + M/(πz²) far away, with X(z) of `edge_functions` expanded there
+        e = self.epsilon
+        ends = k2 * (1.0 + 2.0 * e) ** 2 - k1 * (1.0 - 2.0 * e) ** 2
+        about_centre = -G * r * r * (k.C2 - 0.5 * k.I0)
+        if any(sharp):
+            about_centre += np.pi * r * r / (4.0 * math.cos(math.pi * e)) * ends
+        M = contact.m * P + about_centre
+        return Edges(contact, P, M, tilt, sharp, k1, k2, I0, self.evaluations)
 
-    def _finished_sliding(
-        self, contact: Interval, P: float, tilt: float, sharp: tuple[bool, bool], k: Moments
-    ) -> Edges:
-        """From F(z) ~ P/(πz) + M/(πz²) far away, with X(z) of `sliding` expanded there; M about the centre first."""
+    def _singular_ends(
+        self, contact: Interval, P: float, sharp: tuple[bool, bool], k: Moments
+    ) -> tuple[float, float]:
+        """(k1, k2), 0 at a smooth edge: their difference from I0, their weighted sum from P."""
         G, r, e, cos = self.half_modulus, contact.r, self.epsilon, math.cos(math.pi * self.epsilon)
-        I0 = k.I0 if any(sharp) else 0.0
-        difference = 2.0 * G * cos * I0 / np.pi  # k1 - k2
-        if all(sharp):
-            weighted = (
-                2.0 * cos / (np.pi * r) * (P - G * r * (k.I1 + 2.0 * e * I0))
-            )  # (1 - 2ε) k1 + (1 + 2ε) k2
-            k1 = 0.5 * (weighted + (1.0 + 2.0 * e) * difference)
-            k1, k2 = max(k1, 0.0), max(k1 - difference, 0.0)
-        else:
-            k1, k2 = (
-                (max(difference, 0.0) if sharp[0] else 0.0),
-                (max(-difference, 0.0) if sharp[1] else 0.0),
+        difference = 2.0 * G * cos * k.I0 / np.pi  # k1 - k2
+        if not all(sharp):
+            return max(difference, 0.0) if sharp[0] else 0.0, (
+                max(-difference, 0.0) if sharp[1] else 0.0
             )
-        M = -G * r * r * k.C2 + np.pi * r * r / (4.0 * cos) * (
-            k2 * (1.0 + 2.0 * e) ** 2 - k1 * (1.0 - 2.0 * e) ** 2
-        )
-        return Edges(contact, P, contact.m * P + M, tilt, sharp, k1, k2, I0, self.evaluations)
+        # (1 - 2ε) k1 + (1 + 2ε) k2
+        weighted = 2.0 * cos / (np.pi * r) * (P - G * r * (k.I1 + 2.0 * e * k.I0))
+        k1 = 0.5 * (weighted + (1.0 + 2.0 * e) * difference)
+        return max(k1, 0.0), max(k1 - difference, 0.0)
 
     # -- where the profile touches first --------------------------------------------------------------------------------
 

@@ -24,10 +24,12 @@ from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
-from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity, TransformDensity
+from sie.traction.of_slope import SlopeDensity, TransformDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity
 from sie.traction.panels import CHOP, Panels
 from sie.traction.piece_quadrature import Geometry
-from sie.traction.sliding_panels import SlidingDensity, SlidingGeometry, SlidingPanels
+from sie.traction.sliding import SlidingDensity
+from sie.traction.sliding_quadrature import SlidingGeometry
 
 from .edges import PLACES, Edges, Found, Search
 from .smooth_slope import smooth_contact
@@ -356,7 +358,7 @@ def pressure(
         geometry = SlidingGeometry(
             slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
         )
-        return SlidingDensity(*common, SlidingPanels(geometry, edges.I0))
+        return SlidingDensity(*common, Panels(geometry, edges.I0))
     if "transform" in economy:
         series = _series(declared, contact, _resolution(tol))
         if series is not None:

@@ -35,7 +35,8 @@ from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.slope import Slope
-from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity
+from sie.traction.of_slope import SlopeDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.slope import Slope
+from sie.profiles.slope import SEEN_JUMP, Slope
+
+from .edge_functions import SquareRoot
 
 Array = NDArray[np.float64]
 
@@ -122,9 +124,39 @@ class Geometry:
         offset = (2.0 * self.contact.r) * np.sin(half_step) * np.sin(middle)
         return offset, middle + sign * half_step, length * w, sign
 
+    @property
+    def edge(self) -> SquareRoot:
+        """The functions of the edges."""
+        return SquareRoot(self.contact)
+
+    @property
+    def totals(self) -> Array:
+        """∫ dt/w over every piece."""
+        _, _, length = self.angles
+        out: Array = length[:, 0]
+        return out
+
+    def charges(self, n: int) -> tuple[Array, Array]:
+        """Offsets t - lo of n nodes, or more, and weights times H there."""
+        offset, _, weight, _ = self.nodes(n)
+        return offset, weight * self.slopes(offset)
+
     def slopes(self, offset: Array) -> Array:
         """H at lo + offset, (K, n)."""
         return self.slope.local(self.k, self.ends[0], self.tails[0], offset)
+
+    def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
+        """H' times the weights at the nodes, which are at these angles from the nearer edge."""
+        slope, lo, tail = self.slope, self.ends[0], self.tails[0]
+        dH: Array = weight * slope.local_derivative(self.k, lo, tail, offset)
+        if not slope.functions:
+            return dH
+        # H' dφ = dH / (r cos φ), with dH from the interpolant at the nodes
+        functions = H - slope.without_functions.local(self.k, lo, tail, offset)
+        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
+        n = H.shape[1]
+        steep = chebyshev.gauss_legendre(n)[1] * (functions @ chebyshev.differentiation(n)[0].T)
+        return dH + steep / (self.contact.r * np.sin(angle))
 
     def chebyshev_slope(self, n: int) -> Array:
         """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
