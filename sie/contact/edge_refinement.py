@@ -36,14 +36,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sie.numerics.interval import EPS, Interval, two_sum
+from sie.numerics.root_finding import Bracket
 from sie.profiles.resolution import rounding_noise
 from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments
-
-Place = tuple[
-    float, float
-]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
 
 # A residual is rounding below so many units of its terms: the roots and the angle of each piece, its sines, its weights, Horner's rule
 # and the sum round it once or twice each.
@@ -57,34 +54,6 @@ STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are eval
 MAX_POLISHING = 2 * (53 + 2 * 106)
 MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
-
-
-@dataclass
-class Bracket:
-    """low < edge < high."""
-
-    low: Place
-    high: Place
-    cuts: tuple[bool, bool] = (False, False)
-
-    def cut(self, at: Place, above: bool) -> None:
-        """The edge is above `at`, or below."""
-        if above:
-            self.low, self.cuts = max(self.low, at), (True, self.cuts[1])
-        else:
-            self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
-
-    def place(self, wanted: Place, slow: bool) -> Place:
-        """The place wanted; the middle if it is out of bounds, or if Newton's steps are slow and both bounds known."""
-        if self.low < wanted < self.high and not (slow and all(self.cuts)):
-            return wanted
-        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
-
-    def middle(self) -> Place:
-        return two_sum(
-            self.low[0],
-            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
-        )
 
 
 def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:

@@ -31,28 +31,20 @@ import numpy as np
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
+from sie.numerics.root_finding import ROUGH, Bracket, Place, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments, moments
-from .edge_refinement import MAX_POLISHING, ROUNDINGS, Bracket, Place, Polish
+from .edge_refinement import MAX_POLISHING, ROUNDINGS, Polish
 
-# The logarithmic search ends at this relative error of the load, after one more step: Newton squares it then and twice in polishing.
-ROUGH = 1e-2
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
-MAX_STEPS = 200
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
-# Steps of the logarithmic search are capped at a factor e^20, so that one bad derivative cannot throw it out of range.
-MAX_LOG_STEP = 20.0
-SMALLEST, HUGE = 1e-300, 1e300
-LEAP = 1e12  # where a load underflows, or falls before it was ever large enough
+HUGE = 1e300
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
 FIRST_STEP = 2.0**-6  # of the half-width: from there doubled, where a centre is looked for
 UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
-# While the root is not bracketed and the load is wrong by more than the factor OPEN, a step is at least the factor OPEN_STEP.
-OPEN = 0.1
-OPEN_STEP = 4.0
 
 
 @dataclass(frozen=True)
@@ -188,7 +180,7 @@ class Search:
             return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
-        distance = _logarithmic_root(
+        distance = logarithmic_root(
             excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load)
         )
         return Found(self._polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
@@ -290,7 +282,7 @@ class Search:
                 contact.r * k.JR + (0.5 - self.epsilon) * max(k.I0, 0.0)
             )
 
-        distance = _logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
+        distance = logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
         contact, _ = contact_at(distance)
         self.evaluations += split.evaluations
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
@@ -331,7 +323,7 @@ class Search:
                 edge=-x2 if self.mirrored else x2,
             )
 
-        left = _logarithmic_root(
+        left = logarithmic_root(
             balance, 1.0, min(guess, z[0] - lo), z[0] - lo, error, rough=0.1 * ROUGH
         )
         at = left if left in found else next(reversed(found))
@@ -376,7 +368,7 @@ class Search:
             raise lost
         limit = min(lever - lo, hi - lever)
         try:
-            r = _logarithmic_root(
+            r = logarithmic_root(
                 carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load)
             )
         except LoadError:
@@ -493,58 +485,3 @@ class Search:
                     return Found(contact, (not side, bool(side)), k)
         contact, k = self._polish.centred(interval_about(0.5 * (low + high), r), low, high)
         return Found(contact, moments=k)
-
-
-def _logarithmic_root(
-    function: Callable[[float], tuple[float, float]],
-    target: float,
-    guess: float,
-    limit: float,
-    error: Callable[[float, float], ContactError],
-    *,
-    rough: float = ROUGH,
-) -> float:
-    """u in (0, limit) with function(u) = target, to `rough`, by Newton in ln u and ln f inside a bracket.
-
-    `function` returns (f, u f'). It may fall again beyond a largest value, which a negative derivative shows; if the target exceeds that
-    value, `error(u, f)` is raised with the best that was found.
-    """
-    low, high = 0.0, limit
-    u, best, best_u = guess, 0.0, guess
-    steps = [np.inf, np.inf]
-    for _ in range(MAX_STEPS):
-        f, slope = function(u)
-        if f > best:
-            best, best_u = f, u
-        rising = 0.0 < f < math.inf and slope > 0.0
-        if rising and not 0.0 < target / f < math.inf:
-            raise OverflowError("the ratio is no double")
-        step = math.log(target / f) * f / slope if rising else np.inf
-        if rising and abs(math.log(f / target)) <= rough:
-            return min(u * math.exp(step), limit)
-        if f < target and (rising or (f == 0.0 and slope >= 0.0)):  # zero: it underflows
-            low = u
-        else:
-            high = u
-        if u <= SMALLEST or (math.isfinite(high) and high - low <= 4.0 * EPS * high):
-            break
-        far = not OPEN * target < f < target / OPEN
-        open_ended = low == 0.0 or not math.isfinite(high)
-        new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
-        if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton creeps
-            new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
-        if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
-            new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
-        steps.append(abs(math.log(new / u)))
-        u = new
-    if best >= target * (1.0 - rough):
-        return best_u
-    raise error(best_u, best)
-
-
-def _between(low: float, high: float, u: float) -> float:
-    """A point inside the bracket: the geometric mean, or a large step where one end is still open."""
-    if not math.isfinite(high):
-        return u * LEAP
-    return float(np.sqrt(low) * np.sqrt(high)) if low > 0.0 else high / 8.0

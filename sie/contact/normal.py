@@ -18,6 +18,7 @@ from sie import arguments
 from sie.errors import ContactError, LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, interval_about
+from sie.numerics.root_finding import Bracket
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
@@ -33,7 +34,7 @@ from sie.traction.sliding_quadrature import SlidingGeometry
 
 from .edges import PLACES, Edges, Found, Search
 from .smooth_slope import smooth_contact
-from .widest import widest_contact
+from .widest_contact import widest_contact
 
 Array = NDArray[np.float64]
 
@@ -460,7 +461,7 @@ def _tilt_of_moment(
     tilt: float,
 ) -> Edges:
     """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
-    low, high = -math.inf, math.inf
+    bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
     best = edges_at(tilt)
     edges = best
     left, missed = MAX_TILTS, [math.inf, math.inf]
@@ -468,20 +469,18 @@ def _tilt_of_moment(
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
             best = edges
-        low, high = (max(low, tilt), high) if excess > 0.0 else (low, min(high, tilt))
+        bracket.cut((tilt, 0.0), above=excess > 0.0)
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
         falls = _fall_of_moment(edges, search, at_fixed_width)
-        new = tilt + excess / falls if falls > 0.0 else math.inf
         missed.append(abs(excess))
-        astray = (
-            missed[-1] > 0.5 * missed[-3]
-        )  # Newton's steps run to and fro across a part that is nearly flat
-        if math.isfinite(low + high) and (astray or not low < new < high):
-            new = 0.5 * (low + high)
-        elif not low < new < high:
-            new = tilt
-        if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
+        # Newton's steps may run to and fro across a part that is nearly flat
+        astray = missed[-1] > 0.5 * missed[-3]
+        wanted = tilt + excess / falls if falls > 0.0 else math.inf
+        new, _ = bracket.place((wanted, 0.0), astray)
+        (low, _), (high, _) = bracket.low, bracket.high
+        settled = high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE)
+        if new == tilt or settled or not math.isfinite(new):
             break
         tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
         left -= spent
