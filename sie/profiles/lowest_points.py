@@ -23,6 +23,7 @@ SHORTLIST = 16  # of the minima of a rough trace, those which the samples show a
 HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
+NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
 
 
 def lowest_points(slope: Slope) -> tuple[float, float]:
@@ -137,7 +138,8 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     ends = H(a), H(b)
     if ends[0] >= 0.0 or ends[1] <= 0.0:
         return lo if ends[0] >= 0.0 else hi
-    if a < 0.0 < b and H(0.0) == 0.0:  # else the bracket would shrink to the smallest doubles
+    # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
+    if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return float(origin[0])
     return float(origin[0]) + false_position(H, a, b, ends, lambda *_: False)
 
