@@ -30,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.jacobi import Weight
+from sie.numerics.lerch import log1p
 
 Array = NDArray[Any]
 
@@ -138,8 +139,8 @@ class Graded:
 
     def inverse(self, to_right: Array, to_left: Array) -> tuple[Array, Array, Array]:
         from_A, from_B = to_left + self.before, to_right + self.behind
-        right = _log1p(to_right / self.behind) + _log1p(to_right / from_A)
-        left = _log1p(to_left / self.before) + _log1p(to_left / from_B)
+        right = log1p(to_right / self.behind) + log1p(to_right / from_A)
+        left = log1p(to_left / self.before) + log1p(to_left / from_B)
         return right / self.h, left / self.h, self._split(from_A, from_B)[0]
 
     def steepening(self, left: Array) -> Array:
@@ -159,16 +160,6 @@ class Graded:
 
 
 Map = Affine | Graded
-
-
-def _log1p(y: Array) -> Array:
-    """ln(1 + y), real or complex: NumPy's for complex numbers rounds 1 + y first."""
-    if not np.iscomplexobj(y):
-        return np.log1p(y)
-    out = np.empty_like(y)
-    out.real = 0.5 * np.log1p(y.real * (2.0 + y.real) + y.imag * y.imag)
-    out.imag = np.arctan2(y.imag, 1.0 + y.real)
-    return out
 
 
 def smooth_coth(y: Array) -> Array:

@@ -115,12 +115,15 @@ def _arctan_inside(a: float, r: Array) -> Array:
 
 
 def log1p(u: Array) -> Array:
-    """ln(1 + u); NumPy's complex one loses the digits of a small u."""
+    """ln(1 + u), real or complex: NumPy's for complex numbers rounds 1 + u first."""
     if not np.iscomplexobj(u):
         real: Array = np.log1p(u)
         return real
-    squared = u.real * (2.0 + u.real) + u.imag * u.imag
-    return 0.5 * np.log1p(np.maximum(squared, -1.0)) + 1j * np.arctan2(u.imag, 1.0 + u.real)
+    out = np.empty_like(u)
+    squared = u.real * (2.0 + u.real) + u.imag * u.imag  # |1 + u|² - 1
+    out.real = 0.5 * np.log1p(np.maximum(squared, -1.0))
+    out.imag = np.arctan2(u.imag, 1.0 + u.real)
+    return out
 
 
 def _horner(c: Array, x: Array) -> Array:
