@@ -76,7 +76,9 @@ def moments(
     keep_zero: bool = False,
     epsilon: float = 0.0,
 ) -> Moments:
-    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
+    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half
+    right of it.
+    """
     if not contact.r < math.inf:
         raise OverflowError("an edge of the contact is beyond all doubles")
     if slope.few and not keep_zero and not epsilon:
@@ -89,7 +91,7 @@ def moments(
         return _summed(g, quadrature_order(g.slope.degree))
 
 
-# -- arrays -----------------------------------------------------------------------------------------------------------
+# -- arrays ----------------------------------------------------------------------------------------
 
 
 def _of_many(g: Geometry) -> Moments:
@@ -138,7 +140,7 @@ def _sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
 
 
 def _jumps(g: Geometry) -> Array:
-    """(2, K): H enters at lo and leaves at hi, over w there; an edge of the contact is not a jump."""
+    """(2, K): H enters at lo and leaves at hi, over w there; an edge of the contact is no jump."""
     series = g.chebyshev_slope(g.slope.degree + 1)
     ends = np.stack((series @ (-1.0) ** np.arange(series.shape[1]), series.sum(axis=1)))
     jump, w = _rises(ends, g.k), g.edge.root(g.root_left, g.root_right)
@@ -150,9 +152,11 @@ def _jumps(g: Geometry) -> Array:
 
 
 def _rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two pieces meet within rounding.
+    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two
+    pieces meet within rounding.
 
-    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all there is.
+    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all
+    there is.
     """
     enter, leave = H
     size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
@@ -166,7 +170,7 @@ def _sum(a: Array) -> float:
     return float(np.add.reduce(a, axis=None))
 
 
-# -- plain floats -----------------------------------------------------------------------------------------------------
+# -- plain floats ----------------------------------------------------------------------------------
 
 
 class _Cut(NamedTuple):

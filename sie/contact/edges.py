@@ -1,21 +1,26 @@
 """Where contact begins and ends.
 
-With G = E*/2, t = m + r sin φ and the integrals of `moments`, a contact [x1, x2] of a profile with slope H needs
+With G = E*/2, t = m + r sin φ and the integrals of `edge_integrals`, a contact [x1, x2] of a
+profile with slope H needs
 
     K2 = I1 + I0 = ∫H (1 + sin φ) dφ,      K1 = I1 - I0 = -∫H (1 - sin φ) dφ
-    P  = G r K2  if the right edge is smooth,      P = G r K1  if the left edge is smooth          (both: I0 = 0)
+    P  = G r K2 if the right edge is smooth,   P = G r K1 if the left edge is   (both: I0 = 0)
     M  = m P - G r² ∫H cos²φ dφ
 
-and an edge where P exceeds that value is square-root singular: only the end of the indenter can be. Of a convex profile K1 and K2 grow
-with the contact, each edge has an equation of its own, and along the solution the Jacobian is diagonal:
+and an edge where P exceeds that value is square-root singular: only the end of the indenter can be.
+For a convex profile K1 and K2 grow with the contact, each edge has an equation of its own, and
+along the solution the Jacobian is diagonal:
 
-    d(r K2)/dx2 = r JR + I0/2,        d(r K1)/dx1 = -r JL + I0/2,        dM/d(tilt) = -π/2 G r²  at constant P.
+    d(r K2)/dx2 = r JR + I0/2,     d(r K1)/dx1 = -r JL + I0/2,     dM/d(tilt) = -π/2 G r²
 
-So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where the profile touches first (a power law
-there is a straight line, solved in one step); then both edges are polished together (`polish`), with steps added to unrounded edges.
-Given the moment in place of the tilt, both edges and the tilt are found in one such search.
+the last at constant P.
+So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where
+the profile touches first (a power law there is a straight line, solved in one step); then both
+edges are polished together (`polish`), with steps added to unrounded edges. Given the moment in
+place of the tilt, both edges and the tilt are found in one such search.
 
-Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for smooth and sharp edges.
+Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for
+smooth and sharp edges.
 """
 
 from __future__ import annotations
@@ -39,7 +44,8 @@ from .edge_integrals import Moments, moments
 from .edge_refinement import MAX_POLISHING, ROUNDINGS, Polish
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
-# Newton from a neighbouring contact is given up unless its first step is below this fraction of the distance, and so many steps settle it.
+# Newton from a neighbouring contact is given up unless its first step is below this fraction of the
+# distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
@@ -49,7 +55,9 @@ UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of t
 
 @dataclass(frozen=True)
 class Edges:
-    """An answered question: contact, load, moment about x = 0, tilt; which edges are sharp, and the stresses k1, k2 of these."""
+    """An answered question: contact, load, moment about x = 0, tilt; which edges are sharp, and the
+    stresses k1, k2 of these.
+    """
 
     contact: Interval
     normal_load: float
@@ -63,7 +71,9 @@ class Edges:
 
 
 class Found(NamedTuple):
-    """A contact, which edges are sharp, and its moments if they are known (but for the rounding of its edges)."""
+    """A contact, which edges are sharp, and its moments if they are known (but for the rounding of
+    its edges).
+    """
 
     contact: Interval
     sharp: tuple[bool, bool] = (False, False)
@@ -84,7 +94,7 @@ class Search:
     mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
 
-    # -- evaluation ---------------------------------------------------------------------------------------------------
+    # -- evaluation --------------------------------------------------------------------------------
 
     def moments(self, contact: Interval) -> Moments:
         self.evaluations += 1
@@ -98,7 +108,9 @@ class Search:
         return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
 
     def load(self, contact: Interval, k: Moments) -> float:
-        """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G r K2."""
+        """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G
+        r K2.
+        """
         return self.half_modulus * contact.r * (k.I1 + abs(k.I0))
 
     def finished(self, found: Found, load: float | None, tilt: float) -> Edges:
@@ -137,7 +149,7 @@ class Search:
         k1 = 0.5 * (weighted + (1.0 + 2.0 * e) * difference)
         return max(k1, 0.0), max(k1 - difference, 0.0)
 
-    # -- where the profile touches first --------------------------------------------------------------------------------
+    # -- where the profile touches first -----------------------------------------------------------
 
     def touch(self) -> tuple[float, float]:
         """[z1, z2] where H = 0: the lowest points of the profile."""
@@ -152,12 +164,13 @@ class Search:
             z = max(z, self.axis)
             if math.isinf(z):
                 raise LoadError(
-                    "the profile is flat without end: its contact has no edges; give a profile that rises"
+                    "the profile is flat without end: its contact has no edges; give a profile "
+                    "that rises"
                 )
             return 2.0 * self.axis - z, z
         return lowest_points(self.slope)
 
-    # -- symmetric contact --------------------------------------------------------------------------------------------
+    # -- symmetric contact -------------------------------------------------------------------------
 
     def symmetric(self, load: float) -> Found:
         axis, z = self.axis, self.touch()[1]
@@ -186,7 +199,9 @@ class Search:
         return Found(self._polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
-        """The same by Newton alone, from the contact under a load that is not much different; None if that does not settle at once."""
+        """The same by Newton alone, from the contact under a load that is not much different; None
+        if that does not settle at once.
+        """
         z = self.touch()[1]
         reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
         contact, settled = self._polish.symmetric(
@@ -216,17 +231,21 @@ class Search:
         def error(distance: float, reached: float) -> ContactError:
             P = reached * self.half_modulus
             return LoadError(
-                f"the load {load:.6g} exceeds what this profile carries in one patch of contact, {P:.6g}: "
-                "beyond it the slope no longer rises enough towards the edge; lower the load or extend the profile",
+                f"the load {load:.6g} exceeds what this profile carries in one patch of contact, "
+                f"{P:.6g}: "
+                "beyond it the slope no longer rises enough towards the edge; lower the load or "
+                "extend the profile",
                 load=P,
             )
 
         return error
 
-    # -- general contact ------------------------------------------------------------------------------------------------
+    # -- general contact ---------------------------------------------------------------------------
 
     def general(self, load: float) -> Found:
-        """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the indenter."""
+        """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the
+        indenter.
+        """
         right = self._right_edge(load)
         if right is not None:
             return right
@@ -249,7 +268,9 @@ class Search:
         )
 
     def _right_edge(self, load: float) -> Found | None:
-        """The contact whose right edge is smooth, and its left edge may be sharp; None if the right edge is sharp too."""
+        """The contact whose right edge is smooth, and its left edge may be sharp; None if the right
+        edge is sharp too.
+        """
         z1, z2 = self.touch()
         lo, hi = self.slope.domain
         target = load / self.half_modulus
@@ -291,7 +312,9 @@ class Search:
     def _left_edge(
         self, z: tuple[float, float], right: float, guess: float
     ) -> tuple[Interval, Moments, float]:
-        """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there (a sharp edge); and z1 - x1."""
+        """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there
+        (a sharp edge); and z1 - x1.
+        """
         lo = self.slope.domain[0]
         x2, tail2 = two_sum(z[1], right)
         if math.isfinite(lo):
@@ -318,7 +341,8 @@ class Search:
                 else (f"ends at x2 = {x2:.6g}", "left")
             )
             return LoadError(
-                f"a contact that {one} finds no {other} edge: the profile does not rise enough to the {other}; "
+                f"a contact that {one} finds no {other} edge: the profile does not rise enough to "
+                f"the {other}; "
                 "prescribe less tilt or load, or a profile that rises on both sides",
                 edge=-x2 if self.mirrored else x2,
             )
@@ -330,23 +354,30 @@ class Search:
         return *found[at], at
 
     def polished(self, contact: Interval, target: float, left_sharp: bool) -> Found:
-        """Both edges at once, to rounding. Raises LoadError if that ends where the load is not carried: between two bumps of a profile."""
+        """Both edges at once, to rounding.
+
+        Raises LoadError if that ends where the load is not carried: between two bumps of a profile.
+        """
         contact, k, settled = self._polish.both(contact, target, left_sharp)
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
             seen = contact.mirrored() if self.mirrored else contact
             raise LoadError(
-                f"no single patch of contact was found that carries the load {target * self.half_modulus:.6g}: "
-                f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with {carried * self.half_modulus:.6g}; "
+                "no single patch of contact was found that carries the load "
+                f"{target * self.half_modulus:.6g}: "
+                f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with "
+                f"{carried * self.half_modulus:.6g}; "
                 "the profile has several bumps, raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
 
-    # -- a prescribed moment --------------------------------------------------------------------------------------------
+    # -- a prescribed moment -----------------------------------------------------------------------
 
     def under_moment(self, load: float, moment: float) -> Edges | None:
-        """The contact and the tilt where both edges are smooth; None if none was found, or an edge is at the end of the indenter."""
+        """The contact and the tilt where both edges are smooth; None if none was found, or an edge
+        is at the end of the indenter.
+        """
         target, lever = load / self.half_modulus, moment / load
         lo, hi = self.slope.domain
 
@@ -361,7 +392,8 @@ class Search:
             return moments(self.slope.tilted(tilt), contact, keep_zero=self.keep_zero)
 
         lost = LoadError(
-            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of the slope is more than the load shows: "
+            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
+            "the slope is more than the load shows: "
             "lower the moment, or move the profile to where the load acts (shifted)"
         )
         if not math.isfinite(float(self.slope(lever))):
@@ -383,11 +415,12 @@ class Search:
         return replace(self.finished(Found(contact, moments=k), load, tilt), moment=moment)
 
     def of_half_width_under_moment(self, r: float, moment: float) -> Edges | None:
-        """The contact of half-width r with smooth edges, and its tilt, of those that have the moment the nearest to where the untilted
-        profile touches; None if none was found.
+        """The contact of half-width r with smooth edges, and its tilt, of those that have the
+        moment the nearest to where the untilted profile touches; None if none was found.
 
-        Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 - I0/2)) and
-        dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m, because P changes too.
+        Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 -
+        I0/2)) and dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m,
+        because P changes too.
         """
         (lo, hi), (z1, z2), scale = self.slope.domain, self.touch(), self.half_modulus * r
         most = r / (PLACES * EPS)
@@ -440,7 +473,9 @@ class Search:
         bounds: tuple[float, float],
         r: float,
     ) -> Bracket | None:
-        """Two places, as near to the centre as doubled steps to both sides tell, between which the excess changes its sign under load."""
+        """Two places, as near to the centre as doubled steps to both sides tell, between which the
+        excess changes its sign under load.
+        """
         last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
         step = FIRST_STEP * r
         while last:
@@ -456,13 +491,14 @@ class Search:
             step *= 2.0
         return None
 
-    # -- a prescribed half-width ----------------------------------------------------------------------------------------
+    # -- a prescribed half-width -------------------------------------------------------------------
 
     def of_half_width(self, r: float) -> Found:
         lo, hi = self.slope.domain
         if 2.0 * r > (hi - lo) * (1.0 + 4.0 * EPS):
             raise LoadError(
-                f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: give at most that, or a normal_load"
+                f"the half-width {r:.6g} exceeds that of the indenter, {0.5 * (hi - lo):.6g}: "
+                "give at most that, or a normal_load"
             )
         z1, z2 = self.touch()
         if 2.0 * r <= z2 - z1:

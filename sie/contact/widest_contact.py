@@ -1,4 +1,5 @@
-"""The widest contact that carries a load, where the search from the lowest point outwards finds none.
+"""The widest contact that carries a load, where the search from the lowest point outwards finds
+none.
 
 The base of a trace is rough: the load of the contacts that start at its lowest point rises and
 falls again while they are as short as its waves, and the search ends there. So this search begins

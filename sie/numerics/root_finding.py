@@ -87,7 +87,7 @@ def false_positions(function: Callable[[Array], Array], lo: Array, hi: Array) ->
     return x
 
 
-# -- from a guess -----------------------------------------------------------------------------------
+# -- from a guess ----------------------------------------------------------------------------------
 
 MAX_STEPS = 200
 FIRST_STEP = 16.0
@@ -130,7 +130,8 @@ def increasing_root(function: Callable[[float], float], guess: float, limit: flo
 
 # The logarithmic search ends at this relative error of the value, after one more step.
 ROUGH = 1e-2
-# Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of range.
+# Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of
+# range.
 MAX_LOG_STEP = 20.0
 SMALLEST = 1e-300
 LEAP = 1e12  # where a value underflows, or falls before it was ever large enough
@@ -178,7 +179,8 @@ def logarithmic_root(
         open_ended = low == 0.0 or not math.isfinite(high)
         new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
         if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton creeps
+            # steep where the contact is small, flat where it is large: without a bracket Newton
+            # creeps
             new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
         if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
             new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
@@ -190,13 +192,13 @@ def logarithmic_root(
 
 
 def _between(low: float, high: float, u: float) -> float:
-    """A point inside the bracket: the geometric mean, or a large step where one end is still open."""
+    """A point inside the bracket: the geometric mean, or a large step where one end is open."""
     if not math.isfinite(high):
         return u * LEAP
     return float(np.sqrt(low) * np.sqrt(high)) if low > 0.0 else high / 8.0
 
 
-# -- bounds for another method ----------------------------------------------------------------------
+# -- bounds for another method ---------------------------------------------------------------------
 
 Place = tuple[float, float]  # a sum of two doubles; such pairs are ordered as their sums are
 

@@ -5,7 +5,8 @@
 the square-root singular ends of a sharp-edged punch apart, as
 k1/2 sqrt((1-s)/(1+s)) + k2/2 sqrt((1+s)/(1-s)), so that a smooth edge stays smooth.
 
-Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell & Sackfield, Mechanics of Elastic Contacts (1993), ch. 2.
+Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Hills, Nowell & Sackfield, Mechanics
+of Elastic Contacts (1993), ch. 2.
 """
 
 from __future__ import annotations
@@ -29,13 +30,16 @@ from .potential import outer_series
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# A Chebyshev series is continued beyond its interval only next to it, while it grows by less than this factor.
+# A Chebyshev series is continued beyond its interval only next to it, while it grows by less than
+# this factor.
 CONTINUATION = 4.0
 
 
 @dataclass(frozen=True, eq=False)
 class SlopeDensity(Density):
-    """The density that answers the slope H on `contact`; `half_modulus` = E*/2; k1, k2 its singular ends (0: smooth), as stresses."""
+    """The density that answers the slope H on `contact`; `half_modulus` = E*/2; k1, k2 its singular
+    ends (0: smooth), as stresses.
+    """
 
     contact: Interval
     half_modulus: float
@@ -59,7 +63,7 @@ class SlopeDensity(Density):
         """The largest |H| in the contact, about."""
 
     def strength(self, x: float) -> float:
-        """k1, k2 at a sharp edge; ±1 under a corner of the profile, whose strength no load changes."""
+        """k1, k2 at a sharp edge; ±1 under a corner of the profile, whatever the load."""
         for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
             if x == edge and k:
                 return k
@@ -77,7 +81,8 @@ class SlopeDensity(Density):
     def _beside(self, x: Array) -> tuple[Array, Array]:
         """(G, continued): 1/π∫p/(x-t) = continued - G for x beside the contact, all on one side.
 
-        `continued` is H of the edge continued as a polynomial, or 0 where that is not safe; G vanishes at a smooth edge.
+        `continued` is H of the edge continued as a polynomial, or 0 where that is not safe; G
+        vanishes at a smooth edge.
         """
 
     @abstractmethod
@@ -86,7 +91,9 @@ class SlopeDensity(Density):
 
     @abstractmethod
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
-        """The same far from the contact, without the constant that the first tends to where an edge is singular."""
+        """The same far from the contact, without the constant that the first tends to where an edge
+        is singular.
+        """
 
     @abstractmethod
     def _slope(self, x: Array) -> Array:
@@ -95,7 +102,9 @@ class SlopeDensity(Density):
     resolves = True  # whether a slope that is a function is known by its values at some points only
 
     def resolved_slope(self, x: Array) -> Array:
-        """H inside the contact, x ascending, as the pressure knows it: of a function its resolution."""
+        """H inside the contact, x ascending, as the pressure knows it: of a function its
+        resolution.
+        """
         return self._slope(x)
 
     @property
@@ -105,7 +114,9 @@ class SlopeDensity(Density):
 
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
-        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is infinite."""
+        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is
+        infinite.
+        """
         return ()
 
     def __call__(self, x: ArrayLike) -> Array:
@@ -131,11 +142,13 @@ class SlopeDensity(Density):
         return p
 
     def _edge(self, ratio: Array, on_left: bool) -> Array:
-        """How a singular end goes with the ratio of the distances from the other end and from it."""
+        """A singular end as a function of the distance from the other end over that from it."""
         return np.sqrt(ratio)
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
-        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0; real: beside the contact)."""
+        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0;
+        real: beside the contact).
+        """
         root = (
             np.sqrt(left) / np.sqrt(right)
             if np.iscomplexobj(left)
@@ -144,7 +157,9 @@ class SlopeDensity(Density):
         return 0.5 * (self.k2 * root - self.k1 / root)
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:
-        """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one side of the contact."""
+        """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one
+        side of the contact.
+        """
         G, continued = in_order(self._beside, x)
         if self.k1 or self.k2:
             G = (
@@ -224,7 +239,11 @@ class SlopeDensity(Density):
         return self.half_modulus * left, self.half_modulus * right
 
     def _both_in_upper(self, z: Complex) -> tuple[Complex, Complex]:
-        """(F, F') for Im z > 0 (1-d). Far from singular ends F and what these add tend to constants that cancel: both are left out."""
+        """(F, F') for Im z > 0 (1-d).
+
+        Far from singular ends F and what these add tend to constants that cancel: both are left
+        out.
+        """
         if not (self.k1 or self.k2):
             F, dF = self._pair(z)
             return self.half_modulus * F, self.half_modulus * dF
@@ -240,7 +259,9 @@ class SlopeDensity(Density):
         return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
-        """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of the first."""
+        """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of
+        the first.
+        """
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
         root1, root2 = np.sqrt(left), np.sqrt(right)
         root, inverse = root1 / root2, root2 / root1
@@ -274,7 +295,9 @@ class SlopeDensity(Density):
 
 @dataclass(frozen=True, eq=False)
 class TransformDensity(SlopeDensity):
-    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s). One DCT gave g; nothing was solved."""
+    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s). One DCT gave g;
+    nothing was solved.
+    """
 
     series: Array
 
@@ -325,7 +348,9 @@ class TransformDensity(SlopeDensity):
         return outer_series(self.series, self.contact, z)
 
     def _powers(self, rho: Any) -> Any:
-        """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to -g_0 far away."""
+        """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to
+        -g_0 far away.
+        """
         total = np.zeros_like(rho)
         for g in self.series[:0:-1]:
             total = (total + g) * rho

@@ -61,7 +61,7 @@ class OnPanels(SlopeDensity):
 
     @cached_property
     def _cusps(self) -> dict[float, list[PowerLaw | Corner]]:
-        """Of each axis of a power below CUSP, too steep there for pieces: all that is not straight."""
+        """The powers and the corner at each axis of a power below CUSP, too steep for pieces."""
         slope, (lo, hi) = self.panels.geometry.slope, self.interval
         cusps: dict[float, list[PowerLaw | Corner]] = {}
         for term in slope.functions:

@@ -64,7 +64,7 @@ class Breaks(NamedTuple):
 
 
 class Panels:
-    """The pieces of a slope in the contact; `I0` = ∫H/w dt, exactly 0 where both edges are smooth."""
+    """The pieces of a slope in the contact; `I0` = ∫H/w dt, exactly 0 if both edges are smooth."""
 
     def __init__(self, geometry: Geometry, I0: float = 0.0) -> None:
         g = self.geometry = geometry
@@ -86,7 +86,7 @@ class Panels:
         """The largest |H| on the pieces, about."""
         return float(np.abs(self.series).sum(axis=1).max(initial=0.0))
 
-    # -- the closed form ----------------------------------------------------------------------------
+    # -- the closed form ---------------------------------------------------------------------------
 
     @cached_property
     def continuation(self) -> Array:
@@ -193,7 +193,7 @@ class Panels:
             for k, n in enumerate(self.lengths)
         ]
 
-    # -- the breaks ---------------------------------------------------------------------------------
+    # -- the breaks --------------------------------------------------------------------------------
 
     @cached_property
     def _slope_at_ends(self) -> Array:
@@ -203,7 +203,7 @@ class Panels:
 
     @cached_property
     def jumps(self) -> list[tuple[float, float]]:
-        """(break, +inf or -inf) inside the contact where H jumps: there the pressure is infinite."""
+        """(break, ±inf) inside the contact where H jumps: there the pressure is infinite."""
         g = self.geometry
         if g.slope.continuous:
             return []
@@ -261,7 +261,7 @@ class Panels:
             if e in infinite or abs(after - before) > least * steepest
         )
 
-    # -- quadrature beyond the reach ----------------------------------------------------------------
+    # -- quadrature beyond the reach ---------------------------------------------------------------
 
     def rule(self, k: Any) -> tuple[Array, Array]:
         """Offsets from lo, and weights of dt/w times H, of one piece or of each of several."""

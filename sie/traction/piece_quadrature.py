@@ -1,9 +1,12 @@
-"""Where the pieces of a slope lie in a contact: in angles, to relative accuracy however thin a piece or a rim is.
+"""Where the pieces of a slope lie in a contact: in angles, to relative accuracy however thin a
+piece or a rim is.
 
-With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all that is needed of a piece [A, B] comes
-from the square roots of its ends' distances, without differences of nearly equal numbers:
+With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all that
+is needed of a piece [A, B] comes from the square roots of its ends' distances, without differences
+of nearly equal numbers:
 
-    ψ_A - ψ_B = 2 atan2( (B - A)/(2r (sin ψ_A/2 cos ψ_B/2 + cos ψ_A/2 sin ψ_B/2)),  cos ψ_A/2 cos ψ_B/2 + sin ψ_A/2 sin ψ_B/2 )
+    ψ_A - ψ_B = 2 atan2( (B - A)/(2r (sin ψ_A/2 cos ψ_B/2 + cos ψ_A/2 sin ψ_B/2)),  cos ψ_A/2 cos
+    ψ_B/2 + sin ψ_A/2 sin ψ_B/2 )
     t - A     = 2r sin((ψ_A - ψ)/2) sin((ψ_A + ψ)/2)
 """
 
@@ -27,9 +30,11 @@ NARROW_ANGLE = 0.02
 
 
 class Geometry:
-    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to relative accuracy.
+    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to
+    relative accuracy.
 
-    Only the first and the last piece can be cut by an edge. Building one costs a few microseconds: the search for the edges builds many.
+    Only the first and the last piece can be cut by an edge. Building one costs a few microseconds:
+    the search for the edges builds many.
     """
 
     def __init__(
@@ -51,8 +56,9 @@ class Geometry:
         self.ends = ends = np.empty((2, n))  # of the pieces, lo and hi ...
         ends[0], ends[1] = b[k], b[k + 1]
         self.tails = np.zeros((2, n))  # ... and what their doubles miss
-        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's width: cos² and sin² of half the angle
-        # from the right edge. Only the outer two ends can be cut by an edge or by `lower`.
+        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's
+        # width: cos² and sin² of half the angle from the right edge. Only the outer two ends can be
+        # cut by an edge or by `lower`.
         width = 2.0 * contact.r
         distance = np.empty((2, 2, n))
         distance[0], distance[1] = contact.from_left(ends), contact.from_right(ends)
@@ -80,7 +86,9 @@ class Geometry:
 
     @cached_property
     def angles(self) -> tuple[Array, Array | float, Array]:
-        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular length), each (K, 1)."""
+        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular
+        length), each (K, 1).
+        """
         (a, c), (b, d) = self.root_left, self.root_right
         angle = 2.0 * np.arctan2(
             self.length / (2.0 * self.contact.r * (b * c + a * d)), a * c + b * d
@@ -115,7 +123,9 @@ class Geometry:
         return part
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
-        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights, all (K, n), and signs."""
+        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights,
+        all (K, n), and signs.
+        """
         g, w = chebyshev.gauss_legendre(n)
         from_edge, sign, length = self.angles
         half_step = (0.5 * length) * g
@@ -171,10 +181,14 @@ class Geometry:
 
 
 def quadrature_order(degree: int) -> int:
-    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact, measured to reach rounding."""
+    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact,
+    measured to reach rounding.
+    """
     return 13 + int(1.15 * degree)
 
 
 def narrow_order(degree: int) -> int:
-    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's own degree."""
+    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's
+    own degree.
+    """
     return 3 + degree // 2

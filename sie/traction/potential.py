@@ -11,7 +11,8 @@ H_k, Q_k the polynomials of piece k (`panels`), [lo, hi] its ends,
 
 where D_e = (H_k(z) - H_k(e)) / (z - e) is a polynomial, [H]_e the jump of the slope at a break, and
 M = (1/2+ε)(z - x2) + (1/2-ε)(z - x1): nothing cancels next to a break. V' is the derivative of V;
-H = (|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after eq. (23)).
+H = (|t| - a)/R gives back Fp' of the rounded punch (Ciavarella, Hills & Monno 1998, after eq.
+(23)).
 
 Where a piece is far, its Gauss rule serves: V = X S and N = M S + (z - x1)(z - x2) S' with
 S = ∫H/(w (t - z)) dt. Of many pieces whole branches are summed at once (`cauchy_sums`), and pairs
@@ -60,7 +61,7 @@ class Block(NamedTuple):
 Meetings = Callable[[Block], tuple[Any, Any]]
 
 
-# -- on the line, 1-d arrays x that ascend ----------------------------------------------------------
+# -- on the line, 1-d arrays x that ascend ---------------------------------------------------------
 
 
 def on_contact(p: Panels, x: Array) -> Array:
@@ -143,7 +144,7 @@ def _ranges(p: Panels, x: Array, served: bool) -> list[Block]:
     ]
 
 
-# -- in the upper half-plane ------------------------------------------------------------------------
+# -- in the upper half-plane -----------------------------------------------------------------------
 
 
 def upper(p: Panels, z: Complex) -> tuple[Complex, Complex]:
@@ -267,7 +268,9 @@ def _among(known: Index, wanted: Index) -> NDArray[np.bool_]:
 
 
 def _add_poles(p: Panels, k: Any, z: Complex, meet: tuple[Any, Any], N: Complex) -> None:
-    """Σ_e v(e) [H]_e / (z - e): where both pieces at a break serve, their poles cancel but for a jump."""
+    """Σ_e v(e) [H]_e / (z - e): where both pieces at a break serve, their poles cancel but for a
+    jump.
+    """
     b = p.breaks
     for end, value in (
         (1, np.where(meet[0], b.jump[k], -b.H[1, k])),
@@ -281,7 +284,7 @@ def _add_poles(p: Panels, k: Any, z: Complex, meet: tuple[Any, Any], N: Complex)
             N[here] += v * jump / (z[here] - e)
 
 
-# -- of one block -----------------------------------------------------------------------------------
+# -- of one block ----------------------------------------------------------------------------------
 
 
 def _pairs(p: Panels, z: Any, k: Index, i: Index) -> list[Block]:
@@ -362,7 +365,7 @@ def _cauchy_sums(p: Panels, k: Any, z: Complex) -> tuple[Complex, Complex]:
     return S, dS
 
 
-# -- far from the contact ---------------------------------------------------------------------------
+# -- far from the contact --------------------------------------------------------------------------
 
 
 def far(p: Panels, z: Any, constant: bool = True) -> tuple[Any, Any]:

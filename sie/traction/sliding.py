@@ -1,4 +1,5 @@
-"""Full sliding of dissimilar bodies: q = f p acts back on the pressure, and the exponents leave 1/2.
+"""Full sliding of dissimilar bodies: q = f p acts back on the pressure, and the exponents leave
+1/2.
 
     1/π PV∫ p(t)/(x - t) dt + tan(πε) p(x) = E*/2 H(x),        tan πε = -β f
 
@@ -57,7 +58,8 @@ class SlidingDensity(PanelDensity):
         return np.array([half * ends, -2.0 * half * r * steep / (left * right)])
 
     def _hilbert_inside(self, x: Array) -> Array:
-        # Where p is infinite so is this; only the slope's part is given there, as for similar bodies
+        # Where p is infinite so is this; only the slope's part is given there, as for similar
+        # bodies
         p = self(x)
         return self.half_modulus * self._slope(x) - math.tan(math.pi * self.epsilon) * np.where(
             np.isfinite(p), p, 0.0

@@ -20,15 +20,17 @@ from .piece_quadrature import Geometry, quadrature_order
 
 Array = NDArray[np.float64]
 
-# Gauss-Legendre nodes for each e-fold of the distance from an edge, beyond those of a smooth integrand.
+# Gauss-Legendre nodes for each e-fold of the distance from an edge, beyond those of a smooth
+# integrand.
 NODES_PER_FOLD = 3
 SPARE = 6
 SHORTEST = 1e-300  # half a length that may be divided by
 
 
 class SlidingGeometry(Geometry):
-    """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that ends at an edge, Gauss-Legendre in
-    ln τ on others. The slope is broken at the middle of the contact, so that no piece comes near both edges."""
+    """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that
+    ends at an edge, Gauss-Legendre in ln τ on others. The slope is broken at the middle of the
+    contact, so that no piece comes near both edges."""
 
     def __init__(
         self, slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False
@@ -49,7 +51,9 @@ class SlidingGeometry(Geometry):
         return out
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array]:
-        """Offsets t - lo, angles from the nearer edge, weights of dt/w, (K, N) with N >= n, and +1 where the left edge is the nearer."""
+        """Offsets t - lo, angles from the nearer edge, weights of dt/w, (K, N) with N >= n, and +1
+        where the left edge is the nearer.
+        """
         a, b, d = self.root_left[0], self.root_right[0], self.root_right[1]
         width = 2.0 * self.contact.r
         with np.errstate(divide="ignore", over="ignore"):
@@ -83,7 +87,9 @@ class SlidingGeometry(Geometry):
         return offset, angle, weight, np.where(left, 1.0, -1.0)[:, None]
 
     def _at_edge(self, k: int, n: int) -> tuple[Array, Array, Array]:
-        """The piece between an edge and some point: the singular factor ψ^(∓2ε) of dt/w is in the rule's weights."""
+        """The piece between an edge and some point: the singular factor ψ^(∓2ε) of dt/w is in the
+        rule's weights.
+        """
         at_left = self.cut_left and k == 0
         sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
         g, w = edge_rule(n, sign)
