@@ -14,8 +14,7 @@ from sie.numerics.cauchy_sums import LEAF, KernelSums
 from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 from sie.traction import panels, potential
-from sie.traction.piece_quadrature import Geometry
-from sie.traction.sliding_quadrature import SlidingGeometry
+from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 from validation import reference
 from validation.reference import mp
 

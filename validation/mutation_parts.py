@@ -29,7 +29,7 @@ from sie.friction import memory, partial_slip
 from sie.numerics import cauchy_sums
 from sie.profiles import sampled
 from sie.stress import half_plane
-from sie.traction import potential, sliding_quadrature
+from sie.traction import piece_quadrature, potential
 
 Part = Callable[[], AbstractContextManager[Any]]
 
@@ -279,7 +279,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "Gauss-Chebyshev weights next to frictional edges",
         partial(
             number,
-            _instead(sliding_quadrature, "edge_rule", lambda right, n, power: right(n, -0.5)),
+            _instead(piece_quadrature, "edge_rule", lambda right, n, power: right(n, -0.5)),
             _sliding,
             _true_sliding,
         ),

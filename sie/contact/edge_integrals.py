@@ -1,6 +1,6 @@
 """The integrals over a contact that fix its edges.
 
-By the rules of the pieces for dt/w (`piece_quadrature`, `sliding_quadrature`), exact to rounding,
+By the rules of the pieces for dt/w (`piece_quadrature`, `piece_quadrature`), exact to rounding,
 derivatives and jumps included. The same formulas are there in two forms: arrays for many pieces,
 plain floats for a few, where the overhead of NumPy's calls would be most of the cost of a solve.
 """
@@ -17,8 +17,13 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.profiles.slope import SEEN_JUMP, Row, Slope
-from sie.traction.piece_quadrature import NARROW_ANGLE, Geometry, narrow_order, quadrature_order
-from sie.traction.sliding_quadrature import SlidingGeometry
+from sie.traction.piece_quadrature import (
+    NARROW_ANGLE,
+    Geometry,
+    SlidingGeometry,
+    narrow_order,
+    quadrature_order,
+)
 
 Array = NDArray[np.float64]
 

@@ -30,9 +30,8 @@ from sie.profiles.unresolved import Pieces, between_pieces, between_points, expa
 from sie.traction.of_slope import SlopeDensity, TransformDensity
 from sie.traction.on_panels import PanelDensity, PowerDensity
 from sie.traction.panels import CHOP, Panels
-from sie.traction.piece_quadrature import Geometry
+from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 from sie.traction.sliding import SlidingDensity
-from sie.traction.sliding_quadrature import SlidingGeometry
 
 from .edges import PLACES, Edges, Found, Search
 from .smooth_slope import smooth_contact
