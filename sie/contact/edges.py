@@ -16,8 +16,8 @@ along the solution the Jacobian is diagonal:
 the last at constant P.
 So the search is one-dimensional and monotone, in the logarithm of the edge's distance from where
 the profile touches first (a power law there is a straight line, solved in one step); then both
-edges are polished together (`polish`), with steps added to unrounded edges. Given the moment in
-place of the tilt, both edges and the tilt are found in one such search.
+edges are refined together (`edge_refinement`), with steps added to unrounded edges. Where the
+moment is given in place of the tilt, `given_moment` finds both edges and the tilt.
 
 Sources: Muskhelishvili (1953) § 116; Shtaerman (1949); Johnson, Contact Mechanics (1985) § 5.5 for
 smooth and sharp edges.
@@ -36,12 +36,12 @@ import numpy as np
 
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
-from sie.numerics.root_finding import ROUGH, Bracket, Place, logarithmic_root
+from sie.numerics.root_finding import ROUGH, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments, moments
-from .edge_refinement import MAX_POLISHING, ROUNDINGS, Polish
+from .edge_refinement import MAX_POLISHING, Polish
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the
@@ -49,7 +49,6 @@ MISSED = 1e-6  # of the load: a search that ends with more has not found a conta
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
-FIRST_STEP = 2.0**-6  # of the half-width: from there doubled, where a centre is looked for
 UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
 
 
@@ -194,9 +193,9 @@ class Search:
 
         target = load / self.half_modulus
         distance = logarithmic_root(
-            excess, target, self._first_guess(z, hi, target), hi - z, self._too_much(load)
+            excess, target, self.first_guess(z, hi, target), hi - z, self.too_much(load)
         )
-        return Found(self._polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
+        return Found(self.polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
         """The same by Newton alone, from the contact under a load that is not much different; None
@@ -204,16 +203,16 @@ class Search:
         """
         z = self.touch()[1]
         reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
-        contact, settled = self._polish.symmetric(
+        contact, settled = self.polish.symmetric(
             contact, load / self.half_modulus, z, NEAR_STEPS, reach
         )
         return contact if settled else None
 
     @cached_property
-    def _polish(self) -> Polish:
+    def polish(self) -> Polish:
         return Polish(self.slope, self.moments, self.epsilon)
 
-    def _first_guess(self, z: float, hi: float, target: float) -> float:
+    def first_guess(self, z: float, hi: float, target: float) -> float:
         if math.isfinite(hi):
             return 0.5 * (hi - z)
         breaks = self.slope.break_points
@@ -227,7 +226,7 @@ class Search:
             else max(target, math.sqrt(EPS) * abs(z))
         )
 
-    def _too_much(self, load: float) -> Callable[[float, float], ContactError]:
+    def too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:
             P = reached * self.half_modulus
             return LoadError(
@@ -278,7 +277,7 @@ class Search:
             return None  # lowest at its end: all contact has a sharp edge there
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
-        guess = self._first_guess(z2, hi, target)
+        guess = self.first_guess(z2, hi, target)
         last = [
             guess,
             guess,
@@ -303,7 +302,7 @@ class Search:
                 contact.r * k.JR + (0.5 - self.epsilon) * max(k.I0, 0.0)
             )
 
-        distance = logarithmic_root(excess, target, guess, hi - z2, self._too_much(load))
+        distance = logarithmic_root(excess, target, guess, hi - z2, self.too_much(load))
         contact, _ = contact_at(distance)
         self.evaluations += split.evaluations
         left_sharp = bool(contact.x1 == lo and contact.tail1 == 0.0)
@@ -358,7 +357,7 @@ class Search:
 
         Raises LoadError if that ends where the load is not carried: between two bumps of a profile.
         """
-        contact, k, settled = self._polish.both(contact, target, left_sharp)
+        contact, k, settled = self.polish.both(contact, target, left_sharp)
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
             seen = contact.mirrored() if self.mirrored else contact
@@ -371,125 +370,6 @@ class Search:
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
-
-    # -- a prescribed moment -----------------------------------------------------------------------
-
-    def under_moment(self, load: float, moment: float) -> Edges | None:
-        """The contact and the tilt where both edges are smooth; None if none was found, or an edge
-        is at the end of the indenter.
-        """
-        target, lever = load / self.half_modulus, moment / load
-        lo, hi = self.slope.domain
-
-        def carried(r: float) -> tuple[float, float]:
-            k = self.moments(interval_about(lever, r))
-            rounding = ROUNDINGS * (k.size1 + k.size2)
-            # A straight part of the profile carries nothing
-            return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
-
-        def tilted(contact: Interval, tilt: float) -> Moments:
-            self.evaluations += 1
-            return moments(self.slope.tilted(tilt), contact, keep_zero=self.keep_zero)
-
-        lost = LoadError(
-            f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
-            "the slope is more than the load shows: "
-            "lower the moment, or move the profile to where the load acts (shifted)"
-        )
-        if not math.isfinite(float(self.slope(lever))):
-            raise lost
-        limit = min(lever - lo, hi - lever)
-        try:
-            r = logarithmic_root(
-                carried, target, self._first_guess(lever, hi, target), limit, self._too_much(load)
-            )
-        except LoadError:
-            return None
-        guess = interval_about(lever, r)
-        if not sum(self._polish.rounding(guess, self.moments(guess), target)) <= target:
-            raise lost
-        found = self._polish.balanced(guess, target, lever, tilted)
-        if found is None:
-            return None
-        contact, k, tilt = found
-        return replace(self.finished(Found(contact, moments=k), load, tilt), moment=moment)
-
-    def of_half_width_under_moment(self, r: float, moment: float) -> Edges | None:
-        """The contact of half-width r with smooth edges, and its tilt, of those that have the
-        moment the nearest to where the untilted profile touches; None if none was found.
-
-        Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 -
-        I0/2)) and dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m,
-        because P changes too.
-        """
-        (lo, hi), (z1, z2), scale = self.slope.domain, self.touch(), self.half_modulus * r
-        most = r / (PLACES * EPS)
-        low, high = max(lo + r, -most), min(hi - r, most)
-        if not low < high:
-            return None
-
-        def at(m: Place) -> tuple[float, float, Interval, Moments]:
-            """Of M/(G r): how much it exceeds what is given, and its derivative."""
-            contact = interval_about(m[0], r).moved(m[1], m[1])
-            k, centre = self.moments(contact), contact.m
-            excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
-            return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
-
-        centre = min(max(0.5 * (z1 + z2), low), high)
-        bracket = self._first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
-        if bracket is None:
-            return None
-        m, slope, earlier = (
-            bracket.middle(),
-            math.copysign(1.0, at(bracket.high)[0]),
-            [math.inf, math.inf],
-        )
-        for _ in range(MAX_POLISHING):
-            excess, rise, contact, k = at(m)
-            size = k.size1 + k.size2
-            rounding = ROUNDINGS * ((abs(m[0]) + r) * size + abs(moment) / scale)
-            missed = abs(excess) / rounding
-            wanted = two_sum(m[0], m[1] - excess / rise) if rise * slope > 0.0 else (math.inf, 0.0)
-            if missed > 1.0:
-                bracket.cut(m, above=excess * slope < 0.0)
-            place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
-            earlier.append(missed)
-            within = bracket.low < wanted < bracket.high
-            if (
-                place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within)
-            ):  # after one more step, if there is one
-                break
-            m = place
-        if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
-            return None  # nothing but rounding carries the load, or tells the centre
-        tilt = -k.I0 / math.pi
-        k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
-        return replace(self.finished(Found(contact, moments=k), None, tilt), moment=moment)
-
-    @staticmethod
-    def _first_change(
-        at: Callable[[float], tuple[float, float, Interval, Moments]],
-        centre: float,
-        bounds: tuple[float, float],
-        r: float,
-    ) -> Bracket | None:
-        """Two places, as near to the centre as doubled steps to both sides tell, between which the
-        excess changes its sign under load.
-        """
-        last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
-        step = FIRST_STEP * r
-        while last:
-            for side in [*last]:
-                place, excess, _, _, before = last[side]
-                new = min(max(centre + side * step, bounds[0]), bounds[1])
-                if new == place:
-                    del last[side]
-                    continue
-                last[side] = new, *at(new)
-                if excess * last[side][1] <= 0.0 and max(before.I1, last[side][4].I1) > 0.0:
-                    return Bracket((min(place, new), 0.0), (max(place, new), 0.0), (True, True))
-            step *= 2.0
-        return None
 
     # -- a prescribed half-width -------------------------------------------------------------------
 
@@ -519,5 +399,5 @@ class Search:
                     return Found(contact, moments=k)
                 if (k.I0 < 0.0) == bool(side):
                     return Found(contact, (not side, bool(side)), k)
-        contact, k = self._polish.centred(interval_about(0.5 * (low + high), r), low, high)
+        contact, k = self.polish.centred(interval_about(0.5 * (low + high), r), low, high)
         return Found(contact, moments=k)

@@ -33,6 +33,7 @@ from sie.traction.panels import CHOP, Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 from sie.traction.sliding import SlidingDensity
 
+from . import given_moment
 from .edges import PLACES, Edges, Found, Search
 from .smooth_slope import smooth_contact
 from .widest_contact import widest_contact
@@ -448,9 +449,9 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         and epsilon == 0.0
         and (axis is None or scene.moment != axis * scene.normal_load)
     ):
-        edges = search.under_moment(scene.normal_load, scene.moment)
+        edges = given_moment.under_load(search, scene.normal_load, scene.moment)
     if scene.half_width is not None and epsilon == 0.0 and not scene.moment == axis == 0.0:
-        edges = search.of_half_width_under_moment(scene.half_width, scene.moment)
+        edges = given_moment.of_half_width(search, scene.half_width, scene.moment)
         if edges is None and np.isinf(scene.profile.domain).all():
             raise LoadError(
                 f"no contact of half-width {scene.half_width:.6g} with smooth edges was found "
