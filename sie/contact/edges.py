@@ -198,8 +198,10 @@ class Search:
         return Found(self.polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
-        """The same by Newton alone, from the contact under a load that is not much different; None
-        if that does not settle at once.
+        """The same by Newton alone, from the contact under a load that is not much different.
+
+        None if that does not settle at once. A path of 200 points under a constant normal load
+        takes 2 times as long without it for a rounded flat, 1.25 times for 40 straight pieces.
         """
         z = self.touch()[1]
         reach = NEAR * ((contact.x2 - z) + contact.tail2) / contact.r
