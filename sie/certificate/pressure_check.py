@@ -33,7 +33,6 @@ from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import largest_misfit
 from sie.traction.of_slope import SlopeDensity
-from sie.traction.sliding_panels import sliding_moments
 
 from .quadrature import Rule, angles, composite_rule, inner_breaks, position
 
@@ -304,9 +303,7 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
 def _moments(density: SlopeDensity, slope: Slope, rule: Rule) -> Moments:
     if not density.resolves:
         return _by_rule(slope, density.contact, rule)
-    if density.epsilon:
-        return sliding_moments(slope, density.contact, density.epsilon)
-    return moments(slope, density.contact)
+    return moments(slope, density.contact, epsilon=density.epsilon)
 
 
 def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:

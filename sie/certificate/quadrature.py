@@ -19,7 +19,7 @@ from sie.numerics.interval import EPS, Interval
 from sie.profiles.power_law import PowerSlope
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.sliding_panels import edge_rule
+from sie.traction.piece_quadrature import edge_rule
 
 Array = NDArray[np.float64]
 

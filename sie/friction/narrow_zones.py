@@ -18,8 +18,9 @@ from collections.abc import Callable
 import numpy as np
 
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
+from sie.numerics.root_finding import false_position, increasing_root
 
-from .slip_zones import Drive, Rim, Zone, Zones, root, zone
+from .slip_zones import Drive, Rim, Zone, Zones, zone
 
 NARROW = 0.5  # of the distance of c from the nearer edge: beyond, the lengths of the slip zones are the better unknowns
 PINCHED = 8.0 * EPS  # of the distance of c from the nearer edge, which says where c is
@@ -73,7 +74,9 @@ def _balanced(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> tuple[i
 
 def _depth(rim: Rim, force: float) -> float:
     """How far from an edge the pressure has this resultant."""
-    return root(lambda d: float(zone(rim, d).force.sum()) - force, 0.5 * rim.width, rim.width)
+    return increasing_root(
+        lambda d: float(zone(rim, d).force.sum()) - force, 0.5 * rim.width, rim.width
+    )
 
 
 def _pull_and_turn(z: Zone, rho: float) -> tuple[float, float]:
@@ -91,19 +94,14 @@ def _about(contact: Interval, rho: float, depth: float, near: int) -> Interval:
 
 
 def _narrowed(excess: Callable[[float], float], low: float, high: float) -> float:
-    """ρ to a few digits, where a function that falls like -ln ρ vanishes: by regula falsi in ln ρ (Illinois)."""
-    a, b = math.log(low), math.log(high)
-    at_a, at_b = excess(low), excess(high)
-    for _ in range(MAX_STEPS):
-        u = (a * at_b - b * at_a) / (at_b - at_a)
-        value = excess(math.exp(u))
-        if abs(b - a) < ROUGHLY or abs(value) <= ROUGHLY * abs(at_a - at_b) / (b - a):
-            break
-        if value > 0.0:
-            a, at_a, at_b = u, value, 0.5 * at_b
-        else:
-            b, at_b, at_a = u, value, 0.5 * at_a
-    return math.exp(u)
+    """ρ to a few digits, where a function that falls like -ln ρ vanishes."""
+    a, b, ends = math.log(low), math.log(high), (excess(low), excess(high))
+    steep = abs(ends[0] - ends[1]) / (b - a)
+
+    def settled(a: float, b: float, value: float) -> bool:
+        return b - a < ROUGHLY or abs(value) <= ROUGHLY * steep
+
+    return math.exp(false_position(lambda u: excess(math.exp(u)), a, b, ends, settled))
 
 
 def _settled(

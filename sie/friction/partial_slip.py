@@ -34,7 +34,7 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, two_product
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
-from sie.traction.of_slope import PanelDensity
+from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 

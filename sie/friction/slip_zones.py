@@ -23,7 +23,6 @@ slip grow at both ends as long as s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ d�
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -34,8 +33,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import increasing_root
 from sie.profiles.slope import Slope
-from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity
+from sie.traction.of_slope import SlopeDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
@@ -46,10 +47,7 @@ GRADING = 0.25
 LEVELS = 26  # GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
 ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
-MAX_STEPS = 200
 MAX_SWEEPS = 60
-FIRST_STEP = 16.0
-SHORTEST = 1e-120  # of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
 SETTLED = 8.0 * EPS
 
 
@@ -268,36 +266,4 @@ def _length(rims: tuple[Rim, Rim], r: float, drive: Drive, lengths: list[float],
             others * other.weak(rho) - drive.load - outward * rho * drive.strain
         )
 
-    return root(excess, lengths[k], 2.0 * r - other.length)
-
-
-def root(function: Callable[[float], float], guess: float, limit: float) -> float:
-    """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
-    low, high = 0.0, limit
-    u, step = min(guess, 0.5 * limit), np.inf
-    before: tuple[float, float] | None = None
-    for _ in range(MAX_STEPS):
-        f = function(u)
-        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
-            return u
-        low, high = (u, high) if f < 0.0 else (low, u)
-        new = (
-            u - f * (u - before[0]) / (f - before[1])
-            if before is not None and f != before[1]
-            else -1.0
-        )
-        if not low < new < high:
-            new = 0.5 * (low + high)
-            if f < 0.0 and high == limit:
-                new = min(u * FIRST_STEP, 0.5 * (u + limit))
-            elif low == 0.0:
-                new = u / FIRST_STEP
-        before = (u, f)
-        if (
-            abs(new - u) <= EPS * u
-            or high - low <= 2.0 * EPS * high
-            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
-        ):
-            return new
-        step, u = new - u, new
-    return u
+    return increasing_root(excess, lengths[k], 2.0 * r - other.length)

@@ -1,9 +1,10 @@
 """A contact [x1, x2] whose edges are known beyond double precision.
 
-Each edge is an unevaluated sum `x + tail` of two doubles, because the numerics need *distances* from an edge to relative accuracy: the
-rounded rim of a nearly flat punch, b - a = 1e-12 a, has only four digits left in the double nearest to b.
+Each edge is an unevaluated sum `x + tail` of two doubles, because the numerics need *distances*
+from an edge to relative accuracy: the rounded rim of a nearly flat punch, b - a = 1e-12 a, has only
+four digits left in the double nearest to b.
 
-    t = m + r sin φ,        -π/2 <= φ <= π/2,        dt / w(t) = dφ,        w(t) = sqrt((t - x1)(x2 - t))
+    t = m + r sin φ,     -π/2 <= φ <= π/2,     dt / w(t) = dφ,     w(t) = sqrt((t - x1)(x2 - t))
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-# A tail is kept where rounding the edge to a double would change its distance to the nearest break, or
-# to the other edge, by more than this.
+# A tail is kept where rounding the edge to a double would change its distance to the nearest break,
+# or to the other edge, by more than this.
 TAIL_MATTERS = 4.0 * EPS
 
 
@@ -82,7 +83,9 @@ class Interval(NamedTuple):
         return Interval(-self.x2, -self.x1, -self.tail2, -self.tail1)
 
     def rounded(self, breaks: tuple[float, ...]) -> Interval:
-        """The same with the tails dropped where no distance to a break notices: what is printed is then what is used."""
+        """The same with the tails dropped where no distance to a break notices: what is printed is
+        then what is used.
+        """
         tails = [0.0, 0.0]
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
             if tail:

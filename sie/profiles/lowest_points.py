@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from sie.errors import LoadError
 from sie.numerics import chebyshev
+from sie.numerics.root_finding import false_position
 
 from .slope import Slope
 
@@ -20,7 +21,6 @@ Array = NDArray[np.float64]
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
 MANY, FEWER = 100, 3  # of so many polynomials each is sampled less
 SHORTLIST = 16  # of the minima of a rough trace, those which the samples show as lowest
-MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
 HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
@@ -138,39 +138,20 @@ def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: 
 
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
-    """Where H of piece k changes sign in [lo, hi]; the end, if the sign changes by a jump there.
-
-    Regula falsi with halved weights (Illinois), and bisection whenever two steps have not halved
-    the bracket.
-    """
+    """Where H of piece k changes sign in [lo, hi]; the end, if the sign changes by a jump there."""
     index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
 
     def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly
         return float(slope.local(index, origin, zero, np.array([[y]]))[0, 0])
 
     a, b = lo - float(origin[0]), hi - float(origin[0])
-    at_a, at_b = H(a), H(b)
-    if at_a >= 0.0 or at_b <= 0.0:
-        return lo if at_a >= 0.0 else hi
+    ends = H(a), H(b)
+    if ends[0] >= 0.0 or ends[1] <= 0.0:
+        return lo if ends[0] >= 0.0 else hi
     # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
     if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return float(origin[0])
-    widths = [np.inf, np.inf]
-    for _ in range(MAX_STEPS):
-        widths.append(b - a)
-        if b - a <= 4.0 * float(np.spacing(max(abs(a), abs(b)))):
-            break
-        y = (a * at_b - b * at_a) / (at_b - at_a)
-        if not a < y < b or widths[-1] > 0.5 * widths[-3]:
-            y = 0.5 * (a + b)
-        value = H(y)
-        if value == 0.0:
-            return float(origin[0]) + y
-        if value < 0.0:
-            a, at_a, at_b = y, value, 0.5 * at_b
-        else:
-            b, at_b, at_a = y, value, 0.5 * at_a
-    return float(origin[0]) + 0.5 * (a + b)
+    return float(origin[0]) + false_position(H, a, b, ends, lambda *_: False)
 
 
 def _height(slope: Slope, ends: Array, z: float) -> float:

@@ -30,6 +30,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.root_finding import false_positions
+
 from .half_plane import Tractions, hilbert_of_shear, potentials
 
 Array = NDArray[np.float64]
@@ -75,10 +77,8 @@ SAME_VALUE, STUCK = (
 TOGETHER = 1e-3  # of the depth
 LEFT = 0.25  # of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the surface
 INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
-ROOT_STEPS, BISECT_AFTER = 80, 12
 AT_MARK = 1e-9  # of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
 BENEATH = 1e-100  # half-widths: so near to where p is infinite that nothing else is left
-ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
 # Maxima this close in value are tied, this close in place (of the half-width) the same.
 TIED, SAME_PLACE = 1e-10, 1e-7
 RISING = 1e-4  # half-widths: so near to a place on the surface one below that is tied with it is the same
@@ -445,7 +445,7 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
         lo + np.where(np.isin(lo, tractions.marks), inset, 0.0),
         hi - np.where(np.isin(hi, tractions.marks), inset, 0.0),
     )
-    roots = _roots(lambda t: _slope(tractions, measure, t), lo, hi)
+    roots = false_positions(lambda t: _slope(tractions, measure, t), lo, hi)
     at_root = measure.value(surface_values(tractions, roots))
     highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
     np.maximum.at(highest, np.searchsorted(x, roots), at_root)
@@ -517,35 +517,6 @@ def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = Fal
     ds, dD = (dPhi.real, 1j * dFq - dPhi) if inwards else (dPhi.imag, dFq)
     derivative = 0.5 * (x2 - x1) * np.stack((ds, dD.real, dD.imag))
     return (measure.gradient(value) * derivative).sum(axis=0)
-
-
-def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
-    """Where the slope falls through 0 between lo and hi, of those pairs where it does (Illinois' method with bisection)."""
-    a, b = lo, hi
-    fa, fb = slope(np.stack((a, b)).ravel()).reshape(2, -1)
-    falls = (fa > 0.0) & (fb < 0.0)
-    a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
-    x, enough, last = 0.5 * (a + b), ROOT_SETTLED * (b - a), np.zeros(a.shape)
-    for k in range(ROOT_STEPS if x.size else 0):
-        before = x
-        middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
-        x = np.where(
-            (secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle
-        )
-        f = slope(x)
-        up = f > 0.0
-        again = np.where(
-            last == np.where(up, 1.0, -1.0), 0.5, 1.0
-        )  # an end kept twice loses weight
-        fb, fa, last = (
-            np.where(up, again * fb, f),
-            np.where(up, f, again * fa),
-            np.where(up, 1.0, -1.0),
-        )
-        a, b = np.where(up, x, a), np.where(up, b, x)
-        if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
-            break
-    return x
 
 
 def _thinned(x: Array, spacing: float) -> Array:

@@ -14,7 +14,7 @@ from sie.certificate.pressure_check import PROMISE
 from sie.contact import gap, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
-from sie.traction import of_slope
+from sie.traction import on_panels
 from validation.wrong_programs.pressures import with_pressure
 
 SHARE = 3.0  # of the promise
@@ -356,7 +356,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
-    for module in (pressure_check, quadrature, gap, of_slope):
+    for module in (pressure_check, quadrature, gap, on_panels):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 

@@ -11,7 +11,7 @@ import pytest
 import sie
 from sie import solution
 from sie.certificate import quadrature
-from sie.contact import edges, normal, widest
+from sie.contact import edges, normal, widest_contact
 from sie.friction import dissipation
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
@@ -198,9 +198,9 @@ def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double(
 def test_the_widest_contact_of_a_long_trace_is_looked_for_on_fewer_pieces():
     x = np.linspace(-1.0, 1.0, 5001)
     slope = sie.Sampled(x, 0.5 * x * x + 1e-4 * np.sin(5000.0 * x)).pieces
-    assert len(slope.origins) > widest.MANY
+    assert len(slope.origins) > widest_contact.MANY
     search = edges.Search(slope, 0.5)
-    assert widest.widest_contact(search, 0.3) is not None
+    assert widest_contact.widest_contact(search, 0.3) is not None
     assert search.evaluations <= 60
 
 

@@ -13,7 +13,7 @@ import sie
 from analytic import power
 from sie.contact import normal
 from sie.contact.normal import ECONOMY
-from sie.traction import of_slope
+from sie.traction import on_panels
 
 EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
 EXPONENTS += (31.0, 33.0, 59.99, 60.0)
@@ -96,7 +96,7 @@ def test_the_explicit_form_and_the_panels_agree(m):
 @pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
 def test_an_upright_power_takes_no_search_and_no_panels(m, given):
     with ExitStack() as stack:
-        parts = (normal, "Search"), (normal, "refined"), (of_slope, "Panels")
+        parts = (normal, "Search"), (normal, "refined"), (on_panels, "Panels")
         calls = [stack.enter_context(counted(*part)) for part in parts]
         _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
     assert not any(calls)
@@ -146,7 +146,7 @@ def w(t, x1, x2):
 @pytest.mark.parametrize("given", [{"tilt": 0.1}, {"friction": 0.5, "sliding": -1, "dundurs": 0.3}])
 def test_the_pressure_next_to_the_axis_joins_that_of_the_panels(m, given):
     solution = sie.solve(scene(m, **given))
-    far = of_slope.BESIDE_CUSP * min(map(abs, solution.edges))
+    far = on_panels.BESIDE_CUSP * min(map(abs, solution.edges))
     x = far * np.array([-0.99, -0.5, 0.5, 0.99])
     panels = 1.0 * solution.pressure._by_pieces(x)  # E*/2 = 1
     assert np.abs(solution.pressure(x) / panels - 1.0).max() <= 1e-14

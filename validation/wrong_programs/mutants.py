@@ -20,7 +20,7 @@ import numpy as np
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
 from sie.contact import normal
-from sie.traction import panels, sliding_panels
+from sie.traction import potential
 from validation.harness.measures import largest
 from validation.rivals import solvers
 from validation.wrong_programs.parts import PARTS
@@ -208,11 +208,11 @@ REPLACED = (
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit",
              _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
     replaced("panels off by 1e-11", "V of the contact",
-             _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
+             _times(potential, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
              _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact",
-             _times(sliding_panels.SlidingPanels, "on_contact", _off_by(1e-11)), SLIDING_RIM),
+             _times(potential, "on_contact", _off_by(1e-11)), SLIDING_RIM),
 )  # fmt: skip
 
 

@@ -31,8 +31,7 @@ from sie.friction import memory, partial_slip
 from sie.numerics import cauchy_sums
 from sie.profiles import sampled
 from sie.stress import half_plane
-from sie.traction import sliding_panels
-from sie.traction.potential import Plane
+from sie.traction import piece_quadrature, potential
 
 Part = Callable[[], AbstractContextManager[Any]]
 
@@ -282,7 +281,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "Gauss-Chebyshev weights next to frictional edges",
         partial(
             number,
-            _instead(sliding_panels, "edge_rule", lambda right, n, power: right(n, -0.5)),
+            _instead(piece_quadrature, "edge_rule", lambda right, n, power: right(n, -0.5)),
             _sliding,
             _true_sliding,
         ),
@@ -332,7 +331,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "the outer series with the other sign",
         partial(
             number,
-            _instead(Plane, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))),
+            _instead(potential, "far", lambda right, *a, **g: tuple(-v for v in right(*a, **g))),
             _stress,
             _true_stress,
         ),
