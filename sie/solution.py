@@ -13,20 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .cauchy.density import JacobiDensity
-from .certificate.pressure_check import (
-    RETREAT,
-    Certificate,
-    certificate,
-    slope_rises,
-    verify_inequalities,
-)
+from .certificate.full_stick_check import full_stick_certificate
+from .certificate.pressure_check import certificate
+from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
+from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import ECONOMY, Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
-from .friction.full_stick import Component, bonded_certificate, bonded_contact
+from .friction.full_stick import Component, bonded_contact
 from .friction.partial_slip import refuse_sliding, sheared, slip
 from .friction.states import Slip, Step
 from .problem.material import Elastic
@@ -192,7 +189,7 @@ class Solution:
     @cached_property
     def certificate(self) -> Certificate:
         if self.scene.bonded:
-            return bonded_certificate(
+            return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         found = certificate(self.slope_density, self._slope, self.tol)

@@ -12,7 +12,7 @@ import pytest
 
 import sie
 from sie import __main__ as command
-from sie.certificate.pressure_check import Certificate
+from sie.certificate.result import Certificate
 from sie.cli import main
 from sie.io import files, report, sample_points, scene_file
 from sie.plan import WANTS
@@ -593,7 +593,7 @@ WITHOUT_MATPLOTLIB = """
 import sys
 sys.modules["matplotlib"] = None
 from sie.cli import main
-from sie.certificate.pressure_check import Certificate
+from sie.certificate.result import Certificate
 assert main(["solve", "scene.toml", "--csv", "out.csv"]) == 0
 assert not {"scipy", "mpmath"} & {name.split(".")[0] for name in sys.modules}
 sys.exit(main(["solve", "scene.toml", "--plot", "out.png"]))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.power_law import PowerSlope
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -68,17 +68,15 @@ def composite_rule(
     Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
     edges take the powers ψ^(±2ε) of sliding into their weights.
     """
-    many = not slope.functions and len(inner_breaks(contact, slope)) > FEW_BREAKS
+    many = not slope.functions and len(inner(contact, slope.breaks)) > FEW_BREAKS
     also = np.zeros(0) if also is None else also
     resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
     edges, large = (
         _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
     )
-    g, w = chebyshev.gauss_legendre(NODES)
-    length = np.diff(edges)
-    angle = edges[:-1, None] + length[:, None] * g
-    weight = length[:, None] * w
+    angle, weight = _on_panels(edges)
     if epsilon:
+        length = np.diff(edges)
         for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
             g, w = edge_rule(NODES, power)
             angle[k] = abs(start - length[k] * g)
@@ -100,15 +98,39 @@ def composite_rule(
     )
 
 
+def edge_graded_rule(contact: Interval) -> Rule:
+    """The composite rule for tractions that oscillate towards both edges, as those of full stick do."""
+    graded = 0.25 * GRADING ** np.arange(27.0, 0.0, -1.0)  # to rounding
+    middle = np.linspace(0.25, 0.75, 17)
+    cuts = np.pi * np.concatenate(([0.0], graded, middle, 1.0 - graded[::-1], [1.0]))
+    nodes, weight = _on_panels(cuts)
+    angle = nodes.ravel()
+    return Rule(
+        position(contact, angle),
+        angle,
+        weight.ravel() * contact.r * np.sin(angle),
+        position(contact, np.pi * middle),
+        slice(None),
+        contact,
+    )
+
+
+def _on_panels(cuts: Array) -> tuple[Array, Array]:
+    """Gauss nodes and weights on the panels between cuts, one panel a row."""
+    g, w = chebyshev.gauss_legendre(NODES)
+    length = np.diff(cuts)[:, None]
+    return cuts[:-1, None] + length * g, length * w
+
+
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
     """The ends of the panels, as angles from the right edge, and those of the largest."""
     levels = _levels_of_few(slope, also)
-    cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
+    cut = angles(contact, np.union1d(inner(contact, resolution.breaks), also))
     # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
     towards = (
         cut
         if len(cut) <= FEW_BREAKS
-        else angles(contact, np.union1d(inner_breaks(contact, slope), also))
+        else angles(contact, np.union1d(inner(contact, slope.breaks), also))
     )
     ends = np.concatenate(([0.0], towards, [np.pi]))
     cuts = [cut]
@@ -127,7 +149,7 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
 
 def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
     """The same where the slope has many breaks: one panel a piece, graded where a break asks for it; and middles of the largest pieces."""
-    cut = angles(contact, inner_breaks(contact, slope))
+    cut = angles(contact, inner(contact, slope.breaks))
     ends = np.concatenate(([0.0], cut, [np.pi]))
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
@@ -195,22 +217,3 @@ def _balanced(edges: Array) -> Array:
         if not long.any():
             return edges
         edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))
-
-
-def angles(contact: Interval, x: Array) -> Array:
-    """Angles from the right edge, ascending."""
-    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
-    return psi[::-1]
-
-
-def position(contact: Interval, angle: Array) -> Array:
-    """x at an angle from the right edge, counted from the nearer one."""
-    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
-    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
-    return np.where(angle < 0.5 * np.pi, right, left)
-
-
-def inner_breaks(contact: Interval, slope: Slope) -> Array:
-    b = slope.breaks
-    inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
-    return inner

@@ -16,8 +16,8 @@ from sie.numerics.interval import EPS, Interval
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
 
-from .pressure_check import ShearCertificate
 from .quadrature import Rule, composite_rule
+from .result import ShearCertificate
 
 Array = NDArray[np.float64]
 

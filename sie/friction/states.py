@@ -11,9 +11,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.certificate.pressure_check import verify_inequalities
 from sie.contact.edge_integrals import moments
 from sie.contact.gap import gap
+from sie.contact.inequalities import verify_inequalities
 from sie.contact.normal import Normal, pressure
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene

@@ -1,0 +1,184 @@
+"""What was measured on an answer: the certificates of a pressure and of a shear traction."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from dataclasses import dataclass, fields
+from typing import Any
+
+from sie.contact.inequalities import TOLERATED, Intervals, shown
+from sie.numerics.interval import EPS
+
+PROMISE = (
+    "At a distance d from the nearer edge the pressure is wrong by at most "
+    "3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors "
+    "below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less "
+    "than 5e-4 of the contact."
+)
+WIDE = 79  # columns of a terminal
+LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
+EXPLAINED = (
+    16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
+)
+MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
+RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
+
+    At a distance d from the nearer edge the pressure is wrong by at most
+    3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below
+    1e-15 of the peak, for what one ulp of x changes, and for what a function does on less than
+    5e-4 of the contact.
+
+    abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
+    implied         the error of the pressure that would leave this residual
+    resolution      how far a function is from its resolution at points of its own, as a pressure
+    edges           what the load and rounding leave unknown of the edges, as an error of the
+                    pressure at a distance r from them
+    error           the estimated relative error of the pressure: the largest of these
+    tension, overlap    the intervals of x where p < 0 in contact and gap < 0 outside, as closely as these were scanned
+    notes           sentences on what the equations leave out: strains that are not small; they do
+                    not count for `ok`
+
+    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is
+    (r/d)^(1/2 + |ε|).
+    """
+
+    residual: float
+    implied: float
+    force: float
+    moment: float
+    lowest_pressure: float
+    lowest_gap: float
+    abscissae: float
+    tol: float
+    tension: Intervals = ()
+    overlap: Intervals = ()
+    shear: ShearCertificate | None = None
+    resolution: float = 0.0
+    edges: float = 0.0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def error(self) -> float:
+        defects = (
+            self.residual,
+            self.implied,
+            self.force,
+            self.moment,
+            self.resolution,
+            self.edges,
+        )
+        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in defects))
+
+    @property
+    def ok(self) -> bool:
+        """Every defect within tol, but for what rounding of the abscissae explains."""
+        allowed = _allowed(self.tol, self.abscissae)
+        if self.shear is not None and not self.shear.ok:
+            return False
+        return (
+            self.error <= allowed
+            and self.lowest_pressure >= -max(allowed, TOLERATED)
+            and self.lowest_gap >= -max(allowed, TOLERATED)
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {
+            "notes": list(self.notes)
+        }
+        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
+
+    def __str__(self) -> str:
+        rows: tuple[tuple[str, str], ...] = (
+            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
+            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
+            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
+            ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("function against its resolution, as p / peak", f"{self.resolution:.1e}"),
+            ("edges, as p / peak at a distance r from them", f"{self.edges:.1e}"),
+            ("estimated relative error of the pressure", f"{self.error:.1e}"),
+        )
+        for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
+            rows += ((f"{name} for {shown(intervals)}", ""),) if intervals else ()
+        verdict = (
+            f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
+            if self.ok
+            else f"NOT certified to {self.tol:.0e}"
+        )
+        rows += self.shear.rows if self.shear is not None else ()
+        lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
+        remarks = self.shear.remarks if self.shear is not None else ()
+        return "\n".join([*lines, *remarks, verdict, *textwrap.wrap(PROMISE, WIDE), *self.notes])
+
+
+@dataclass(frozen=True)
+class ShearCertificate:
+    """What was measured on a shear traction (see `slipcheck`). Relative to the largest |q|, to ∫|q| dx, to f times the peak pressure.
+
+    condition     how much larger the relative error of the load on the stick zone is than that of P or Q
+    advancing     whether the zones of slip only grow on the way to this state
+    """
+
+    residual: float
+    equilibrium: float
+    excess: float
+    opposing: float
+    abscissae: float
+    condition: float
+    advancing: bool
+    kind: str
+    tol: float
+
+    @property
+    def error(self) -> float:
+        return max(
+            LEAST,
+            *(
+                float("inf") if math.isnan(d) else d
+                for d in (self.residual, self.equilibrium, self.excess)
+            ),
+        )
+
+    @property
+    def ok(self) -> bool:
+        allowed = _allowed(self.tol, self.abscissae)
+        return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
+
+    def as_dict(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
+
+    @property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        return (
+            ("shear equation (12) in stick, residual / peak", f"{self.residual:.1e}"),
+            ("equilibrium, |∫q - Q| / ∫|q|", f"{self.equilibrium:.1e}"),
+            ("friction, largest |q| - f p / peak of f p", f"{self.excess:+.1e}"),
+            ("lowest slip along q / largest slip", f"{self.opposing:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("error of the stick zone's load per error of Q", f"{self.condition:.1e}"),
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        if self.advancing:
+            return (f"slip: {self.kind}",)
+        return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
+
+
+def _allowed(tol: float, abscissae: float) -> float:
+    return tol + min(EXPLAINED * abscissae, MOST_EXPLAINED)
