@@ -29,11 +29,11 @@ from numpy.typing import NDArray
 from .contact.normal import ECONOMY, Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Growth
-from .friction.memory import Overwritten
+from .friction.memory import Overwritten, direction, states
 from .friction.partial_slip import slip
 from .friction.states import OneWay, Slip, Step
 from .numerics.interval import EPS, Interval
-from .problem.load_path import Path, direction, states
+from .problem.load_path import Path
 from .problem.scene import Scene
 from .solution import Solution, solve
 from .traction.base import ZERO, Density

@@ -24,7 +24,8 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import ECONOMY, Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
 from .friction.full_stick import Component, bonded_contact
-from .friction.partial_slip import refuse_sliding, sheared, slip
+from .friction.load_limit import refuse_sliding
+from .friction.partial_slip import sheared, slip
 from .friction.states import Slip, Step
 from .problem.material import Elastic
 from .problem.scene import Scene

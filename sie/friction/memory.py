@@ -20,13 +20,122 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
+from sie.errors import ContactError
 from sie.numerics.interval import EPS
+from sie.problem.load_path import Path
+from sie.problem.scene import Scene
+
+from .load_limit import refuse_sliding
 
 # A layer below this fraction of the whole ladder is what rounding left of one that was wiped out.
 NOTHING = 8.0 * EPS
 BALANCED = (
     1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
 )
+PROPORTIONAL = (
+    1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+)
+
+
+# -- the steps of a path ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class State:
+    """A turning point: its loads, the ladder there, and what slipped since the last one, in the order of time."""
+
+    loads: tuple[float, float, float]
+    ladder: Ladder
+    slips: tuple[Slipped, ...] = ()
+
+    @property
+    def last(self) -> Slipped | None:
+        """What slips at the end of the step; None if nothing does, or what slipped has left the contact."""
+        return self.slips[-1] if self.slips and self.slips[-1].layers[-1].lower > 0.0 else None
+
+
+def direction(path: Path) -> tuple[float, float]:
+    """(Q, σ) of one unit of amplitude: (1, 0) without bulk stress."""
+    _, Q, sigma = max(path.points, key=lambda point: abs(point[2]))
+    return (Q, sigma) if sigma else (1.0, 0.0)
+
+
+def states(scene: Scene, path: Path) -> tuple[State, ...]:
+    unit, f = direction(path), scene.friction
+    state = State((0.0, 0.0, 0.0), Ladder(0.0))
+    found = []
+    for k, loads in enumerate(path.points):
+        P, Q, _ = loads
+        if f == 0.0 and Q != 0.0:
+            raise ValueError(
+                f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; give friction > 0"
+            )
+        try:
+            refuse_sliding(f, P, Q)
+            before = State((P, 0.0, 0.0), Ladder(_size(f, P, unit))) if k == 0 else state
+            state = _stepped(scene, before, loads, unit)
+        except ContactError as problem:
+            raise type(problem)(
+                f"step {k} of the path, to (P, Q, σ) = {_shown(loads)}: {problem}", step=k
+            ) from None
+        found.append(state)
+    return tuple(found)
+
+
+def _shown(loads: tuple[float, float, float]) -> str:
+    return f"({', '.join(f'{v:.6g}' for v in loads)})"
+
+
+def _size(f: float, P: float, unit: tuple[float, float]) -> float:
+    return f * P / abs(unit[0]) if unit[0] else math.inf
+
+
+def _stepped(
+    scene: Scene, before: State, loads: tuple[float, float, float], unit: tuple[float, float]
+) -> State:
+    (P0, Q0, sigma0), (P, Q, sigma), f = before.loads, loads, scene.friction
+    if f == 0.0:
+        return State(loads, Ladder(0.0))
+    amplitude = sigma / unit[1] if unit[1] else Q
+    if abs(amplitude * unit[0] - Q) > PROPORTIONAL * max(abs(unit[0]), f * P * EPS):
+        raise ContactError(
+            f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest bulk stress: the zones of slip of one "
+            "direction do not contain those of the other; keep Q and σ in proportion, or leave σ out"
+        )
+    if P == P0:
+        return _pulled(loads, before.ladder, amplitude)
+    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and before.ladder.top is None:
+        return State(loads, Ladder(_size(f, P, unit)))  # nothing was ever sheared
+    if unit[1]:
+        raise ContactError(
+            "P changes on a path with a bulk stress, after it or together with it: no superposition is exact then; "
+            "reach P before Q and σ and keep it constant, or leave σ out"
+        )
+    if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
+        raise ContactError(
+            "P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead"
+        )
+    if P > P0:
+        rise = f * (P - P0)
+        k = (Q - Q0) / rise
+        ladder = replace(before.ladder.thickened(rise, min(max(k, -1.0), 1.0)), size=f * P)
+        if abs(k) <= 1.0:
+            return State(loads, ladder)
+        pulled = _pulled(loads, ladder, Q)
+        return replace(pulled, slips=tuple(slip.while_raised(rise) for slip in pulled.slips))
+    ladder, slips = before.ladder.lowered(f * (P0 - P), (Q - Q0) / (f * (P0 - P)))
+    return State(loads, replace(ladder, size=f * P), slips)
+
+
+def _pulled(loads: tuple[float, float, float], ladder: Ladder, amplitude: float) -> State:
+    step = amplitude - ladder.total
+    if abs(step) <= 4.0 * EPS * max(abs(amplitude), abs(ladder.total)):
+        return State(loads, ladder)
+    new, done = ladder.pulled(step)
+    return State(loads, new, (Slipped(math.copysign(1.0, step), done),) if done else ())
+
+
+# -- the layers -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

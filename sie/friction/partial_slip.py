@@ -24,20 +24,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import numpy as np
 
 from sie.contact.edge_integrals import moments
 from sie.contact.normal import contact_under
 from sie.errors import ContactError, LoadError
-from sie.numerics.interval import EPS, two_product
+from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.traction.of_slope import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
+from .load_limit import refuse_sliding, remaining
 from .narrow_zones import narrow_zones
 from .slip_zones import Drive, zones
 from .states import OneWay, Sliding, Slip, Step, Stuck, TwoWays, rims
@@ -51,35 +51,6 @@ BESIDE = 16.0 * EPS
 SMALLEST = 1e-60
 # Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
 HARDLY = 1e-40
-
-
-def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
-    """Raises LoadError if friction cannot carry Q."""
-    limit = friction * normal_load
-    if abs(Q) > limit:
-        digits = next(
-            n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1)
-        )
-        raise LoadError(
-            f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies slide; "
-            f"lower tangential_load to at most that, or raise normal_load to {_within(abs(Q) / friction, digits, 1)} or friction",
-            limit=limit,
-        )
-
-
-def _within(value: float, digits: int, side: int) -> str:
-    """A positive value to so many digits, not above it (side -1) or not below it (1), so that who follows an advice stays within it."""
-    shown = f"{value:.{digits}g}"
-    if side * float(shown) < side * value:
-        rounding = ROUND_CEILING if side > 0 else ROUND_FLOOR
-        shown = f"{float(Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):.{digits}g}"
-    return shown
-
-
-def remaining(friction: float, normal_load: float, Q: float) -> float:
-    """P - |Q|/f, from (f P - |Q|)/f without cancellation."""
-    product, rest = two_product(friction, normal_load)
-    return ((product - abs(Q)) + rest) / friction
 
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:
