@@ -38,8 +38,9 @@ from .io.sample_points import POINTS
 from .io.scene_file import SceneFile
 from .io.stress_grid import SIZE, SUFFIXES, Grid, file_bytes
 from .io.toml_values import nearest, told
-from .plan import UNASKED, WANTS, plan
+from .plan import plan
 from .problem.load_path import Path
+from .problem.request import UNASKED, WANTS
 from .solution import Solution, solve
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141

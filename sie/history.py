@@ -26,7 +26,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact.normal import ECONOMY, Normal
+from .contact.normal import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Growth
 from .friction.memory import Overwritten, direction, states
@@ -34,6 +34,7 @@ from .friction.partial_slip import slip
 from .friction.states import OneWay, Slip, Step
 from .numerics.interval import EPS, Interval
 from .problem.load_path import Path
+from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .solution import Solution, solve
 from .traction.base import ZERO, Density

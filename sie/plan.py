@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from .contact.normal import ECONOMY, upright_law
-from .friction.partial_slip import sheared
+from .contact.normal import upright_law
+from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene
 
-# What can be asked for, and the stages of `Solution` that answer it.
-WANTS: dict[str, tuple[str, ...]] = {
+# The stages of `Solution` that answer what is asked for.
+STAGES: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
@@ -21,8 +21,8 @@ WANTS: dict[str, tuple[str, ...]] = {
     "tension": ("normal", "pressure", "tangential", "tractions"),
 }
 
-# The same for a bonded punch, whose one equation answers pressure and shear alike.
-BONDED: dict[str, tuple[str, ...]] = {
+# The same for full stick, whose one equation answers pressure and shear alike.
+FULL_STICK: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal",),
@@ -32,16 +32,6 @@ BONDED: dict[str, tuple[str, ...]] = {
     "yield": ("normal", "pressure", "tractions"),
     "tension": ("normal", "pressure", "tractions"),
 }
-# What a solution is asked for by other names.
-ALSO = {
-    "half_width": "edges",
-    "centre": "edges",
-    "elastic_limit": "yield",
-    "peak_tension": "tension",
-}
-ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
-# What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
-UNASKED = ("edges", "pressure", "gap", "shear", "check")
 
 
 @dataclass(frozen=True)
@@ -73,12 +63,37 @@ class Plan:
 def plan(
     scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY
 ) -> Plan:
-    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ..., or the solution's own, "stick", "slip" ...).
+    """What will be computed for a scene, what is skipped, and why. Nothing is computed here.
 
-    A printable Plan. Computes nothing.
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    want : str or iterable of str, optional
+        What is asked for: "edges", "pressure", "gap", "shear", "check", "stress", "yield",
+        "tension", or attributes of the solution such as "stick", "slip" and "half_width".
+    economy : collection of str, optional
+        The savings that are allowed, as in `solve`.
+
+    Returns
+    -------
+    Plan
+        The steps in the order of the work.
+
+    Raises
+    ------
+    ValueError
+        If a name in `want` is not known.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0)
+    >>> sorted(sie.plan(scene, want="pressure").stages)
+    ['normal', 'pressure']
     """
     names = wanted(want)
-    needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
+    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
     stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
         return _of_bonded(scene, names)
@@ -126,7 +141,7 @@ def plan(
 
 
 def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
-    stages = {stage for name in names for stage in BONDED[name]}
+    stages = {stage for name in names for stage in FULL_STICK[name]}
     how = (
         "-1/2: β = 0 leaves p and q uncoupled"
         if scene.beta == 0.0
@@ -160,19 +175,6 @@ def _certificate(stages: set[str]) -> Step:
         "residual, equilibrium and inequalities on other points" if asked else "not asked for",
         "certificate",
     )
-
-
-def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
-    if not isinstance(want, Iterable):
-        raise ValueError(f"want = {want!r} is not a name: ask for {', '.join(WANTS)}")
-    asked = (want,) if isinstance(want, str) else tuple(want)
-    names = tuple(ALSO.get(name, name) for name in asked)
-    for name, own in zip(asked, names, strict=True):
-        if own not in WANTS:
-            raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
-    if not names:
-        raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
-    return names
 
 
 def _resolution(scene: Scene, economy: Collection[str]) -> Step:

@@ -21,13 +21,14 @@ from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
-from .contact.normal import ECONOMY, Normal, normal_contact, pressure
+from .contact.normal import Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
 from .friction.full_stick import Component, bonded_contact
 from .friction.load_limit import refuse_sliding
-from .friction.partial_slip import sheared, slip
+from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .problem.material import Elastic
+from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .profiles.sampled import explained, traces_in
 from .profiles.slope import Slope

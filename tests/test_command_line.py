@@ -15,7 +15,7 @@ from sie import __main__ as command
 from sie.certificate.result import Certificate
 from sie.cli import main
 from sie.io import files, report, sample_points, scene_file
-from sie.plan import WANTS
+from sie.problem.request import WANTS
 from sie.profiles.shapes import profile_kinds
 
 KINDS = list(profile_kinds())

@@ -12,7 +12,7 @@ from test_cost import counted
 import sie
 from analytic import power
 from sie.contact import normal
-from sie.contact.normal import ECONOMY
+from sie.problem.request import ECONOMY
 from sie.traction import of_slope
 
 EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 import sie
-from sie.contact.normal import ECONOMY
+from sie.problem.request import ECONOMY
 
 from .figures import Figure, axes, labelled, legend_above
 from .measures import largest, smallest

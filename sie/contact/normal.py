@@ -18,6 +18,7 @@ from sie import arguments
 from sie.errors import ContactError, LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, interval_about
+from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
@@ -35,8 +36,6 @@ from .widest import widest_contact
 
 Array = NDArray[np.float64]
 
-# What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
-ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
 # A window of a function's slope is refitted while it is longer than the contact by more than this factor ...
 WINDOW = 1.6

@@ -23,7 +23,6 @@ is that of the friction law in total displacements, as in Nowell & Hills (1987),
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
 
 import numpy as np
 
@@ -31,7 +30,6 @@ from sie.contact.edge_integrals import moments
 from sie.contact.normal import contact_under
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
-from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.traction.of_slope import PanelDensity
 from sie.traction.panels import Panels
@@ -51,16 +49,6 @@ BESIDE = 16.0 * EPS
 SMALLEST = 1e-60
 # Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
 HARDLY = 1e-40
-
-
-def sheared(scene: Scene, economy: Collection[str]) -> bool:
-    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is switched off) without Q and σ."""
-    return scene.friction != 0.0 and (
-        scene.tangential_load != 0.0
-        or scene.sliding != 0
-        or scene.tau != 0.0
-        or "shear" not in economy
-    )
 
 
 def slip(step: Step) -> Slip:

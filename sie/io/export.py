@@ -36,15 +36,13 @@ from sie import __version__
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
 from sie.history import Followed
-from sie.plan import UNASKED
+from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
 from .sample_points import POINTS, abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
-
-NEED_SHEAR = {"shear", "stress", "yield", "tension", "check"}
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:

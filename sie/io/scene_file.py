@@ -36,9 +36,9 @@ from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
 
-from sie.plan import WANTS
 from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
+from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.sampled import Sampled
