@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from .contact.normal import Normal
 from .errors import ContactError, LoadError
-from .friction.dissipation import Growth
+from .friction.dissipation import Growth, dissipated
 from .friction.memory import Overwritten, direction, states
 from .friction.partial_slip import slip
 from .friction.states import OneWay, Slip, Step
@@ -174,7 +174,7 @@ class History(Sequence[Solution]):
         return self.growth.heat(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
-        return self.virgin(P, depth).energy if depth else 0.0
+        return dissipated(self.virgin(P, depth)) if depth else 0.0
 
     @cached_property
     def growth(self) -> Growth:
@@ -421,10 +421,6 @@ class Track(Slip):
 
     def slip_now(self, x: Array) -> Array:
         return _step_slip(self.history, self.index, x)
-
-    @property
-    def energy(self) -> float:
-        return self.history.energy(self.index)
 
     @cached_property
     def shift(self) -> float:

@@ -23,6 +23,7 @@ from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import Normal, normal_contact, pressure
 from .errors import ContactError, LoadError
+from .friction.dissipation import dissipated
 from .friction.full_stick import Component, bonded_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
@@ -68,7 +69,7 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
 NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
 _STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
-_STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
+_STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS)
 
 
 class Solution:
@@ -189,6 +190,11 @@ class Solution:
         )
 
     @cached_property
+    def dissipated(self) -> float:
+        """The energy that slip turned into heat."""
+        return dissipated(self.tangential)
+
+    @cached_property
     def certificate(self) -> Certificate:
         if self.scene.bonded:
             return full_stick_certificate(
@@ -291,7 +297,7 @@ class Solution:
     def energy_lost(self) -> float:
         """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
         self._refuse_unknown_slip()
-        return self.tangential.energy if self.sheared else 0.0
+        return self.dissipated if self.sheared else 0.0
 
     @property
     def shift(self) -> float:

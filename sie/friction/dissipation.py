@@ -41,6 +41,7 @@ from sie.profiles.resolution import refined
 from sie.traction.piece_quadrature import Geometry
 
 from .memory import Overwritten
+from .states import Slip, Slipping
 
 Array = NDArray[np.float64]
 
@@ -70,6 +71,18 @@ SETTLED, ASTRAY = (
 )  # steps relative to the distance from where the profile touched first: rounding, and no solution
 FARTHEST = 2.0  # of the logarithms of distances from those of known contacts
 ROWS = 20_000  # parts of panels at a time
+
+
+def dissipated(state: Slip) -> float:
+    """∫|q| |slip| dx: the energy that a first loading turned into heat, per unit length."""
+    if not isinstance(state, Slipping):
+        return 0.0
+    step = state.step
+    if step.tau:
+        return state.work
+    growth = Growth(step.scene, step.normal, step.tol, step.economy)
+    fronts = [Overwritten(0.0, abs(step.Q), 1.0)]
+    return float(growth.heat([step.normal_load], fronts, state.friction)[0])
 
 
 class Contact(NamedTuple):

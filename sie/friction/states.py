@@ -24,8 +24,6 @@ from sie.traction.base import ZERO, Density
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
-from .dissipation import Growth
-from .memory import Overwritten
 from .shear_density import OneSign, TwoSigns
 from .slip_zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones
 
@@ -37,7 +35,7 @@ THIN = 1e-2
 
 @dataclass(frozen=True)
 class Step:
-    """What slips: a contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
+    """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
 
     `near` is a stick zone that the one asked for may be close to: it saves work, and changes nothing.
     """
@@ -82,11 +80,6 @@ class Slip(ABC):
     @abstractmethod
     def slip(self, x: Array) -> Array:
         """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the contact."""
-
-    @property
-    @abstractmethod
-    def energy(self) -> float:
-        """∫|q| |slip| dx over the slip zones: what the step turned into heat, per unit length and thickness."""
 
     @property
     @abstractmethod
@@ -136,16 +129,12 @@ class Stuck(Slip):
         return np.zeros(x.shape)
 
     @property
-    def energy(self) -> float:
-        return 0.0
-
-    @property
     def shift(self) -> float:
         return 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class _Slipping(Slip):
+class Slipping(Slip):
     """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from their rims."""
 
     pressure: SlopeDensity
@@ -210,15 +199,10 @@ class _Slipping(Slip):
                 )
         return energy, shift
 
-    @cached_property
-    def energy(self) -> float:
-        step = self.step
-        if step.tau:
-            return self._integrals[0]
-        growth = Growth(step.scene, step.normal, step.tol, step.economy)
-        return float(
-            growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0]
-        )
+    @property
+    def work(self) -> float:
+        """∫|q| |slip| dx over the slip zones."""
+        return self._integrals[0]
 
     @property
     def shift(self) -> float:
@@ -239,7 +223,7 @@ def rims(density: SlopeDensity, slope: Slope) -> tuple[Rim, Rim]:
 
 
 @dataclass(frozen=True, eq=False)
-class Sliding(_Slipping):
+class Sliding(Slipping):
     """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go. `unloaded` is the slope of that limit."""
 
     sign: float
@@ -284,7 +268,7 @@ class Sliding(_Slipping):
 
 
 @dataclass(frozen=True, eq=False)
-class OneWay(_Slipping):
+class OneWay(Slipping):
     """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
 
     sign: float
@@ -359,7 +343,7 @@ class OneWay(_Slipping):
 
 
 @dataclass(frozen=True, eq=False)
-class TwoWays(_Slipping):
+class TwoWays(Slipping):
     """Slip in opposite directions at the two edges: `sign` at the left one."""
 
     found: Zones
@@ -419,7 +403,7 @@ class TwoWays(_Slipping):
         return more
 
 
-def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
+def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
     """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ)."""
     Q, tau = step.Q, step.tau
     return all(
