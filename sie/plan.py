@@ -99,8 +99,6 @@ def plan(
         return _of_bonded(scene, names)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
-    if not convex:
-        stages |= {"pressure", "inequalities"}
     steps = [
         _resolution(scene, economy),
         Step("edges", True, _edges(scene, economy), "normal"),
@@ -109,8 +107,10 @@ def plan(
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in needed[w] for w in names) else "needed for the inequalities: "
-        steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
+        steps.append(Step("pressure", True, _pressure(scene, economy), "pressure"))
+    elif not convex:
+        why = f"needed for the inequalities: {_pressure(scene, economy)}"
+        steps.append(Step("pressure", True, why))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
     if convex:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from contextlib import suppress
 from dataclasses import fields, replace
 from functools import cached_property
 from typing import Any, cast
@@ -22,7 +21,7 @@ from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import Normal, normal_contact, pressure
-from .errors import ContactError, LoadError
+from .errors import ContactError
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, bonded_contact
 from .friction.load_limit import refuse_sliding
@@ -31,7 +30,7 @@ from .friction.states import Slip, Step
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
-from .profiles.sampled import explained, traces_in
+from .profiles.sampled import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
@@ -57,8 +56,6 @@ _NORMAL_FIELDS = frozenset(
         "bonded",
     }
 )
-# Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
-LIGHTER = (0.1, 1e-3)
 _SHEAR_FIELDS = _NORMAL_FIELDS | {
     "friction",
     "tangential_load",
@@ -68,7 +65,9 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
 }
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
 NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
-_STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
+_STAGES = dict.fromkeys(
+    ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
+)
 _STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS)
 
 
@@ -101,24 +100,35 @@ class Solution:
 
     @cached_property
     def normal(self) -> Normal:
-        """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
+        """Edges, load, moment and tilt; verified where the profile may not be convex."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         try:
-            return self._one_patch()
+            if not (self.scene.profile.convex and "convexity" in self.economy):
+                _ = self.inequalities
+            return self.unverified
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
 
-    def _one_patch(self) -> Normal:
-        try:
-            found = normal_contact(self.scene, self.tol, self.economy)
-        except LoadError:
-            self._look_for_a_second_patch()
-            raise
-        if self._may_not_be_convex:
-            self.__dict__["pressure"] = self._verified(self.scene, found)
-            self.__dict__["inequalities"] = True
-        return found
+    @cached_property
+    def unverified(self) -> Normal:
+        """The contact that carries the load and the moment; bodies may overlap there, or pull."""
+        return normal_contact(self.scene, self.tol, self.economy)
+
+    @cached_property
+    def density(self) -> SlopeDensity:
+        """The pressure of this contact."""
+        return pressure(self.unverified, self.scene, self.tol, self.economy)
+
+    @cached_property
+    def inequalities(self) -> bool:
+        """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
+        found, density = self.unverified, self.density
+        slope = found.slope(self.scene.profile)
+        rises = found.series is not None or slope_rises(density, slope)
+        if not ("convexity" in self.economy and rises):
+            verify_inequalities(density, slope)
+        return True
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
@@ -131,42 +141,13 @@ class Solution:
         _ = self.normal
         return self.bonded[1]
 
-    @property
-    def _may_not_be_convex(self) -> bool:
-        return not (self.scene.profile.convex and "convexity" in self.economy)
-
-    def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
-        density = pressure(found, scene, self.tol, self.economy)
-        slope = found.slope(scene.profile)
-        rises = found.series is not None or slope_rises(density, slope)
-        if not ("convexity" in self.economy and rises):
-            verify_inequalities(density, slope)
-        return density
-
-    def _look_for_a_second_patch(self) -> None:
-        """Where no patch carries the load, a lighter load may show why: InequalityError if it does.
-
-        Of a trace the reason is known, and a rough one is expensive to search.
-        """
-        if (
-            not self._may_not_be_convex
-            or self.scene.normal_load is None
-            or any(traces_in(self.scene.profile))
-        ):
-            return
-        for fraction in LIGHTER:
-            scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
-            with suppress(LoadError):
-                self._verified(scene, normal_contact(scene, self.tol, self.economy))
-
     @cached_property
     def pressure(self) -> SlopeDensity | Component:
         """The contact pressure p(x)."""
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
-        normal = self.normal
-        verified: SlopeDensity | None = self.__dict__.get("pressure")
-        return verified or pressure(normal, self.scene, self.tol, self.economy)
+        _ = self.normal
+        return self.density
 
     @property
     def _loads(self) -> tuple[float, float]:
