@@ -26,7 +26,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact.normal import Normal
+from .contact.pressure import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Growth, dissipated
 from .friction.memory import Overwritten, direction, states

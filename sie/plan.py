@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from .contact.normal import upright_law
+from .contact.pressure import upright_law
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene
 

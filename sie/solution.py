@@ -20,7 +20,8 @@ from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
-from .contact.normal import Normal, normal_contact, pressure
+from .contact.normal import normal_contact
+from .contact.pressure import Normal, pressure
 from .errors import ContactError
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, bonded_contact

@@ -17,7 +17,7 @@ import numpy as np
 
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
-from sie.contact import normal
+from sie.contact import pressure
 from sie.traction import panels, sliding_panels
 
 from . import peers
@@ -195,7 +195,7 @@ REPLACED = (
     replaced("E* off by 1e-11", "the modulus off in the eleventh digit", _property("Estar", _off_by(1e-11)), GIVEN_LOAD, _rounded),
     replaced("panels off by 1e-11", "V of the contact", _times(panels.Panels, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
-             _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
+             _times(pressure, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact",
              _times(sliding_panels.SlidingPanels, "on_contact", _off_by(1e-11)), SLIDING_RIM),
 )  # fmt: skip

@@ -36,7 +36,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.normal import Normal
+from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap

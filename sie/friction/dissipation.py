@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import Moments
 from sie.contact.edges import Found, Search
-from sie.contact.normal import Normal, pressure
+from sie.contact.pressure import Normal, pressure
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene

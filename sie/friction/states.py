@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sie.contact.edge_integrals import moments
 from sie.contact.gap import gap
 from sie.contact.inequalities import verify_inequalities
-from sie.contact.normal import Normal, pressure
+from sie.contact.pressure import Normal, pressure
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
 from sie.profiles.lowest_points import lowest_points, raised
