@@ -24,7 +24,7 @@ from .contact.normal import normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError
 from .friction.dissipation import dissipated
-from .friction.full_stick import Component, bonded_contact
+from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
@@ -134,7 +134,7 @@ class Solution:
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
         """Of a bonded punch: its edges, and p + i q."""
-        return bonded_contact(self.scene, self.tol)
+        return full_stick_contact(self.scene, self.tol)
 
     @property
     def normal_and_shear(self) -> JacobiDensity:

@@ -114,12 +114,12 @@ def _rounding(
     """
     ulp = float(np.spacing(contact.r + abs(contact.m)))
 
-    def inwards(x: Array) -> Array:
+    def moved_inwards(x: Array) -> Array:
         return x + np.where(x < contact.m, ulp, -ulp)
 
     at = _points(state, x)
-    moved = np.abs(_finite(state.shear(inwards(x))) - q)
-    here = np.abs(_finite(state.shear(inwards(at))) - state.shear(at))
+    moved = np.abs(_finite(state.shear(moved_inwards(x))) - q)
+    here = np.abs(_finite(state.shear(moved_inwards(at))) - state.shear(at))
     felt = (1.0 / np.abs(at[:, None] - x)) @ (weight * moved) / np.pi
     return float(weight @ moved), float((here + felt).max(initial=0.0))
 

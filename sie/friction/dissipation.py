@@ -1,7 +1,7 @@
 """How a contact grows under its load, and what slip in its layers turns into heat.
 
 Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is
-dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`ladder`) the slip beside the contact grows by
+dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`memory`) the slip beside the contact grows by
 2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what lies beside an interval:
 integrated over the layer of a larger contact of half-width R, in which the interval lies anywhere, it
 gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, § 5.1). Hence a front of slip that
@@ -40,7 +40,7 @@ from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.traction.piece_quadrature import Geometry
 
-from .memory import Overwritten
+from .memory import SlippedLayer
 from .states import Slip, Slipping
 
 Array = NDArray[np.float64]
@@ -81,7 +81,7 @@ def dissipated(state: Slip) -> float:
     if step.tau:
         return state.work
     growth = Growth(step.scene, step.normal, step.tol, step.economy)
-    fronts = [Overwritten(0.0, abs(step.Q), 1.0)]
+    fronts = [SlippedLayer(0.0, abs(step.Q), 1.0)]
     return float(growth.heat([step.normal_load], fronts, state.friction)[0])
 
 
@@ -139,7 +139,9 @@ class Growth:
 
     # -- energy -------------------------------------------------------------------------------------------------------
 
-    def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
+    def heat(
+        self, loads: Sequence[float], fronts: Sequence[SlippedLayer], friction: float
+    ) -> Array:
         """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
         rows = [
             (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))

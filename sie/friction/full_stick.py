@@ -107,7 +107,7 @@ class Component(Density):
         )[()]
 
 
-def bonded_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
+def full_stick_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
     """The edges (those of the punch), load, moment and tilt, and φ = p + i q."""
     ends, P = _flat(scene)
     Q, G = scene.tangential_load, 0.5 * scene.Estar

@@ -36,9 +36,9 @@ from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
 from .load_limit import refuse_sliding, remaining
-from .narrow_zones import narrow_zones
-from .slip_zones import Drive, zones
-from .states import OneWay, Sliding, Slip, Step, Stuck, TwoWays, rims
+from .narrow_stick_zone import narrow_stick_zone
+from .slip_zones import Drive, slip_zones
+from .states import NoSlip, OneSignedSlip, Sliding, Slip, Step, TwoSignedSlip, edge_frames
 
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
@@ -55,7 +55,7 @@ def slip(step: Step) -> Slip:
     """The state of a scene's contact after its Q and σ. Raises ContactError where no single stick zone answers."""
     P, f, Q, tau = step.normal_load, step.scene.friction, step.Q, step.tau
     if f == 0.0 or (Q == 0.0 == tau and "shear" in step.economy):
-        return Stuck(step.pressure.contact, f)
+        return NoSlip(step.pressure.contact, f)
     refuse_sliding(f, P, Q)
     if (
         max(abs(Q), math.pi * step.pressure.contact.r * abs(tau)) < SMALLEST * f * P
@@ -68,13 +68,13 @@ def slip(step: Step) -> Slip:
     if abs(Q) == f * P and "sliding" in step.economy:
         return sliding(step)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):
-        return _one_way(step, math.copysign(1.0, Q))
+        return _one_signed(step, math.copysign(1.0, Q))
     # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip is on the other side
     for sign in (math.copysign(1.0, Q), -math.copysign(1.0, Q)):
         tried = _fitting(step, sign)
         if tried is not None:
             return tried
-    return _two_ways(step)
+    return _two_signed(step)
 
 
 def sliding(step: Step) -> Sliding:
@@ -89,7 +89,7 @@ def _tilt_of_strain(step: Step, sign: float) -> float:
     return -2.0 * step.tau / (sign * step.scene.friction * step.scene.Estar)
 
 
-def _one_way(step: Step, sign: float) -> OneWay:
+def _one_signed(step: Step, sign: float) -> OneSignedSlip:
     """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced load."""
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
@@ -97,16 +97,16 @@ def _one_way(step: Step, sign: float) -> OneWay:
     found = contact_under(
         load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen
     )
-    state = OneWay(step.pressure, step.slope, f, step, sign, found)
+    state = OneSignedSlip(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once
     return state
 
 
-def _fitting(step: Step, sign: float) -> OneWay | None:
+def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
     """Slip in one direction although the strain is large, if it fits: the stick zone within the contact, |q| <= f p there."""
     try:
-        tried = _one_way(step, sign)
+        tried = _one_signed(step, sign)
         _ = tried.corrective
     except ContactError:
         return None
@@ -125,14 +125,14 @@ def _fitting(step: Step, sign: float) -> OneWay | None:
     )
 
 
-def _two_ways(step: Step) -> TwoWays:
+def _two_signed(step: Step) -> TwoSignedSlip:
     """Slip in both directions: to the left of the stick zone in that of τ, to the right of it against it."""
     contact, G = step.pressure.contact, step.pressure.half_modulus
     f, Q, tau = step.scene.friction, step.Q, step.tau
     sign = math.copysign(1.0, tau)
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
-    seen_from = rims(step.pressure, step.slope)
-    found = narrow_zones(seen_from, contact, drive) or zones(
+    seen_from = edge_frames(step.pressure, step.slope)
+    found = narrow_stick_zone(seen_from, contact, drive) or slip_zones(
         seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r)
     )
     lo, hi = step.slope.domain
@@ -144,4 +144,4 @@ def _two_ways(step: Step) -> TwoWays:
     formal = PanelDensity(
         found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0)
     )
-    return TwoWays(step.pressure, step.slope, f, step, found, formal)
+    return TwoSignedSlip(step.pressure, step.slope, f, step, found, formal)

@@ -24,13 +24,22 @@ from sie.traction.base import ZERO, Density
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
-from .shear_density import OneSign, TwoSigns
-from .slip_zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones
+from .shear_density import OneSignedShear, TwoSignedShear
+from .slip_zones import (
+    Drive,
+    EdgeFrame,
+    SlipZone,
+    SlipZones,
+    edge_frame,
+    moved,
+    slip_zone,
+    slip_zones,
+)
 
 Array = NDArray[np.float64]
 
 # Below this fraction of sliding the shear is not taken as a difference of two pressures, which are then nearly the same.
-THIN = 1e-2
+SHORT = 1e-2
 
 
 @dataclass(frozen=True)
@@ -110,7 +119,7 @@ class Slip(ABC):
 
 
 @dataclass(frozen=True, eq=False)
-class Stuck(Slip):
+class NoSlip(Slip):
     """Nothing slips and nothing is sheared."""
 
     contact: Interval
@@ -135,7 +144,7 @@ class Stuck(Slip):
 
 @dataclass(frozen=True, eq=False)
 class Slipping(Slip):
-    """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from their rims."""
+    """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from the edges."""
 
     pressure: SlopeDensity
     slope: Slope
@@ -156,12 +165,12 @@ class Slipping(Slip):
     def lengths(self) -> tuple[float, float]: ...
 
     @abstractmethod
-    def _opening(self, distance: Array, rim: Rim) -> Array:
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
         """|slip|/f at these distances from the edge."""
 
     @cached_property
-    def rims(self) -> tuple[Rim, Rim]:
-        return rims(self.pressure, self.slope)
+    def frames(self) -> tuple[EdgeFrame, EdgeFrame]:
+        return edge_frames(self.pressure, self.slope)
 
     def slip(self, x: Array) -> Array:
         out = np.zeros(x.shape)
@@ -170,7 +179,7 @@ class Slipping(Slip):
         from_edge = self.contact.from_left(x), self.contact.from_right(x)
         nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
         for r, distance, sign, side in zip(
-            self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
+            self.frames, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
         ):
             at = side & (distance >= 0.0)
             if at.any():
@@ -178,24 +187,26 @@ class Slipping(Slip):
         return out
 
     @property
-    def zones(self) -> tuple[Zone, Zone]:
-        left, right = (zone(r, length) for r, length in zip(self.rims, self.lengths, strict=True))
+    def zones(self) -> tuple[SlipZone, SlipZone]:
+        left, right = (
+            slip_zone(r, length) for r, length in zip(self.frames, self.lengths, strict=True)
+        )
         return left, right
 
     @cached_property
     def _integrals(self) -> tuple[float, float]:
         f, width = self.friction, 2.0 * self.contact.r
         energy = shift = 0.0
-        for r, z, sign in zip(self.rims, self.zones, self.signs, strict=True):
+        for r, z, sign in zip(self.frames, self.zones, self.signs, strict=True):
             if z.length > 0.0:
-                opening = self._opening(z.outwards, r)
+                opening = self._opening(z.from_edge, r)
                 energy += f * f * float(z.force @ opening)
-                from_other_edge = (width - z.length) + z.inwards
+                from_other_edge = (width - z.length) + z.from_stick
                 shift += (
                     sign
                     * f
                     / math.pi
-                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
+                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.from_edge * from_other_edge)))
                 )
         return energy, shift
 
@@ -218,8 +229,8 @@ class Slipping(Slip):
         return tuple(z for z, length in zip(both, lengths, strict=True) if length > 0.0)
 
 
-def rims(density: SlopeDensity, slope: Slope) -> tuple[Rim, Rim]:
-    return rim(density, slope, -1.0), rim(density, slope, 1.0)
+def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFrame]:
+    return edge_frame(density, slope, -1.0), edge_frame(density, slope, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,19 +267,19 @@ class Sliding(Slipping):
             max(self.contact.from_right(z2), 0.0), width
         )
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
         edge, tail = (
             (self.contact.x2, self.contact.tail2)
-            if rim.side > 0.0
+            if frame.side > 0.0
             else (self.contact.x1, self.contact.tail1)
         )
         slope = self._resolved.shifted(-edge).shifted(-tail)
         z1, z2 = ((z - edge) - tail for z in self._touch)
-        return raised(slope, (z1, z2), -rim.side * distance)
+        return raised(slope, (z1, z2), -frame.side * distance)
 
 
 @dataclass(frozen=True, eq=False)
-class OneWay(Slipping):
+class OneSignedSlip(Slipping):
     """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
 
     sign: float
@@ -281,24 +292,24 @@ class OneWay(Slipping):
         return ((max(inner.x1, outer.x1), min(inner.x2, outer.x2)),)
 
     @cached_property
-    def thin(self) -> Zones | None:
+    def short(self) -> SlipZones | None:
         """The zones from their own equations, where the difference of two pressures would lose digits."""
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
-        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(
+        small = 0.0 < abs(Q) < SHORT * f * step.normal_load and math.pi * contact.r * abs(
             tau
         ) <= abs(Q)
         if not small or any(step.normal.edges.sharp):
             return None
         drive = Drive(self.sign * Q / f, self.sign * math.pi * tau / f, 1.0, 1.0)
-        return zones(self.rims, contact, drive, _guess(step, self.sign))
+        return slip_zones(self.frames, contact, drive, _guess(step, self.sign))
 
     @cached_property
     def corrective(self) -> SlopeDensity:
         """p̂."""
         step, found = self.step, self.found
-        if self.thin is not None:
-            found = replace(found, edges=replace(found.edges, contact=self.thin.stick))
+        if self.short is not None:
+            found = replace(found, edges=replace(found.edges, contact=self.short.stick))
         density = pressure(found, step.scene, step.tol, step.economy)
         if not (step.scene.profile.convex and "convexity" in step.economy):
             verify_inequalities(density, self._tilted)
@@ -311,8 +322,8 @@ class OneWay(Slipping):
 
     @cached_property
     def shear(self) -> Density:
-        return OneSign(
-            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.thin
+        return OneSignedShear(
+            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.short
         )
 
     @property
@@ -330,23 +341,23 @@ class OneWay(Slipping):
 
     @cached_property
     def lengths(self) -> tuple[float, float]:
-        if self.thin is not None:
-            return self.thin.left.length, self.thin.right.length
+        if self.short is not None:
+            return self.short.left.length, self.short.right.length
         outer, inner = self.contact, self.corrective.contact
         left = (inner.x1 - outer.x1) + (inner.tail1 - outer.tail1)
         right = (outer.x2 - inner.x2) + (outer.tail2 - inner.tail2)
         return max(left, 0.0), max(right, 0.0)
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
-        corrective, slope = seen(self.corrective, self._tilted, self.lengths, rim)
-        return gap(-rim.side * distance, corrective, slope)
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
+        corrective, slope = in_frame(self.corrective, self._tilted, self.lengths, frame)
+        return gap(-frame.side * distance, corrective, slope)
 
 
 @dataclass(frozen=True, eq=False)
-class TwoWays(Slipping):
+class TwoSignedSlip(Slipping):
     """Slip in opposite directions at the two edges: `sign` at the left one."""
 
-    found: Zones
+    found: SlipZones
     formal: SlopeDensity  # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish at both ends
     kind = "two signs"
 
@@ -354,15 +365,17 @@ class TwoWays(Slipping):
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         found = self.found
         return (
-            (found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),
+            (found.stick.m, found.stick.m) if found.unheld else (found.stick.x1, found.stick.x2),
         )
 
     @cached_property
     def shear(self) -> Density:
         held = self.step.tau - math.copysign(
-            self.friction * self.found.spare / math.pi, self.step.tau
+            self.friction * self.found.unheld / math.pi, self.step.tau
         )
-        return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, held)
+        return TwoSignedShear(
+            self.pressure, self.formal, self.friction, self.found, self.step.Q, held
+        )
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
@@ -377,12 +390,12 @@ class TwoWays(Slipping):
         return self.found.left.length, self.found.right.length
 
     @property
-    def zones(self) -> tuple[Zone, Zone]:
+    def zones(self) -> tuple[SlipZone, SlipZone]:
         return self.found.left, self.found.right
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
-        formal, slope = seen(self.formal, self.slope, self.lengths, rim)
-        return gap(-rim.side * distance, formal, slope, self._more(formal.contact))
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
+        formal, slope = in_frame(self.formal, self.slope, self.lengths, frame)
+        return gap(-frame.side * distance, formal, slope, self._more(formal.contact))
 
     def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
         """What the other zone's shear, and strain that nothing holds back, add to the outward derivative of slip/f."""
@@ -397,7 +410,7 @@ class TwoWays(Slipping):
             other = self.found.left if side > 0.0 else self.found.right
             near = np.maximum(from_near, 0.0)
             pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
-            opening: Array = (pull + self.found.spare) / (math.pi * G)
+            opening: Array = (pull + self.found.unheld) / (math.pi * G)
             return opening
 
         return more
@@ -413,21 +426,21 @@ def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) ->
     )
 
 
-def seen(
-    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim
+def in_frame(
+    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], frame: EdgeFrame
 ) -> tuple[SlopeDensity, Slope]:
-    """A density on the stick zone and its slope in the coordinates of a rim."""
-    near = lengths[rim.side > 0.0]
+    """A density on the stick zone and its slope in the frame of an edge."""
+    near = lengths[frame.side > 0.0]
     far, rest = two_sum(
         -near, -2.0 * density.contact.r
     )  # from the width of the stick zone, which the other length may not tell
-    ends = Interval(far, -near, rest, 0.0) if rim.side > 0.0 else Interval(near, -far, 0.0, -rest)
-    dx, tail = rim.origin
+    ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
+    dx, tail = frame.origin
     return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
 
 
 def _guess(step: Step, sign: float) -> tuple[float, float]:
-    """Lengths of thin zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
+    """Lengths of short zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
     contact, G, f = step.pressure.contact, step.pressure.half_modulus, step.scene.friction
     slope = refined(step.slope, contact.x1, contact.x2, EPS)
     k = moments(slope, contact)

@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 from sie import __version__
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.history import Followed
+from sie.history import PathSolution
 from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
@@ -108,7 +108,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
-    if isinstance(solution, Followed):
+    if isinstance(solution, PathSolution):
         out["path"] = turning_points(solution)
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
@@ -191,7 +191,7 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
     )
 
 
-def turning_points(solution: Followed) -> list[dict[str, Any]]:
+def turning_points(solution: PathSolution) -> list[dict[str, Any]]:
     """The loads of each point of a path, where the bodies stick there, and the energy lost on the way to it."""
     names = ("normal_load", "tangential_load", "bulk_stress")
     points = zip(solution.history.path.points, solution.history, strict=True)
