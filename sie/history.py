@@ -9,8 +9,8 @@ the next all loads change in proportion to time. What is exact, and covered:
     P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
                                        |dQ/dP| on either side of f, or falls
 
-With σ = 0 the contacts of one profile at one tilt must be nested: a given moment would tilt it
-(but for moment = 0 of a symmetric profile). The layers that a step changes are in `friction.memory`,
+With σ = 0 the contacts of one profile at one tilt must be nested: a given moment would tilt it (but
+for moment = 0 of a symmetric profile). The layers that a step changes are in `friction.memory`,
 what a single step does to a contact is in `friction.partial_slip`.
 
 Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
@@ -53,8 +53,9 @@ def follow(
 ) -> History:
     """The solutions at the turning points of a path, as a lazy sequence: nothing is solved yet.
 
-    The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises ContactError where a step is not
-    covered, as soon as that shows: in the loads, or once the contact is known.
+    The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises
+    ContactError where a step is not covered, as soon as that shows: in the loads, or once the
+    contact is known.
 
     >>> import sie
     >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0, friction=0.5)
@@ -66,16 +67,19 @@ def follow(
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
         raise ValueError(
-            "a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene"
+            "a bonded contact never slips, and forgets its path: give a finite friction, or solve "
+            "the last point as a scene"
         )
     return History(scene, path, tol, economy)
 
 
-# -- the sequence -------------------------------------------------------------------------------------------------------
+# -- the sequence ----------------------------------------------------------------------------------
 
 
 class History(Sequence[Solution]):
-    """The solutions at the turning points, each made when it is asked for; what they share is solved once."""
+    """The solutions at the turning points, each made when it is asked for; what they share is
+    solved once.
+    """
 
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
         first = next(P for P, _, _ in path.points if P > 0.0)
@@ -194,7 +198,9 @@ class History(Sequence[Solution]):
 
 
 class KnownZones:
-    """Stick zones already found under one P, by depth: a cubic through the nearest four says where the next one is, about."""
+    """Stick zones already found under one P, by depth: a cubic through the nearest four says where
+    the next one is, about.
+    """
 
     def __init__(self) -> None:
         self._depths: list[float] = []
@@ -257,7 +263,9 @@ class PathSolution(Solution):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The zones that stick at this point; found without the scene, which a cycle of many steps would spend its time on."""
+        """The zones that stick at this point; found without the scene, which a cycle of many steps
+        would spend its time on.
+        """
         return self.tangential.stick if self.sheared else ()
 
     @property
@@ -274,11 +282,13 @@ class PathSolution(Solution):
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
 
 
-# -- one point ----------------------------------------------------------------------------------------------------------
+# -- one point -------------------------------------------------------------------------------------
 
 
 class PathSlip(Slip):
-    """Stick, slip and shear at a point of a path: Σ weight × first loading over the corners of the memory."""
+    """Stick, slip and shear at a point of a path: Σ weight × first loading over the corners of the
+    memory.
+    """
 
     kind = "after a path"
 
@@ -291,12 +301,15 @@ class PathSlip(Slip):
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
-        """One monotonic loading is what a scene asks, and is answered like one; a return from there depends on the way."""
+        """One monotonic loading is what a scene asks, and is answered like one; a return from there
+        depends on the way.
+        """
         depth, turned = self.state.memory.deepest
         if turned and not self.history.first_loading(self.P, depth).advancing:
             Q, sigma = (depth * unit for unit in self.history.unit)
             raise ContactError(
-                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = {sigma:.6g}, zones of slip have "
+                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
+                f"{sigma:.6g}, zones of slip have "
                 "retreated on the way, and what they left depends on that way; lower Q or σ",
                 step=self.index,
             )
@@ -420,7 +433,8 @@ class PathSlip(Slip):
         new = self._touches(x, P) & ~self._touches(x, P0)
         if new.any():
             raise ContactError(
-                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it slips: how far it slipped since is not "
+                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it "
+                "slips: how far it slipped since is not "
                 f"covered; ask for points within the contact under P = {P0:.6g}",
                 step=index,
             )
@@ -438,7 +452,8 @@ class PathSlip(Slip):
         ]
         if any(P != self.P for pair in loads for P in pair):
             raise ContactError(
-                "the rigid-body shift is counted against a contact of constant width: P changed while it was sheared"
+                "the rigid-body shift is counted against a contact of constant width: P changed "
+                "while it was sheared"
             )
         return sum(weight * loading.shift for weight, loading in self._terms)
 

@@ -36,7 +36,9 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `stage` names the cached property of `Solution` it fills, "" for a decision inside a stage."""
+    """One step: `stage` names the cached property of `Solution` it fills, "" for a decision inside
+    a stage.
+    """
 
     name: str
     run: bool
@@ -290,7 +292,8 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     return Step(
         "slip",
         True,
-        "zones of stick and slip for Q and σ in proportion: one direction or two, by the inequalities",
+        "zones of stick and slip for Q and σ in proportion: one direction or two, by the "
+        "inequalities",
         "tangential",
     )
 

@@ -1,4 +1,7 @@
-"""The answer: a lazy view over the stages. Nothing is computed until it is asked for, and `vars(solution)` shows what was."""
+"""The answer: a lazy view over the stages.
+
+Nothing is computed until it is asked for, and `vars(solution)` shows what was.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +67,8 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
     "bulk_stress",
     "dundurs",
 }
-# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
+# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
+# constants stay.
 NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
 _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
@@ -97,7 +101,7 @@ class Solution:
         self.tol = tol
         self.economy = frozenset(economy)
 
-    # -- stages -------------------------------------------------------------------------------------------------------
+    # -- stages ------------------------------------------------------------------------------------
 
     @cached_property
     def normal(self) -> Normal:
@@ -156,12 +160,16 @@ class Solution:
 
     @property
     def sheared(self) -> bool:
-        """Whether there is friction, and a load that shears, and not pressure and shear are one problem."""
+        """Whether there is friction, and a load that shears, and not pressure and shear are one
+        problem.
+        """
         return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
 
     @property
     def carries_shear(self) -> bool:
-        """Whether there is a shear traction: of partial slip, or of bodies that slide or are bonded with their pressure."""
+        """Whether there is a shear traction: of partial slip, or of bodies that slide or are bonded
+        with their pressure.
+        """
         return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
 
     @cached_property
@@ -201,7 +209,7 @@ class Solution:
     def _slope(self) -> Slope:
         return self.normal.slope(self.scene.profile)
 
-    # -- answers ------------------------------------------------------------------------------------------------------
+    # -- answers -----------------------------------------------------------------------------------
 
     @property
     def edges(self) -> tuple[float, float]:
@@ -239,7 +247,9 @@ class Solution:
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The stick zones as (lo, hi): the contact where no tangential load came, () in full sliding and without friction."""
+        """The stick zones as (lo, hi): the contact where no tangential load came, () in full
+        sliding and without friction.
+        """
         if self.scene.epsilon:
             return ()
         if self.sheared:
@@ -266,10 +276,11 @@ class Solution:
         )
 
     def slip(self, x: ArrayLike) -> Array:
-        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
+        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick
+        and outside the contact.
 
-        It has the sign of q. In full sliding: what it is when the last point lets go. ContactError for dissimilar bodies that slide:
-        that takes their partial slip before.
+        It has the sign of q. In full sliding: what it is when the last point lets go. ContactError
+        for dissimilar bodies that slide: that takes their partial slip before.
         """
         self._refuse_unknown_slip()
         slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
@@ -277,15 +288,19 @@ class Solution:
 
     @property
     def energy_lost(self) -> float:
-        """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
+        """What friction turned into heat since the normal load was applied: force (per length of
+        the line) times length.
+        """
         self._refuse_unknown_slip()
         return self.dissipated if self.sheared else 0.0
 
     @property
     def shift(self) -> float:
-        """How far slip lets the indenter move along x, beyond what the same loads would move it if nothing slipped.
+        """How far slip lets the indenter move along x, beyond what the same loads would move it if
+        nothing slipped.
 
-        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it undetermined (Johnson 1985, § 2.2).
+        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it
+        undetermined (Johnson 1985, § 2.2).
         """
         self._refuse_unknown_slip()
         return self.tangential.shift if self.sheared else 0.0
@@ -293,11 +308,12 @@ class Solution:
     def _refuse_unknown_slip(self) -> None:
         if self.scene.epsilon:
             raise ContactError(
-                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is a matter of partial slip, "
+                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
+                "a matter of partial slip, "
                 "which is not covered for them yet: pressure, shear and stresses are"
             )
 
-    # -- in the body --------------------------------------------------------------------------------------------------
+    # -- in the body -------------------------------------------------------------------------------
 
     @cached_property
     def tractions(self) -> Tractions:
@@ -305,7 +321,8 @@ class Solution:
         scene, body = self.scene, self.scene.body
         if body is not None and not isinstance(body, Elastic):
             raise ContactError(
-                "the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter"
+                "the body is rigid: its stress is not determined; give the elastic one as body and "
+                "the rigid as indenter"
             )
         if body is None:
             return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
@@ -314,7 +331,9 @@ class Solution:
         )
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are arrays of the broadcast shape."""
+        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are
+        arrays of the broadcast shape.
+        """
         return Stress(self.tractions, x, y)
 
     def surface_stress(self, x: ArrayLike) -> Stress:
@@ -322,7 +341,9 @@ class Solution:
         return self.stress(x, 0.0)
 
     def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """Where the body yields first, and at which load, by criterion "mises" or "tresca"; see `YieldPoint`."""
+        """Where the body yields first, and at which load, by criterion "mises" or "tresca"; see
+        `YieldPoint`.
+        """
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:
@@ -330,7 +351,9 @@ class Solution:
         return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
-        """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
+        """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends
+        of the indenter.
+        """
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
@@ -360,7 +383,8 @@ class Solution:
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
-        """The measured traces in the profile: what was done with them, and what their noise implies.
+        """The measured traces in the profile: what was done with them, and what their noise
+        implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate is another thing: it says how well the equations are solved for the spline
@@ -376,7 +400,9 @@ class Solution:
         )
 
     def with_(self, **changes: Any) -> Solution:
-        """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
+        """The solution of the scene with these fields changed. normal_load and half_width replace
+        each other, so do tilt and moment.
+        """
         for name in changes:
             if name not in _SCENE_FIELDS:
                 raise ValueError(
@@ -437,12 +463,16 @@ def _refuse_uncovered(scene: Scene) -> None:
         refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
     if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
-            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) with friction is not covered yet: "
+            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
+            "with friction is not covered yet: "
             f"{NEGLECTED}; or set friction = 0"
         )
     if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
         raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick and slip in part at "
-            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is not covered yet; "
-            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the frictionless contact"
+            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick "
+            "and slip in part at "
+            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is "
+            "not covered yet; "
+            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the "
+            "frictionless contact"
         )

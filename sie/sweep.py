@@ -1,11 +1,15 @@
-"""Many scenes at once: one question over a grid of parameters, on one core or as many as an executor has.
+"""Many scenes at once: one question over a grid of parameters, on one core or as many as an
+executor has.
 
-    sweep(scene, over={"friction": f, "tilt": t}, want=["half_width", "elastic_limit"], executor=ProcessPoolExecutor())
+    sweep(scene, over={"friction": f, "tilt": t}, want=["half_width", "elastic_limit"],
+    executor=ProcessPoolExecutor())
 
-`over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is a function of the named parameters that
-returns a Scene. Points are taken in chunks of neighbours, last name fastest, so that what does not change between two of them (a normal
-problem under many tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
-`client.get_executor()`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer leaves nan and the sentence that says why.
+`over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is
+a function of the named parameters that returns a Scene. Points are taken in chunks of neighbours,
+last name fastest, so that what does not change between two of them (a normal problem under many
+tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
+`client.get_executor()`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer leaves nan
+and the sentence that says why.
 """
 
 from __future__ import annotations
@@ -34,7 +38,8 @@ Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("
 Wanted = Callable[[Solution], Any]
 
 DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
-# A chunk is as long as this many would share the work evenly among themselves, in a pool whose size is not known.
+# A chunk is as long as this many would share the work evenly among themselves, in a pool whose size
+# is not known.
 CHUNKS, LONGEST_CHUNK = 64, 256
 PATIENCE = 1.0  # seconds of work before a progress bar appears
 REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in columns
@@ -95,15 +100,17 @@ def sweep(
     chunk: int | None = None,
     progress: bool = True,
 ) -> Any:
-    """What is wanted of every scene of the grid: an xarray.Dataset where xarray is installed, otherwise a dict of NumPy arrays.
+    """What is wanted of every scene of the grid: an xarray.Dataset where xarray is installed,
+    otherwise a dict of NumPy arrays.
 
     over       the values of each parameter, by name; the results have one dimension for each, in this order
     want       names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an array or a dict of them
     executor   where chunks run; None is here. For a process pool, functions must be importable (no lambdas)
     chunk      points in a chunk; progress: a bar on standard error, if it is a terminal and the work takes more than a second
 
-    Beside the values there is "reason", why a point has none. ValueError, before any work is done, for names that are not known.
-    `Interrupted`, with all that was found, in place of KeyboardInterrupt.
+    Beside the values there is "reason", why a point has none. ValueError, before any work is done,
+    for names that are not known. `Interrupted`, with all that was found, in place of
+    KeyboardInterrupt.
 
     >>> import sie
     >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
@@ -129,7 +136,7 @@ def sweep(
     return _labelled(axes, wanted, run.answers())
 
 
-# -- the grid ----------------------------------------------------------------------------------------------------------
+# -- the grid --------------------------------------------------------------------------------------
 
 
 def _axes(
@@ -197,7 +204,7 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
     return wanted
 
 
-# -- the work ----------------------------------------------------------------------------------------------------------
+# -- the work --------------------------------------------------------------------------------------
 
 
 class Work(NamedTuple):
@@ -270,7 +277,8 @@ def _answer_into(
         try:
             last = _solution(work.scene, point, work.tol, last)
             answers.append((_values(last, work.wanted), ""))
-        except Exception as problem:  # functions of a user raise what they like: one point must not cost the others
+        # functions of a user raise what they like: one point must not cost the others
+        except Exception as problem:
             answers.append(({}, _reason(problem)))
     return last
 
@@ -279,7 +287,8 @@ def _reason(problem: Exception) -> str:
     """The sentence that says why; of what is not ours, its kind too."""
     if isinstance(problem, BrokenExecutor):
         return (
-            "the process that computed this chunk died: its memory was exhausted, or a function that is "
+            "the process that computed this chunk died: its memory was exhausted, or a function "
+            "that is "
             "wanted crashed; ask for these points alone, or with a smaller chunk"
         )
     return (
@@ -323,7 +332,7 @@ def _floats(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")
 
 
-# -- the result --------------------------------------------------------------------------------------------------------
+# -- the result ------------------------------------------------------------------------------------
 
 
 def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:

@@ -1,4 +1,5 @@
-"""The certificate: does the answer satisfy the question? Measured on the pressure's values alone, at points that no solver used.
+"""The certificate: does the answer satisfy the question? Measured on the pressure's values alone,
+at points that no solver used.
 
     residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak       the integral equation (1)
     equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)              the equation is blind to C/w(x): these are not
@@ -6,12 +7,12 @@
     resolution    E*/2 |h' - its resolution| / peak                      of a function
     edges         ΔP/(π r peak), ΔP the load that wrong edges carry      by their conditions
 
-The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope: nothing of the closed forms is used.
-The resolution is compared at points of a low-discrepancy sequence (`unseen`). An edge x2 that is
-off by δ carries ΔP = G r JR δ too much (`edges`), and leaves ΔP/(π w(x)) in the pressure,
-w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next to the edge that is p(x) δ/(2 d), d
-the distance from it. δ is at least half an ulp of x2, if x2 is kept as a double; the rounding of
-∫H dφ is a part of ΔP.
+The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope:
+nothing of the closed forms is used. The resolution is compared at points of a low-discrepancy
+sequence (`unseen`). An edge x2 that is off by δ carries ΔP = G r JR δ too much (`edges`), and
+leaves ΔP/(π w(x)) in the pressure, w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next
+to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if x2 is
+kept as a double; the rounding of ∫H dφ is a part of ΔP.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ Array = NDArray[np.float64]
 LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
 SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
 WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
-MISPLACED = 4.0  # error of the pressure near a misplaced edge, over the constant that it leaves in the residual, about
+# error of the pressure near a misplaced edge, over the constant that it leaves in the residual,
+# about
+MISPLACED = 4.0
 TOGETHER = 2**17  # entries of a matrix that are computed at once
 
 
@@ -122,7 +125,8 @@ def _moments(density: SlopeDensity, slope: Slope, rule: Rule) -> Moments:
 def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
     """The moments of a slope that no polynomials resolve, without C2 and the sizes.
 
-    With ψ from the right edge 1 + sin φ = 2 cos²(ψ/2), and r JR = ∫cot(ψ/2) dH, r JL = ∫tan(ψ/2) dH.
+    With ψ from the right edge 1 + sin φ = 2 cos²(ψ/2), and r JR = ∫cot(ψ/2) dH, r JL = ∫tan(ψ/2)
+    dH.
     """
     H, psi = slope(rule.x), rule.angle
     HdF = H * rule.weight / (contact.r * np.sin(psi))
@@ -135,7 +139,9 @@ def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
 
 
 def _finite(p: Array) -> Array:
-    """p with its infinities dropped: a node that rounding put on a corner of the profile has the weight of rounding."""
+    """p with its infinities dropped: a node that rounding put on a corner of the profile has the
+    weight of rounding.
+    """
     return np.where(np.isfinite(p), p, 0.0)
 
 
@@ -146,7 +152,9 @@ def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, A
 
 
 def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
-    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the integrand is smooth."""
+    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the
+    integrand is smooth.
+    """
     at, x = rule.between, rule.x
     values = density(at)
     taken_out = np.ones(1) if rule.inner == slice(None) else np.zeros(len(x))
@@ -169,9 +177,11 @@ def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:
-    """The largest error of p that leaves this residual: r = Σ r_n T_n is what sqrt(1 - s²) Σ r_n U_{n-1} leaves, fitted to the points.
+    """The largest error of p that leaves this residual: r = Σ r_n T_n is what sqrt(1 - s²) Σ r_n
+    U_{n-1} leaves, fitted to the points.
 
-    A constant r_0 belongs to edges in the wrong place, where the pressure is wrong by more than r_0.
+    A constant r_0 belongs to edges in the wrong place, where the pressure is wrong by more than
+    r_0.
     """
     angle = 2.0 * np.arctan2(np.sqrt(contact.from_right(at)), np.sqrt(contact.from_left(at)))
     n = np.arange(max(len(at) // 3, 1))
@@ -181,7 +191,8 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
 
 
 def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
-    """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the nodes, as a stress.
+    """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the
+    nodes, as a stress.
 
     |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p
     itself must not excuse itself. `change` is that of H in one ulp between the nodes.

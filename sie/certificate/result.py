@@ -27,7 +27,8 @@ RETREAT = "with Q and σ in proportion the zones of slip would retreat on the wa
 
 @dataclass(frozen=True)
 class Certificate:
-    """What was measured on an answer. Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
+    """What was measured on an answer. Numbers are relative: to the peak pressure (residual,
+    inequalities), to P and P r (equilibrium).
 
     At a distance d from the nearer edge the pressure is wrong by at most
     3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below
@@ -125,7 +126,8 @@ class Certificate:
 
 @dataclass(frozen=True)
 class ShearCertificate:
-    """What was measured on a shear traction (see `slipcheck`). Relative to the largest |q|, to ∫|q| dx, to f times the peak pressure.
+    """What was measured on a shear traction (see `slipcheck`). Relative to the largest |q|, to ∫|q|
+    dx, to f times the peak pressure.
 
     condition     how much larger the relative error of the load on the stick zone is than that of P or Q
     advancing     whether the zones of slip only grow on the way to this state

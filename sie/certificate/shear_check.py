@@ -1,4 +1,5 @@
-"""The certificate of a shear traction: measured on its values and those of the pressure, at points that no solver used.
+"""The certificate of a shear traction: measured on its values and those of the pressure, at points
+that no solver used.
 
 residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
 equilibrium   |∫q dx - Q| / ∫|q| dx
@@ -108,9 +109,11 @@ def _opposing(state: Slip, x: Array) -> float:
 def _rounding(
     state: Slip, contact: Interval, x: Array, weight: Array, q: Array
 ) -> tuple[float, float]:
-    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx and to the equation where that is measured.
+    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx and to the
+    equation where that is measured.
 
-    In a narrow stick zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    In a narrow stick zone next to a sharp edge, where q is infinite, it is the nodes there that the
+    equation feels.
     """
     ulp = float(np.spacing(contact.r + abs(contact.m)))
 

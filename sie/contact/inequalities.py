@@ -1,7 +1,8 @@
 """The inequalities of contact: p >= 0 where the bodies touch, gap >= 0 beside.
 
-One patch of contact [x1, x2] is the answer only where both hold. They follow from h' that rises all over. For other profiles they are
-verified at many points inside the contact and out to `FAR` half-widths beside it, and a violation is an `InequalityError` that says where.
+One patch of contact [x1, x2] is the answer only where both hold. They follow from h' that rises all
+over. For other profiles they are verified at many points inside the contact and out to `FAR`
+half-widths beside it, and a violation is an `InequalityError` that says where.
 """
 
 from __future__ import annotations
@@ -37,7 +38,9 @@ SCANNED = (
 
 
 def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
-    """Whether h' rises wherever `verify_inequalities` would look, and no edge pulls: then p > 0 and gap > 0 follow."""
+    """Whether h' rises wherever `verify_inequalities` would look, and no edge pulls: then p > 0 and
+    gap > 0 follow.
+    """
     contact = density.contact
     even = np.pi * (np.arange(SCANNED) + 0.5) / SCANNED
     inside = position(contact, even) if slope.functions else _scan(contact, slope)
@@ -51,7 +54,9 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
 
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
-    """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap < 0 outside."""
+    """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap <
+    0 outside.
+    """
     x = np.concatenate((_scan(density.contact, slope), inner(density.contact, slope.breaks)))
     p = density(x)
     peak = float(p[np.isfinite(p)].max())
@@ -67,7 +72,8 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         )
         intervals = intervals_below(x, p / abs(peak))
         raise InequalityError(
-            f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak {peak:.3g}){_among(intervals)}: "
+            f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak "
+            f"{peak:.3g}){_among(intervals)}: "
             "the profile is not convex there and lifts off; "
             "several patches of contact are not covered yet, raise the load or smooth the profile",
             x=where,
@@ -88,12 +94,15 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
 
 
 def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
-    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest value within one half-width."""
+    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest
+    value within one half-width.
+    """
     contact, r = density.contact, density.contact.r
     x = _beside(contact, slope)
     if _opens_everywhere(x, density, slope):
         return x, np.zeros(len(x))
-    # A function may overflow out there; from where it opens that steeply on, the gap is not looked at
+    # A function may overflow out there; from where it opens that steeply on, the gap is not looked
+    # at
     outward = np.sign(x - contact.m)
     opens = ~(
         outward * slope(x)
@@ -118,7 +127,9 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
 
 
 def intervals_below(x: Array, values: Array) -> Intervals:
-    """The intervals where values are below -TOLERATED, from where they change sign between two of the points."""
+    """The intervals where values are below -TOLERATED, from where they change sign between two of
+    the points.
+    """
     order = np.argsort(x, kind="stable")
     x, values = x[order], values[order]
     low = np.concatenate(([False], values < -TOLERATED, [False]))
@@ -152,7 +163,9 @@ def _among(intervals: Intervals) -> str:
 
 
 def _scan(contact: Interval, slope: Slope) -> Array:
-    """Points inside every piece in the contact, evenly in the angle: many where there are few pieces."""
+    """Points inside every piece in the contact, evenly in the angle: many where there are few
+    pieces.
+    """
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     ends = np.concatenate(([0.0], angles(contact, inner(contact, resolution.breaks)), [np.pi]))
     n = max(SCANNED // (len(ends) - 1), 3)
@@ -161,7 +174,9 @@ def _scan(contact: Interval, slope: Slope) -> Array:
 
 
 def _beside(contact: Interval, slope: Slope) -> Array:
-    """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks among them."""
+    """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks
+    among them.
+    """
     lo, hi = slope.domain
     distance = contact.r * AHEAD
     outer = slope.breaks[np.isfinite(slope.breaks)]
@@ -170,7 +185,8 @@ def _beside(contact: Interval, slope: Slope) -> Array:
 
 
 def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
-    """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need not be integrated.
+    """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need
+    not be integrated.
 
     Between its breaks a polynomial slope or a power does nothing unseen there; a function might.
     """

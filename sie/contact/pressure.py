@@ -1,7 +1,7 @@
 """The pressure on a contact that is known, from the slope of the profile there.
 
-A slope that is smooth in the contact takes one Chebyshev series and its exact transform, a power law two series of its own, and any
-other slope exact integrals over its pieces.
+A slope that is smooth in the contact takes one Chebyshev series and its exact transform, a power
+law two series of its own, and any other slope exact integrals over its pieces.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ from .edges import Edges
 
 Array = NDArray[np.float64]
 
-# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut into pieces.
+# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut
+# into pieces.
 LARGEST_TRANSFORM = 257
 
 
@@ -54,7 +55,9 @@ class Normal:
 def pressure(
     normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
 ) -> SlopeDensity:
-    """The pressure that answers the slope on the contact: a transform where the slope is smooth there, exact panels where it is not."""
+    """The pressure that answers the slope on the contact: a transform where the slope is smooth
+    there, exact panels where it is not.
+    """
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar
     common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
@@ -90,7 +93,9 @@ def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> Po
 
 
 def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
-    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do not decay."""
+    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do
+    not decay.
+    """
     breaks = slope.break_points
     inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)
     if inner[0] < inner[1]:

@@ -1,22 +1,24 @@
 """How a contact grows under its load, and what slip in its layers turns into heat.
 
-Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is
-dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`memory`) the slip beside the contact grows by
-2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what lies beside an interval:
-integrated over the layer of a larger contact of half-width R, in which the interval lies anywhere, it
-gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, § 5.1). Hence a front of slip that
-runs down from the level Y to the level L, while the load is P(y) when it passes y, turns into heat
+Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the
+pressure is dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`memory`) the slip beside the
+contact grows by 2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what
+lies beside an interval: integrated over the layer of a larger contact of half-width R, in which the
+interval lies anywhere, it gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, §
+5.1). Hence a front of slip that runs down from the level Y to the level L, while the load is P(y)
+when it passes y, turns into heat
 
     W = 2 f² j/(π E*) ∫_L^Y dy ∫_y^P(y) (P(y) - η) d ln r(η)  =  2 f² j/(π E*) ∫ v(η) d ln r(η)
 
-for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a quadratic
-polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At constant P, from
-Y = P down, v = (P - η)(η - L).
+for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a
+quadratic polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At
+constant P, from Y = P down, v = (P - η)(η - L).
 
-d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of the
-profile: from there on it goes with the root of the distance. A wide front that crosses the many breaks of
-a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy and T = ∫S dy at
-the four levels, and these are known from the contact under one load (`Growth._potentials`).
+d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of
+the profile: from there on it goes with the root of the distance. A wide front that crosses the many
+breaks of a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy
+and T = ∫S dy at the four levels, and these are known from the contact under one load
+(`Growth._potentials`).
 """
 
 from __future__ import annotations
@@ -52,7 +54,9 @@ FINE, COARSE = (
     1e-11,
 )  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
 LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
-NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
+# ... or this, where twice as many points do not make them smaller: the slope of a function is known
+# by its series
+NOISE = 1e-10
 NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
 NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
@@ -107,7 +111,9 @@ class Panel:
 
 
 class Growth:
-    """The contacts of a scene's profile at the tilt of a normal contact, under every load up to its; solved where they are asked for."""
+    """The contacts of a scene's profile at the tilt of a normal contact, under every load up to
+    its; solved where they are asked for.
+    """
 
     def __init__(self, scene: Scene, normal: Normal, tol: float, economy: Collection[str]) -> None:
         tilt, widest, top = normal.edges.tilt, normal.edges.contact, normal.edges.normal_load
@@ -137,12 +143,15 @@ class Growth:
         """How often the moments of a contact were evaluated."""
         return self._search.evaluations
 
-    # -- energy -------------------------------------------------------------------------------------------------------
+    # -- energy ------------------------------------------------------------------------------------
 
     def heat(
         self, loads: Sequence[float], fronts: Sequence[SlippedLayer], friction: float
     ) -> Array:
-        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
+        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
+
+        Depths are counted in Q from each load down.
+        """
         rows = [
             (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
             for P, o in zip(loads, fronts, strict=True)
@@ -196,7 +205,8 @@ class Growth:
             0,
             len(panels) - 1,
         )
-        # In the root of the distance from a break's level, by ratios alone: a front may be thinner than y is known
+        # In the root of the distance from a break's level, by ratios alone: a front may be thinner
+        # than y is known
         base, kinked = (
             np.array([getattr(p, name) for p in panels])[k] for name in ("lo", "kinked")
         )
@@ -246,10 +256,12 @@ class Growth:
         )
         return sorted({*(end for p in self._panels for end in (p.lo, p.hi)), *geometric.tolist()})
 
-    # -- across many breaks -----------------------------------------------------------------------------------------------
+    # -- across many breaks ------------------------------------------------------------------------
 
     def _crosses_many_breaks(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> bool:
-        """Whether the front of a trace crosses so many breaks that a panel for each costs more than two potentials (and no digits)."""
+        """Whether the front of a trace crosses so many breaks that a panel for each costs more than
+        two potentials (and no digits).
+        """
         if len(self._breaks) <= MANY or self._search.slope.functions:
             return False
         highest, change = max(at_L, at_Y), abs(at_L - at_Y)
@@ -266,9 +278,11 @@ class Growth:
         return of_load - (2.0 + rise) * (T_Y - T_L) - (at_Y - Y) * S_Y + (at_L - L) * S_L
 
     def _potentials(self, y: float) -> tuple[float, float]:
-        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the lowest point in the angle φ.
+        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the
+        lowest point in the angle φ.
 
-        Because δ - h is the potential of p in the contact, and the mean of a potential over a contact is its Robin constant.
+        Because δ - h is the potential of p in the contact, and the mean of a potential over a
+        contact is its Robin constant.
         """
         if y not in self._of_load:
             self._of_load[y] = self._measured(y) if y > LOWEST * self.top else (0.0, 0.0)
@@ -291,7 +305,7 @@ class Growth:
         S = y * math.log(r / self._unit) - math.pi * G * mean
         return S, 0.5 * (y * S - math.pi * G * work)
 
-    # -- panels ---------------------------------------------------------------------------------------------------------
+    # -- panels ------------------------------------------------------------------------------------
 
     def _cover(self, lo: float, hi: float) -> None:
         """Panels for every load from lo to hi, where there are none yet."""
@@ -311,7 +325,9 @@ class Growth:
         self._panels.sort(key=lambda p: p.lo)
 
     def _break_below(self, level: float, top: float, limit: float) -> float:
-        """The level at which an edge passed the nearest break, where that is not far below, nor below `limit`; otherwise 0."""
+        """The level at which an edge passed the nearest break, where that is not far below, nor
+        below `limit`; otherwise 0.
+        """
         here, there = self.contact(level).interval, self.contact(top).interval
         found = [0.0]
         for right in (False, True):
@@ -334,7 +350,8 @@ class Growth:
     def _resolved(
         self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
     ) -> list[Panel]:
-        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more.
+        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short
+        one may miss more.
 
         An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
         """
@@ -389,7 +406,9 @@ class Growth:
         return series, float(np.abs(series[-TAIL:]).max()) / scale if scale else 0.0
 
     def _passed(self, lo: float, hi: float) -> list[tuple[float, bool]]:
-        """The breaks that the edges pass between two loads, in the order of their distance, and whether it is the right edge."""
+        """The breaks that the edges pass between two loads, in the order of their distance, and
+        whether it is the right edge.
+        """
         if not self._breaks:
             return []
         a, b = self.contact(lo).interval, self.contact(hi).interval
@@ -408,7 +427,7 @@ class Growth:
         both = left + right if self._search.axis is None else right
         return sorted(both, key=lambda pair: abs(pair[0] - a.m))
 
-    # -- contacts ---------------------------------------------------------------------------------------------------------
+    # -- contacts ----------------------------------------------------------------------------------
 
     def _rate(self, y: float) -> float:
         """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp (`edges`)."""
@@ -430,7 +449,9 @@ class Growth:
         return found
 
     def _near(self, y: float) -> Contact | None:
-        """By Newton from what the contacts of other loads say, None if that does not settle or an edge is sharp."""
+        """By Newton from what the contacts of other loads say, None if that does not settle or an
+        edge is sharp.
+        """
         guess = self._guess(math.log(y))
         if guess is None:
             return None
@@ -468,7 +489,9 @@ class Growth:
             self._known.insert(k, point)
 
     def _guess(self, at: float) -> Interval | None:
-        """From the four nearest loads: the distances of the edges are power laws, about, and cubics in logarithms."""
+        """From the four nearest loads: the distances of the edges are power laws, about, and cubics
+        in logarithms.
+        """
         if len(self._known) < 2:
             return None
         first = max(min(bisect_left(self._known, (at,)) - 2, len(self._known) - 4), 0)

@@ -1,11 +1,13 @@
 """A flat punch that sticks to the body all over: full stick, under P, Q and a moment or a tilt.
 
-Neither body slips, so that both equations hold on the whole contact with g' = 0. In φ = p + i q they are one,
+Neither body slips, so that both equations hold on the whole contact with g' = 0. In φ = p + i q
+they are one,
 
     iβ φ(x) - 1/π PV∫ φ(t)/(t - x) dt = E*/2 tilt,        ∫φ dx = P + i Q,
 
-whose exponents -1/2 ± iη, tanh πη = β, make the tractions oscillate next to the edges (Muskhelishvili 1953, § 114; Johnson 1985, § 2.8(b)).
-There, within a distance of about e^(-π/2η) of the width, p changes sign: bonded surfaces can pull.
+whose exponents -1/2 ± iη, tanh πη = β, make the tractions oscillate next to the edges
+(Muskhelishvili 1953, § 114; Johnson 1985, § 2.8(b)). There, within a distance of about e^(-π/2η) of
+the width, p changes sign: bonded surfaces can pull.
 """
 
 from __future__ import annotations
@@ -132,11 +134,13 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
     ends = pieces.domain
     if not (pieces.is_zero.all() and math.isfinite(ends[0]) and math.isfinite(ends[1])):
         raise ContactError(
-            f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: contact that grows under load "
+            f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: "
+            "contact that grows under load "
             "locks in strain; give a flat punch, or a finite friction"
         )
     if scene.normal_load is None:
         raise ContactError(
-            "a bonded punch carries any load on its whole width: give normal_load instead of half_width"
+            "a bonded punch carries any load on its whole width: give normal_load instead of "
+            "half_width"
         )
     return ends, scene.normal_load

@@ -1,4 +1,6 @@
-"""The largest tangential load that friction carries, f P, and what a smaller one leaves of the normal load."""
+"""The largest tangential load that friction carries, f P, and what a smaller one leaves of the
+normal load.
+"""
 
 from __future__ import annotations
 
@@ -16,14 +18,18 @@ def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
             n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1)
         )
         raise LoadError(
-            f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies slide; "
-            f"lower tangential_load to at most that, or raise normal_load to {_within(abs(Q) / friction, digits, 1)} or friction",
+            f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies "
+            "slide; "
+            "lower tangential_load to at most that, or raise normal_load to "
+            f"{_within(abs(Q) / friction, digits, 1)} or friction",
             limit=limit,
         )
 
 
 def _within(value: float, digits: int, side: int) -> str:
-    """A positive value to so many digits, not above it (side -1) or not below it (1), so that who follows an advice stays within it."""
+    """A positive value to so many digits, not above it (side -1) or not below it (1), so that who
+    follows an advice stays within it.
+    """
     shown = f"{value:.{digits}g}"
     if side * float(shown) < side * value:
         rounding = ROUND_CEILING if side > 0 else ROUND_FLOOR

@@ -1,16 +1,18 @@
 """The memory of a contact that slips to and fro: which way each of its layers was last sheared.
 
-Let the contact grow from nothing to its normal load P, layer by layer: the pressure is p = ∫ (∂p/∂P') dP', and so is every shear traction
-that slip at the edges can leave behind,
+Let the contact grow from nothing to its normal load P, layer by layer: the pressure is p = ∫
+(∂p/∂P') dP', and so is every shear traction that slip at the edges can leave behind,
 
     q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f                      (Jäger 1998; Mindlin & Deresiewicz 1953)
 
-because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P'. A change of Q at constant P overwrites κ by ± f from the top (the edges)
-down, as deep as it takes: Masing's rule, with all its memory of turning points, and their wiping out. P that grows adds a layer with
-κ = dQ/dP, which does not slip while |dQ/dP| <= f; P that falls takes layers away. Thickness is counted in Q: f dP'.
+because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P'. A change of Q at constant P
+overwrites κ by ± f from the top (the edges) down, as deep as it takes: Masing's rule, with all its
+memory of turning points, and their wiping out. P that grows adds a layer with κ = dQ/dP, which does
+not slip while |dQ/dP| <= f; P that falls takes layers away. Thickness is counted in Q: f dP'.
 
-At constant P the same holds of any step that opens slip zones monotonically, with a bulk stress in proportion to Q too: depth is then the
-amplitude of the step (Q, σ) that reaches it from a contact that never slipped. Only that the zones grow with the amplitude is used.
+At constant P the same holds of any step that opens slip zones monotonically, with a bulk stress in
+proportion to Q too: depth is then the amplitude of the step (Q, σ) that reaches it from a contact
+that never slipped. Only that the zones grow with the amplitude is used.
 """
 
 from __future__ import annotations
@@ -37,12 +39,14 @@ PROPORTIONAL = (
 )
 
 
-# -- the steps of a path ----------------------------------------------------------------------------
+# -- the steps of a path ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class TurningPoint:
-    """A turning point: its loads, the memory there, and what slipped since the last one, in the order of time."""
+    """A turning point: its loads, the memory there, and what slipped since the last one, in the
+    order of time.
+    """
 
     loads: tuple[float, float, float]
     memory: LoadMemory
@@ -50,7 +54,9 @@ class TurningPoint:
 
     @property
     def last(self) -> SlipEvent | None:
-        """What slips at the end of the step; None if nothing does, or what slipped has left the contact."""
+        """What slips at the end of the step; None if nothing does, or what slipped has left the
+        contact.
+        """
         return self.slips[-1] if self.slips and self.slips[-1].layers[-1].lower > 0.0 else None
 
 
@@ -68,7 +74,8 @@ def turning_points(scene: Scene, path: Path) -> tuple[TurningPoint, ...]:
         P, Q, _ = loads
         if f == 0.0 and Q != 0.0:
             raise ValueError(
-                f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; give friction > 0"
+                f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; "
+                "give friction > 0"
             )
         try:
             refuse_sliding(f, P, Q)
@@ -99,8 +106,10 @@ def _stepped(
     amplitude = sigma / unit[1] if unit[1] else Q
     if abs(amplitude * unit[0] - Q) > PROPORTIONAL * max(abs(unit[0]), f * P * EPS):
         raise ContactError(
-            f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest bulk stress: the zones of slip of one "
-            "direction do not contain those of the other; keep Q and σ in proportion, or leave σ out"
+            f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest "
+            "bulk stress: the zones of slip of one "
+            "direction do not contain those of the other; keep Q and σ in proportion, or leave σ "
+            "out"
         )
     if P == P0:
         return _sheared(loads, before.memory, amplitude)
@@ -108,12 +117,14 @@ def _stepped(
         return TurningPoint(loads, LoadMemory(_size(f, P, unit)))  # nothing was ever sheared
     if unit[1]:
         raise ContactError(
-            "P changes on a path with a bulk stress, after it or together with it: no superposition is exact then; "
+            "P changes on a path with a bulk stress, after it or together with it: no "
+            "superposition is exact then; "
             "reach P before Q and σ and keep it constant, or leave σ out"
         )
     if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
         raise ContactError(
-            "P changes at a given moment, which tilts the profile: its contacts are not nested; give tilt instead"
+            "P changes at a given moment, which tilts the profile: its contacts are not nested; "
+            "give tilt instead"
         )
     if P > P0:
         rise = f * (P - P0)
@@ -137,14 +148,16 @@ def _sheared(
     return TurningPoint(loads, new, (SlipEvent(math.copysign(1.0, step), done),) if done else ())
 
 
-# -- the layers -------------------------------------------------------------------------------------
+# -- the layers ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class SlippedLayer:
-    """Between two depths κ jumped by this much (in units of f, positive): what slipped in a step, and in which layer.
+    """Between two depths κ jumped by this much (in units of f, positive): what slipped in a step,
+    and in which layer.
 
-    Depths are counted from P at the end of the step; `surface` says how deep P was when the front was at `upper` and at `lower`.
+    Depths are counted from P at the end of the step; `surface` says how deep P was when the front
+    was at `upper` and at `lower`.
     """
 
     upper: float
@@ -186,7 +199,10 @@ class SlipEvent:
 
 
 class Layer(NamedTuple):
-    """A layer: thickness, κ/f, the layer below, and Q and depth of it with all below. Memories share what is below."""
+    """A layer: thickness, κ/f, the layer below, and Q and depth of it with all below.
+
+    Memories share what is below.
+    """
 
     thickness: float
     k: float
@@ -205,7 +221,8 @@ def _laid(thickness: float, k: float, below: Layer | None) -> Layer:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LoadMemory:
-    """Layers from the top down; below them κ = 0. `size` is all that can be overwritten: f P, or infinite.
+    """Layers from the top down; below them κ = 0. `size` is all that can be overwritten: f P, or
+    infinite.
 
     >>> LoadMemory(math.inf).sheared(3.0)[0].sheared(-2.0)[0].layers
     ((1.0, -1.0), (2.0, 1.0))
@@ -286,11 +303,13 @@ class LoadMemory:
         return LoadMemory(self.size - thickness, layer)
 
     def lowered(self, thickness: float, rate: float) -> tuple[LoadMemory, tuple[SlipEvent, ...]]:
-        """P lowered while Q changes by `rate` for each unit of thickness: the new memory, and what slipped, in the order of time.
+        """P lowered while Q changes by `rate` for each unit of thickness: the new memory, and what
+        slipped, in the order of time.
 
-        A layer goes as it came, without slip, where κ = -rate. Otherwise slip in the direction of rate + κ runs down from the edges, faster
-        than the edges retreat. In a deeper layer it may be slower: where the edges catch up with it, all that slipped has left the contact,
-        and the layer below decides anew.
+        A layer goes as it came, without slip, where κ = -rate. Otherwise slip in the direction of
+        rate + κ runs down from the edges, faster than the edges retreat. In a deeper layer it may
+        be slower: where the edges catch up with it, all that slipped has left the contact, and the
+        layer below decides anew.
         """
         memory, gone = self, 0.0
         slips: list[SlipEvent] = []
@@ -312,7 +331,9 @@ class LoadMemory:
     def _followed_down(
         self, sign: float, pull: float, most: float
     ) -> tuple[LoadMemory, float, list[SlippedLayer]]:
-        """Slip that P follows down: `pull` of Q for each unit of thickness taken off, until that is `most` or all that slipped has gone."""
+        """Slip that P follows down: `pull` of Q for each unit of thickness taken off, until that is
+        `most` or all that slipped has gone.
+        """
         layer, depth, taken = self.top, 0.0, 0.0
         done: list[SlippedLayer] = []
         while taken < most and depth < self.size:

@@ -1,13 +1,15 @@
-"""A narrow stick zone between two zones of slip in opposite directions: what a large bulk stress leaves of the contact.
+"""A narrow stick zone between two zones of slip in opposite directions: what a large bulk stress
+leaves of the contact.
 
-The two conditions of `slip_zones` in the combinations that stay apart when the stick zone [c - ρ, c + ρ] shrinks; s = ±1 is the sign of τ, t the
-distance from c and |R| = sqrt(t² - ρ²):
+The two conditions of `slip_zones` in the combinations that stay apart when the stick zone [c - ρ, c
++ ρ] shrinks; s = ±1 is the sign of τ, t the distance from c and |R| = sqrt(t² - ρ²):
 
     ∫_left p/|R| ds + ∫_right p/|R| ds = π |τ|/f                     says how narrow it is: ρ ~ exp(-π |τ|/(2 f p(c)))
     ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f                   says where it is: for ρ -> 0 slip to and fro balance Q
 
-Newton's method in ln ρ and ln(distance of c from the nearer edge), from the limit ρ -> 0. A zone narrower than `PINCHED` is a point in
-doubles: it is solved for with that width, and what is left of the strain is slip from c on (`SlipZones.unheld`).
+Newton's method in ln ρ and ln(distance of c from the nearer edge), from the limit ρ -> 0. A zone
+narrower than `PINCHED` is a point in doubles: it is solved for with that width, and what is left of
+the strain is slip from c on (`SlipZones.unheld`).
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ from sie.numerics.interval import EPS, Interval, interval_about, two_sum
 
 from .slip_zones import Drive, EdgeFrame, SlipZone, SlipZones, root, slip_zone
 
-NARROW = 0.5  # of the distance of c from the nearer edge: beyond, the lengths of the slip zones are the better unknowns
+# of the distance of c from the nearer edge: beyond, the lengths of the slip zones are the better
+# unknowns
+NARROW = 0.5
 PINCHED = 8.0 * EPS  # of the distance of c from the nearer edge, which says where c is
 STEP = 1e-7  # of finite differences
 MAX_STEPS = 30
@@ -32,7 +36,9 @@ SETTLED = 1e-10  # relative steps below it that no longer shrink are rounding
 def narrow_stick_zone(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
 ) -> SlipZones | None:
-    """The zones of slip in both directions if the stick zone between them is narrow, otherwise None."""
+    """The zones of slip in both directions if the stick zone between them is narrow, otherwise
+    None.
+    """
     strain, width = abs(drive.strain), 2.0 * contact.r
     near, depth = _balanced(frames, contact, drive)
     load = (drive.left, drive.right)[
@@ -58,7 +64,8 @@ def narrow_stick_zone(
         rho = _narrowed(lambda rho: excess(rho, depth)[0], least, NARROW * depth)
         rho, depth = _settled(excess, rho, depth)
         if not rho < min(depth, width - depth):
-            return None  # Newton's method left the contact, or did not settle: the stick zone is not narrow
+            # Newton's method left the contact, or did not settle: the stick zone is not narrow
+            return None
     zones = cut(rho, depth)
     left, right = zones[near], zones[1 - near]
     return SlipZones(_about(contact, rho, depth, near), left, right, drive, max(short, 0.0))
@@ -67,7 +74,9 @@ def narrow_stick_zone(
 def _balanced(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
 ) -> tuple[int, float]:
-    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and how far from it."""
+    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and
+    how far from it.
+    """
     near, depth = 0, 0.0
     for near, sign in ((0, drive.left), (1, drive.right)):
         force = 0.5 * (frames[near].density.resultant + sign * drive.load)
@@ -99,7 +108,9 @@ def _about(contact: Interval, rho: float, depth: float, near: int) -> Interval:
 
 
 def _narrowed(excess: Callable[[float], float], low: float, high: float) -> float:
-    """ρ to a few digits, where a function that falls like -ln ρ vanishes: by regula falsi in ln ρ (Illinois)."""
+    """ρ to a few digits, where a function that falls like -ln ρ vanishes: by regula falsi in ln ρ
+    (Illinois).
+    """
     a, b = math.log(low), math.log(high)
     at_a, at_b = excess(low), excess(high)
     for _ in range(MAX_STEPS):

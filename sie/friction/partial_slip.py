@@ -1,11 +1,13 @@
 """From a pressure and a load step to zones of stick and slip, shear and slip, at β = 0.
 
-After the normal load P, at constant P, the tangential load Q and the bulk stress σ (τ = `Scene.tau`, σ/4 for similar bodies) are applied:
+After the normal load P, at constant P, the tangential load Q and the bulk stress σ (τ =
+`Scene.tau`, σ/4 for similar bodies) are applied:
 
     |q| <= f p,      1/π PV∫q/(x - t) dt = τ  and slip 0 in the stick zone,      q = ± f p, in the direction of slip, beside it
 
-slip(x) is the tangential displacement of the indenter relative to the body, positive along +x: where it is positive so is q, which acts on
-the body. There are five states, told apart by the loads and by the inequalities:
+slip(x) is the tangential displacement of the indenter relative to the body, positive along +x:
+where it is positive so is q, which acts on the body. There are five states, told apart by the loads
+and by the inequalities:
 
     stick       Q = 0 = σ                            no shear
     sliding     |Q| = f P                            q = ± f p, no second solve
@@ -13,11 +15,13 @@ the body. There are five states, told apart by the loads and by the inequalities
                                                      -2τ/(± f E*), under the load P - |Q|/f, and gap^ the gap beside that contact
     two signs   otherwise                            slip to the left on one side, to the right on the other (`zones`)
 
-"One sign" is Cattaneo's and Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998): subtracting the equations (1) and (12)
-leaves the normal problem for p̂ and for the slip. It holds where the contact of p̂ lies within that of p and p̂ <= 2p there. Along the
-step itself dq = [dQ/π - dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone, so that with π r |τ| <= |Q|, r the half-width of the contact, it
-always does, and the zones of slip only grow. Where they would have to retreat on the way (r replaced by ρ, the wrong sign), the state given
-is that of the friction law in total displacements, as in Nowell & Hills (1987), and `advancing` is False.
+"One sign" is Cattaneo's and Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998):
+subtracting the equations (1) and (12) leaves the normal problem for p̂ and for the slip. It holds
+where the contact of p̂ lies within that of p and p̂ <= 2p there. Along the step itself dq = [dQ/π -
+dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone, so that with π r |τ| <= |Q|, r the half-width of
+the contact, it always does, and the zones of slip only grow. Where they would have to retreat on
+the way (r replaced by ρ, the wrong sign), the state given is that of the friction law in total
+displacements, as in Nowell & Hills (1987), and `advancing` is False.
 """
 
 from __future__ import annotations
@@ -43,16 +47,22 @@ from .states import NoSlip, OneSignedSlip, Sliding, Slip, Step, TwoSignedSlip, e
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
-# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it lies between two doubles.
+# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it
+# lies between two doubles.
 BESIDE = 16.0 * EPS
-# Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they would underflow.
+# Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they
+# would underflow.
 SMALLEST = 1e-60
-# Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
+# Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of
+# P: nothing, but it is solved for.
 HARDLY = 1e-40
 
 
 def slip(step: Step) -> Slip:
-    """The state of a scene's contact after its Q and σ. Raises ContactError where no single stick zone answers."""
+    """The state of a scene's contact after its Q and σ.
+
+    Raises ContactError where no single stick zone answers.
+    """
     P, f, Q, tau = step.normal_load, step.scene.friction, step.Q, step.tau
     if f == 0.0 or (Q == 0.0 == tau and "shear" in step.economy):
         return NoSlip(step.pressure.contact, f)
@@ -69,7 +79,8 @@ def slip(step: Step) -> Slip:
         return sliding(step)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):
         return _one_signed(step, math.copysign(1.0, Q))
-    # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip is on the other side
+    # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip
+    # is on the other side
     for sign in (math.copysign(1.0, Q), -math.copysign(1.0, Q)):
         tried = _fitting(step, sign)
         if tried is not None:
@@ -90,7 +101,9 @@ def _tilt_of_strain(step: Step, sign: float) -> float:
 
 
 def _one_signed(step: Step, sign: float) -> OneSignedSlip:
-    """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced load."""
+    """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced
+    load.
+    """
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
@@ -104,7 +117,9 @@ def _one_signed(step: Step, sign: float) -> OneSignedSlip:
 
 
 def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
-    """Slip in one direction although the strain is large, if it fits: the stick zone within the contact, |q| <= f p there."""
+    """Slip in one direction although the strain is large, if it fits: the stick zone within the
+    contact, |q| <= f p there.
+    """
     try:
         tried = _one_signed(step, sign)
         _ = tried.corrective
@@ -126,7 +141,9 @@ def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
 
 
 def _two_signed(step: Step) -> TwoSignedSlip:
-    """Slip in both directions: to the left of the stick zone in that of τ, to the right of it against it."""
+    """Slip in both directions: to the left of the stick zone in that of τ, to the right of it
+    against it.
+    """
     contact, G = step.pressure.contact, step.pressure.half_modulus
     f, Q, tau = step.scene.friction, step.Q, step.tau
     sign = math.copysign(1.0, tau)

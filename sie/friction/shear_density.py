@@ -1,4 +1,5 @@
-"""Shear tractions in partial slip as densities: with their potential, which is exact up to the surface.
+"""Shear tractions in partial slip as densities: with their potential, which is exact up to the
+surface.
 
     one sign     q = ± f (p - p̂),         Fq = ± f (Fp - Fp̂)
     two signs    slip of the sign s next to z and of -s on the other side of the stick zone, N(z) the formal inversion of the slope there:
@@ -30,7 +31,9 @@ ROWS = 4096  # points at a time
 
 @dataclass(frozen=True, eq=False)
 class OneSignedShear(Density):
-    """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip zones' pull instead (`zones`)."""
+    """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip
+    zones' pull instead (`zones`).
+    """
 
     pressure: SlopeDensity
     corrective: SlopeDensity
@@ -124,7 +127,9 @@ class TwoSignedShear(Density):
         return q.reshape(x.shape)
 
     def _side(self, right: bool) -> tuple[float, SlipZone, float]:
-        """(f times the sign of slip next to z, the zone on the other side, the sign of its integral)."""
+        """(f times the sign of slip next to z, the zone on the other side, the sign of its
+        integral).
+        """
         drive = self.zones.drive
         return (
             (self.friction * drive.right, self.zones.left, 1.0)
@@ -245,7 +250,8 @@ class TwoSignedShear(Density):
     def _pull(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
         """2 R(z)/π ∫_other side p/(|R| (z - t)) dt and its derivative.
 
-        Lengths are in half-widths of the stick zone: a pressure over the square of a length may exceed all doubles.
+        Lengths are in half-widths of the stick zone: a pressure over the square of a length may
+        exceed all doubles.
         """
         _, other, _ = self._side(right)
         stick = self.zones.stick

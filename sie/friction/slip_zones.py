@@ -1,24 +1,29 @@
-"""Slip zones at both ends of a stick zone: where they end, and the shear between them, from the pressure alone.
+"""Slip zones at both ends of a stick zone: where they end, and the shear between them, from the
+pressure alone.
 
-On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1; inside, 1/π PV∫q/(x - t) dt = τ, the strain
-that a bulk stress causes, as a stress. With c = (c1 + c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone,
-(Fq - τ)/R is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
+On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1;
+inside, 1/π PV∫q/(x - t) dt = τ, the strain that a bulk stress causes, as a stress. With c = (c1 +
+c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone, (Fq - τ)/R is
+continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
 
     Fq(z) = τ + R(z)/π ∫_slip q(s) / (R(s) (z - s)) ds
     q(x)  = f w(x)/π [ s1 ∫_left p/(|R| |s - x|) ds + s2 ∫_right p/(|R| |s - x|) ds ]          in the stick zone
 
-and what this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the combinations that belong to one end each:
+and what this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the
+combinations that belong to one end each:
 
     s2 ∫_right p sqrt((s - c1)/(s - c2)) ds + s1 ∫_left  p sqrt((c1 - s)/(c2 - s)) ds = (Q - π ρ τ)/f
     s1 ∫_left  p sqrt((c2 - s)/(c1 - s)) ds + s2 ∫_right p sqrt((s - c2)/(s - c1)) ds = (Q + π ρ τ)/f
 
-With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures (`slip`); with s1 = -s2 slip is reversed
-on one side by a large bulk stress (Nowell & Hills 1987). All integrands are positive: nothing cancels, however short the zones are. The
-pressure next to an edge is needed as a function of the distance from it, which a double x no longer tells: it is evaluated in coordinates
-whose origin is that edge.
+With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures
+(`slip`); with s1 = -s2 slip is reversed on one side by a large bulk stress (Nowell & Hills 1987).
+All integrands are positive: nothing cancels, however short the zones are. The pressure next to an
+edge is needed as a function of the distance from it, which a double x no longer tells: it is
+evaluated in coordinates whose origin is that edge.
 
-The same argument gives what a further load step does while nothing else slips, dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): zones of
-slip grow at both ends as long as s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
+The same argument gives what a further load step does while nothing else slips, dq = [dQ/π - dτ (x -
+c)] / sqrt(ρ² - (x - c)²): zones of slip grow at both ends as long as s2 (dQ - π ρ dτ) >= 0 and s1
+(dQ + π ρ dτ) >= 0.
 """
 
 from __future__ import annotations
@@ -43,24 +48,27 @@ Array = NDArray[np.float64]
 
 NODES = 16  # on panels that are a quarter as long as the distance to what is singular
 GRADING = 0.25
-LEVELS = 26  # GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+# GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+LEVELS = 26
 ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
 MAX_STEPS = 200
 MAX_SWEEPS = 60
 FIRST_STEP = 16.0
-SHORTEST = 1e-120  # of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
+# of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
+SHORTEST = 1e-120
 SETTLED = 8.0 * EPS
 
 
-# -- the contact seen from one of its edges -----------------------------------------------------------------------------
+# -- the contact seen from one of its edges --------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
 class EdgeFrame:
     """The contact in coordinates of one of its edges: distance inwards, to relative accuracy.
 
-    `density` and `slope` are the contact's, moved so that the edge is at 0; `side` is +1 for the right edge.
+    `density` and `slope` are the contact's, moved so that the edge is at 0; `side` is +1 for the
+    right edge.
     """
 
     density: SlopeDensity
@@ -113,12 +121,14 @@ def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> S
     )
 
 
-# -- one zone -----------------------------------------------------------------------------------------------------------
+# -- one zone --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
 class SlipZone:
-    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of contact, and the forces p ds there."""
+    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of
+    contact, and the forces p ds there.
+    """
 
     length: float
     from_stick: Array
@@ -135,7 +145,9 @@ class SlipZone:
         return float(self.force @ np.sqrt(self.from_stick / (self.from_stick + 2.0 * rho)))
 
     def pull(self, distance: Array, rho: float) -> Array:
-        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its side away from the zone."""
+        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its
+        side away from the zone.
+        """
         weight = self.force / np.sqrt(self.from_stick * (self.from_stick + 2.0 * rho))
         out = np.empty(distance.shape)
         far = distance >= self.length
@@ -150,7 +162,9 @@ class SlipZone:
         return out
 
     def _gathered(self, weight: Array) -> tuple[Array, Array]:
-        """A few places in the zone and the weights there that act beyond its length like all: 1/(d + s) is a short series in s."""
+        """A few places in the zone and the weights there that act beyond its length like all: 1/(d
+        + s) is a short series in s.
+        """
         u = chebyshev.points(GATHERED)
         series = chebyshev.polynomials(GATHERED, 2.0 * self.from_stick / self.length - 1.0)
         series *= np.where(np.arange(GATHERED) == 0, 1.0, 2.0)[:, None] / GATHERED
@@ -159,7 +173,8 @@ class SlipZone:
 
 
 def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
-    """The slip zone of this length at an edge: s = edge - length cos²(ψ/2), graded towards the stick zone and towards breaks.
+    """The slip zone of this length at an edge: s = edge - length cos²(ψ/2), graded towards the
+    stick zone and towards breaks.
 
     In ψ a smooth edge and a sharp one are both harmless.
     """
@@ -187,7 +202,7 @@ def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
     )
 
 
-# -- both zones ---------------------------------------------------------------------------------------------------------
+# -- both zones ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -236,9 +251,11 @@ class SlipZones:
 def slip_zones(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive, guess: tuple[float, float]
 ) -> SlipZones:
-    """The zones that the drive opens, from a guess of their lengths (left, right). Raises ContactError if there are none.
+    """The zones that the drive opens, from a guess of their lengths (left, right). Raises
+    ContactError if there are none.
 
-    Each end has an equation of its own, in which the other one matters only to second order: they are solved in turn.
+    Each end has an equation of its own, in which the other one matters only to second order: they
+    are solved in turn.
     """
     lengths = list(guess)
     previous = np.inf

@@ -1,4 +1,7 @@
-"""The states of a contact under tangential load: where it sticks, where it slips, what it carries. `slip` says which one it is."""
+"""The states of a contact under tangential load: where it sticks, where it slips, what it carries.
+
+`slip` says which one it is.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +41,8 @@ from .slip_zones import (
 
 Array = NDArray[np.float64]
 
-# Below this fraction of sliding the shear is not taken as a difference of two pressures, which are then nearly the same.
+# Below this fraction of sliding the shear is not taken as a difference of two pressures, which are
+# then nearly the same.
 SHORT = 1e-2
 
 
@@ -46,7 +50,8 @@ SHORT = 1e-2
 class Step:
     """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
 
-    `near` is a stick zone that the one asked for may be close to: it saves work, and changes nothing.
+    `near` is a stick zone that the one asked for may be close to: it saves work, and changes
+    nothing.
     """
 
     scene: Scene
@@ -88,18 +93,24 @@ class Slip(ABC):
 
     @abstractmethod
     def slip(self, x: Array) -> Array:
-        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the contact."""
+        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the
+        contact.
+        """
 
     @property
     @abstractmethod
     def shift(self) -> float:
-        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would, had nothing slipped."""
+        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would,
+        had nothing slipped.
+        """
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order of time; |q| = f p in those in contact.
+        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order
+        of time; |q| = f p in those in contact.
 
-        Where slip turned while P fell, the zones of the first direction lie beside the contact, which has left them.
+        Where slip turned while P fell, the zones of the first direction lie beside the contact,
+        which has left them.
         """
         return ()
 
@@ -144,7 +155,9 @@ class NoSlip(Slip):
 
 @dataclass(frozen=True, eq=False)
 class Slipping(Slip):
-    """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from the edges."""
+    """What the states with slip share: slip is sign f opening(x) on each side, integrated over
+    zones seen from the edges.
+    """
 
     pressure: SlopeDensity
     slope: Slope
@@ -235,7 +248,10 @@ def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFra
 
 @dataclass(frozen=True, eq=False)
 class Sliding(Slipping):
-    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go. `unloaded` is the slope of that limit."""
+    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go.
+
+    `unloaded` is the slope of that limit.
+    """
 
     sign: float
     unloaded: Slope
@@ -256,7 +272,9 @@ class Sliding(Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may pull the lowest point of the whole profile out of it, and the last to let go is an edge."""
+        """On the contact alone: a strain may pull the lowest point of the whole profile out of it,
+        and the last to let go is an edge.
+        """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
 
@@ -280,7 +298,10 @@ class Sliding(Slipping):
 
 @dataclass(frozen=True, eq=False)
 class OneSignedSlip(Slipping):
-    """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
+    """Slip in one direction at both edges: q = sign f (p - p̂).
+
+    Only the edges of the reduced contact are known from the start.
+    """
 
     sign: float
     found: Normal
@@ -293,7 +314,9 @@ class OneSignedSlip(Slipping):
 
     @cached_property
     def short(self) -> SlipZones | None:
-        """The zones from their own equations, where the difference of two pressures would lose digits."""
+        """The zones from their own equations, where the difference of two pressures would lose
+        digits.
+        """
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
         small = 0.0 < abs(Q) < SHORT * f * step.normal_load and math.pi * contact.r * abs(
@@ -358,7 +381,9 @@ class TwoSignedSlip(Slipping):
     """Slip in opposite directions at the two edges: `sign` at the left one."""
 
     found: SlipZones
-    formal: SlopeDensity  # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish at both ends
+    # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish
+    # at both ends
+    formal: SlopeDensity
     kind = "two signs"
 
     @property
@@ -398,7 +423,9 @@ class TwoSignedSlip(Slipping):
         return gap(-frame.side * distance, formal, slope, self._more(formal.contact))
 
     def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
-        """What the other zone's shear, and strain that nothing holds back, add to the outward derivative of slip/f."""
+        """What the other zone's shear, and strain that nothing holds back, add to the outward
+        derivative of slip/f.
+        """
         G, rho = self.pressure.half_modulus, stick.r
 
         def more(x: Array, side: float) -> Array:
@@ -417,7 +444,9 @@ class TwoSignedSlip(Slipping):
 
 
 def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
-    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ)."""
+    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q
+    - π ρ τ) >= 0 <= s1 (Q + π ρ τ).
+    """
     Q, tau = step.Q, step.tau
     return all(
         length == 0.0

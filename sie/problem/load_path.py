@@ -14,7 +14,8 @@ TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 
 
 @dataclass(frozen=True)
 class Path:
-    """Turning points (P, Q, σ) of the normal load, the tangential load and the bulk stress; σ may be left out.
+    """Turning points (P, Q, σ) of the normal load, the tangential load and the bulk stress; σ may
+    be left out.
 
     >>> Path([(10.0, 0.0), (10.0, 2.0), (10.0, -2.0)]).points[1]
     (10.0, 2.0, 0.0)
@@ -42,14 +43,16 @@ class Path:
         return len(self.points)
 
     def subdivided(self, parts: int) -> Path:
-        """The same path with every step in so many equal parts, but for that to its first point: shows what happens between two of them.
+        """The same path with every step in so many equal parts, but for that to its first point:
+        shows what happens between two of them.
 
         >>> Path([(10.0, 0.0), (10.0, 2.0)]).subdivided(2)
         Path([(10.0, 0.0, 0.0), (10.0, 1.0, 0.0), (10.0, 2.0, 0.0)])
         """
         if isinstance(parts, bool) or not isinstance(parts, Integral) or parts < 1:
             raise ValueError(
-                f"parts = {parts!r} is not a whole number of at least 1: give how many parts a step gets"
+                f"parts = {parts!r} is not a whole number of at least 1: give how many parts a "
+                "step gets"
             )
         shares = [k / int(parts) for k in range(1, int(parts))]
         points = [self.points[0]]

@@ -16,7 +16,8 @@ ALSO = {
     "peak_tension": "tension",
 }
 ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
-# What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
+# What is answered where nothing is said: the contact. The stress is asked for by name, as it may
+# need Poisson's ratio.
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
 # What depends on the shear traction.
 NEED_SHEAR = frozenset({"shear", "stress", "yield", "tension", "check"})
@@ -38,7 +39,9 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
 
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:
-    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is switched off) without Q and σ."""
+    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is
+    switched off) without Q and σ.
+    """
     return scene.friction != 0.0 and (
         scene.tangential_load != 0.0
         or scene.sliding != 0

@@ -1,4 +1,7 @@
-"""The question: a profile, two bodies, loads, friction. A value that refuses nonsense when it is built."""
+"""The question: a profile, two bodies, loads, friction.
+
+A value that refuses nonsense when it is built.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +30,8 @@ class Scene:
     tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body. Both grow in proportion, after P is applied
     sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
 
-    Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
+    Raises ValueError, with the value and the remedy, for anything that does not make a contact
+    problem.
     """
 
     profile: Profile
@@ -48,7 +52,8 @@ class Scene:
     def __post_init__(self) -> None:
         if not isinstance(self.profile, Profile):
             raise ValueError(
-                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another"
+                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), "
+                "sie.RoundedFlat(...) or another"
             )
         self._check_bodies()
         self._check_loads()
@@ -57,7 +62,8 @@ class Scene:
         if (self.body is None) == (self.modulus is None):
             what = "neither" if self.body is None else "both"
             raise ValueError(
-                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*"
+                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or "
+                "modulus = E*"
             )
         if self.body is not None:
             if self.poisson is not None:
@@ -66,29 +72,34 @@ class Scene:
                 self._set("dundurs", arguments.finite("dundurs", self.dundurs))
                 if self.dundurs != 0.0:
                     raise ValueError(
-                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β"
+                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, "
+                        "or give 0 to neglect β"
                     )
             if self.indenter is None:
                 self._set("indenter", self.body)
             for name in ("body", "indenter"):
                 if not isinstance(getattr(self, name), (Elastic, Rigid)):
                     raise ValueError(
-                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID"
+                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, "
+                        "poisson) or sie.RIGID"
                     )
             if self.body == RIGID == self.indenter:
                 raise ValueError(
-                    "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
+                    "body and indenter are both rigid: nothing can deform; give one of them young "
+                    "and poisson, sie.Elastic(young, poisson)"
                 )
             return
         if self.indenter is not None:
             raise ValueError(
-                "indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out"
+                "indenter without body: with modulus = E* the indenter's constants are in E* "
+                "already; leave it out"
             )
         self._set("modulus", arguments.positive("modulus", self.modulus))
         beta = coupling(arguments.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
         if abs(beta) > 0.5:
             raise ValueError(
-                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it"
+                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has "
+                "it"
             )
         self._set("dundurs", beta)
         if self.poisson is not None:
@@ -111,7 +122,8 @@ class Scene:
             )
             if self.tilt != 0.0:
                 raise ValueError(
-                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows"
+                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
+                    "other follows"
                 )
         if self.friction != math.inf:
             self._set("friction", arguments.not_negative("friction", self.friction))
@@ -124,27 +136,32 @@ class Scene:
         self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
-                f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"
+                f"tangential_load = {self.tangential_load:g} without friction: a frictionless "
+                "contact carries none; give friction > 0"
             )
         self._check_sliding()
 
     def _check_sliding(self) -> None:
         if self.sliding not in (-1, 0, 1):
             raise ValueError(
-                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0"
+                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter "
+                "slides, or 0"
             )
         self._set("sliding", int(self.sliding))
         if self.sliding and self.tangential_load:
             raise ValueError(
-                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
+                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} "
+                "given: in full sliding Q = ±f P follows"
             )
         if self.sliding and self.friction == math.inf:
             raise ValueError(
-                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction"
+                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite "
+                "friction"
             )
         if self.sliding and self.friction == 0.0:
             raise ValueError(
-                f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0"
+                f"sliding = {self.sliding} without friction: there is no shear traction; leave it "
+                "0, or give friction > 0"
             )
 
     def _set(self, name: str, value: Any) -> None:
@@ -169,7 +186,9 @@ class Scene:
 
     @property
     def epsilon(self) -> float:
-        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β f in full sliding."""
+        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β
+        f in full sliding.
+        """
         slides = self.slides
         return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
 
@@ -191,9 +210,11 @@ class Scene:
 
     @property
     def tau(self) -> float:
-        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4 for similar bodies.
+        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4
+        for similar bodies.
 
-        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E* the bodies are taken as similar.
+        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E*
+        the bodies are taken as similar.
         """
         if self.body is None or self.indenter is None:
             return 0.25 * self.bulk_stress

@@ -1,7 +1,9 @@
-"""What a cycle of loading does: stress histories at points, slip on the surface, and the parameters that rank fretting damage.
+"""What a cycle of loading does: stress histories at points, slip on the surface, and the parameters
+that rank fretting damage.
 
-A cycle is a sequence of states, one Solution after each step of the load. What is needed of one: .pressure, .shear and .scene.bulk_stress
-(through `stress(x, y)`), and .slip(x), the tangential displacement of the body against the indenter.
+A cycle is a sequence of states, one Solution after each step of the load. What is needed of one:
+.pressure, .shear and .scene.bulk_stress (through `stress(x, y)`), and .slip(x), the tangential
+displacement of the body against the indenter.
 
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear;      κ2 = max σ_xx max|q| δ, for the start of cracks
@@ -55,10 +57,11 @@ class Range:
 
 @dataclass(frozen=True, eq=False)
 class Cycle:
-    """The states of a cycle of loading, in order; the last one closes it: `Cycle(follow(scene, path))`, or a part of that.
+    """The states of a cycle of loading, in order; the last one closes it: `Cycle(follow(scene,
+    path))`, or a part of that.
 
-    What happens between two states is not looked at. Inside the body and in slip zones a stress may be largest there: follow
-    `path.subdivided(8)`. ValueError for fewer than two states.
+    What happens between two states is not looked at. Inside the body and in slip zones a stress may
+    be largest there: follow `path.subdivided(8)`. ValueError for fewer than two states.
     """
 
     states: Sequence[State]
@@ -66,7 +69,8 @@ class Cycle:
     def __post_init__(self) -> None:
         if len(self.states) < 2:
             raise ValueError(
-                f"{len(self.states)} states make no cycle: give the solutions at two or more steps of the load"
+                f"{len(self.states)} states make no cycle: give the solutions at two or more steps "
+                "of the load"
             )
 
     @cached_property
@@ -74,7 +78,8 @@ class Cycle:
         return len(self.states)
 
     def history(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """The stress tensors at points (x, y) after every step, (steps, *shape, 3, 3): what a critical-plane code takes.
+        """The stress tensors at points (x, y) after every step, (steps, *shape, 3, 3): what a
+        critical-plane code takes.
 
         Axes x, y (depth), z out of the plane; it needs Poisson's ratio for σ_zz.
         """
@@ -87,7 +92,9 @@ class Cycle:
         return out
 
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
-        """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where Poisson's ratio is known."""
+        """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where
+        Poisson's ratio is known.
+        """
         stresses = [state.stress(x, y) for state in self.states]
         names = (
             ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
@@ -96,10 +103,12 @@ class Cycle:
         return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
 
     def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-        """(largest range of shear stress over all planes through the z axis, angle of that plane's normal from x), at points.
+        """(largest range of shear stress over all planes through the z axis, angle of that plane's
+        normal from x), at points.
 
-        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges
-        over the width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
+        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2
+        + i σ_xy: over the cycle it ranges over the width of the polygon of D in a direction, and a
+        polygon is widest between two of its corners, |ΔD|.
         """
         stresses = [state.stress(x, y) for state in self.states]
         D = np.stack([0.5 * (s.yy - s.xx) + 1j * s.xy for s in stresses])
@@ -120,6 +129,8 @@ class Cycle:
         return q * self.slip_range(x).amplitude
 
     def ruiz(self, x: ArrayLike) -> Array:
-        """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ, 0 where the surface is never in tension: where cracks begin."""
+        """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ, 0 where the surface is never in tension:
+        where cracks begin.
+        """
         tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
         return np.maximum(tension, 0.0) * self.friction_work(x)

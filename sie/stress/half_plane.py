@@ -1,15 +1,18 @@
-"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q on its surface.
+"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q on its
+surface.
 
-With the potentials Fp(z) = 1/π ∫ p(t)/(z - t) dt and Fq likewise, z = x + iy, Φ = Fp - i Fq, and a bulk stress σ along x,
+With the potentials Fp(z) = 1/π ∫ p(t)/(z - t) dt and Fq likewise, z = x + iy, Φ = Fp - i Fq, and a
+bulk stress σ along x,
 
     s = (σ_xx + σ_yy)/2             =  Im Φ + σ/2
     D = (σ_yy - σ_xx)/2 + i σ_xy    =  -y Φ'(z) + Fq(z) - σ/2
     σ_zz = 2ν s (plane strain) or 0 (plane stress);      ω = (u_y,x - u_x,y)/2 = -(κ + 1)/(4μ) Re Φ
 
-(Muskhelishvili 1953, §§ 32, 93; Hills, Nowell & Sackfield 1993, ch. 3; the paper's (21)-(23) if its Φ̄(z) is read as conj Φ(z̄)). On the
-surface Fp = hilbert_p - i p, so that σ_yy = -p, σ_xy = -q, σ_xx = -p - 2 hilbert_q + σ: real arithmetic, no derivative, exact.
-Potentials are exact to the surface and free of cancellation far away; so are the stresses. s and D are what is kept: of the four
-components none is lost in another, and invariants follow without differences.
+(Muskhelishvili 1953, §§ 32, 93; Hills, Nowell & Sackfield 1993, ch. 3; the paper's (21)-(23) if its
+Φ̄(z) is read as conj Φ(z̄)). On the surface Fp = hilbert_p - i p, so that σ_yy = -p, σ_xy = -q,
+σ_xx = -p - 2 hilbert_q + σ: real arithmetic, no derivative, exact. Potentials are exact to the
+surface and free of cancellation far away; so are the stresses. s and D are what is kept: of the
+four components none is lost in another, and invariants follow without differences.
 """
 
 from __future__ import annotations
@@ -29,13 +32,15 @@ from sie.traction.base import Density, shallow
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Points are taken in parts of this size: temporaries stay in the processor's cache, and few are ever as large as the whole.
+# Points are taken in parts of this size: temporaries stay in the processor's cache, and few are
+# ever as large as the whole.
 PART = 4096
 
 
 @dataclass(frozen=True, eq=False)
 class Tractions:
-    """What acts on the half-plane: p and q on its surface, a tension σ along x far below; and what it is made of.
+    """What acts on the half-plane: p and q on its surface, a tension σ along x far below; and what
+    it is made of.
 
     `poisson` and `body` may be None: then only what does not depend on them can be asked for.
     """
@@ -65,7 +70,8 @@ class Tractions:
     def known_poisson(self) -> float:
         if self.poisson is None:
             raise ValueError(
-                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or the body by young and poisson"
+                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
+                "the body by young and poisson"
             )
         return self.poisson
 
@@ -73,7 +79,8 @@ class Tractions:
     def known_body(self) -> Elastic:
         if self.body is None:
             raise ValueError(
-                "strains need the elastic constants of the body: give the body by young and poisson in place of modulus"
+                "strains need the elastic constants of the body: give the body by young and "
+                "poisson in place of modulus"
             )
         return self.body
 
@@ -113,7 +120,8 @@ class Gradients(NamedTuple):
 
 
 class Stress:
-    """The stress at points (x, y), y >= 0 the depth; every value an array of the broadcast shape, computed when it is asked for.
+    """The stress at points (x, y), y >= 0 the depth; every value an array of the broadcast shape,
+    computed when it is asked for.
 
     xx, yy, xy, zz            components; tension is positive
     in_plane_sum              xx + yy, for which no derivative of a potential is needed
@@ -123,8 +131,9 @@ class Stress:
     xx, yy, xy, zz = stress   all components at once
     strain, gradients         Tensor and Gradients of the displacement, without the rigid rotation (at infinity it is 0)
 
-    Where p is infinite (a sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both given as -inf.
-    ValueError for points above the surface, and where Poisson's ratio or the body is needed but not given.
+    Where p is infinite (a sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both
+    given as -inf. ValueError for points above the surface, and where Poisson's ratio or the body is
+    needed but not given.
     """
 
     def __init__(self, tractions: Tractions, x: ArrayLike, y: ArrayLike) -> None:
@@ -142,7 +151,7 @@ class Stress:
     def __iter__(self) -> Iterator[Array]:
         return iter((self.xx, self.yy, self.xy, self.zz))
 
-    # -- components ----------------------------------------------------------------------------------------------------
+    # -- components --------------------------------------------------------------------------------
 
     @property
     def xx(self) -> Array:
@@ -172,7 +181,7 @@ class Stress:
     def in_plane_sum(self) -> Array:
         return 2.0 * self._s
 
-    # -- invariants ----------------------------------------------------------------------------------------------------
+    # -- invariants --------------------------------------------------------------------------------
 
     @property
     def in_plane_shear(self) -> Array:
@@ -203,7 +212,7 @@ class Stress:
         low = s - shear
         return np.maximum(high, zz), np.maximum(np.minimum(high, zz), low), np.minimum(low, zz)
 
-    # -- deformation ---------------------------------------------------------------------------------------------------
+    # -- deformation -------------------------------------------------------------------------------
 
     @property
     def strain(self) -> Tensor:
@@ -222,12 +231,13 @@ class Stress:
         infinite = np.isinf(rotation) & (e.xy == -rotation)
         if not infinite.any():
             return Gradients(e.xx, e.xy - rotation, e.xy + rotation, e.yy)
-        # q outweighs the rest of Re Φ = hilbert_p - q there: 4μ u_x,y ~ -(κ + 3) q, 4μ u_y,x ~ (κ - 1) q
+        # q outweighs the rest of Re Φ = hilbert_p - q there: 4μ u_x,y ~ -(κ + 3) q, 4μ u_y,x ~ (κ -
+        # 1) q
         finite = np.where(infinite, 0.0, rotation)
         xy, yx = e.xy - finite, np.where(infinite, _times(1.0 - body.kolosov, e.xy), e.xy + finite)
         return Gradients(e.xx, xy, yx[()], e.yy)
 
-    # -- the potentials, part by part ----------------------------------------------------------------------------------
+    # -- the potentials, part by part --------------------------------------------------------------
 
     @property
     def _s(self) -> Array:
@@ -296,7 +306,9 @@ class Stress:
 
 
 def hilbert_of_shear(tractions: Tractions, x: Array, p: Array) -> Array:
-    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is infinite too and outweighs it."""
+    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is
+    infinite too and outweighs it.
+    """
     values = tractions.shear.hilbert(x)
     return np.where(np.isinf(p) & np.isinf(values), 0.0, values)
 

@@ -1,11 +1,14 @@
-"""What the contact does to the material: the load at which the body yields first, and the largest tension on its surface.
+"""What the contact does to the material: the load at which the body yields first, and the largest
+tension on its surface.
 
     von Mises   J2 = ½ s:s = |D|² + (s - σ_zz)²/3 = k²               (k: yield stress in shear)
     Tresca      max( |D|, (|D| + |s - σ_zz|)/2 ) = k
 
-with s and D of `field`. Stresses grow in proportion to the load in a contact of given edges (stiffer bodies under more load), so that
-P/k = P/√J2 is what one solution tells; charts show P/(bk). The largest J2 may be taken twice (either side of the centre, for a/b > 0.1277
-of the frictionless rounded punch), in a flat valley, or jump to the surface as friction grows: `maxima` finds all, and ties are kept.
+with s and D of `field`. Stresses grow in proportion to the load in a contact of given edges
+(stiffer bodies under more load), so that P/k = P/√J2 is what one solution tells; charts show
+P/(bk). The largest J2 may be taken twice (either side of the centre, for a/b > 0.1277 of the
+frictionless rounded punch), in a flat valley, or jump to the surface as friction grows: `maxima`
+finds all, and ties are kept.
 """
 
 from __future__ import annotations
@@ -64,7 +67,10 @@ class Peak(NamedTuple):
 def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
-    """The yield point of a body under these tractions. ValueError for an unknown criterion, or if Poisson's ratio is needed and missing."""
+    """The yield point of a body under these tractions.
+
+    ValueError for an unknown criterion, or if Poisson's ratio is needed and missing.
+    """
     if criterion not in CRITERIA:
         raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
     kappa = tractions.out_of_plane
@@ -87,9 +93,11 @@ def elastic_limit(
 
 
 def peak_tension(tractions: Tractions) -> Peak:
-    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it.
+    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface
+    away from it.
 
-    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
+    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is
+    the farthest place that was looked at.
     """
     for edge, x, outward in zip(
         tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True
@@ -106,7 +114,7 @@ def peak_tension(tractions: Tractions) -> Peak:
     return Peak(max(best, tractions.bulk_stress) + 0.0, x)
 
 
-# -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------
+# -- measures of the stress, as functions of v = (s, D_r, D_i) -------------------------------------
 
 
 def _quadratic(factor: float) -> Measure:
