@@ -1,4 +1,7 @@
-"""What will be computed for a scene, what is skipped, and why: known before anything is computed."""
+"""What will be computed for a scene, what is skipped, and why.
+
+All of it is known before anything is computed.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +39,18 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `stage` names the cached property of `Solution` it fills, "" for a decision inside
-    a stage.
+    """One step of a plan.
+
+    Parameters
+    ----------
+    name : str
+        What it does.
+    run : bool
+        Whether it is done.
+    reason : str
+        Why it is done or skipped.
+    stage : str
+        The stage of `Solution` that it fills, "" for a decision inside a stage.
     """
 
     name: str
@@ -48,11 +61,19 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
+    """The work for a scene, step by step; printed as a table.
+
+    Parameters
+    ----------
+    steps : tuple of Step
+        The steps in the order of the work, those that are skipped included.
+    """
+
     steps: tuple[Step, ...]
 
     @property
     def stages(self) -> frozenset[str]:
-        """The stages that will run: the footprint of the solution."""
+        """The stages of the solution that will be filled, a frozenset of str."""
         return frozenset(s.stage for s in self.steps if s.run and s.stage)
 
     def __str__(self) -> str:

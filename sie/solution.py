@@ -1,4 +1,4 @@
-"""The answer: a lazy view over the stages.
+"""The solution of a scene: a lazy view over the stages of the work.
 
 Nothing is computed until it is asked for, and `vars(solution)` shows what was.
 """
@@ -77,21 +77,27 @@ _STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), 
 
 
 class Solution:
-    """What a scene answers; see `solve`. Lengths, stresses and loads in the scene's units.
+    """The solution of a contact problem; `solve` makes it.
 
-    edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
-    pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
-    shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
-    gap(x)       the gap between the deformed bodies, 0 in contact
-    stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
-    elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
-    check()      Certificate
-    trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
-    notes        sentences on what the equations leave out here: large slopes and pressures, zones
-                 of slip that would retreat
-    with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    tol : float, optional
+        Relative accuracy that is asked of the resolution of functions and of the certificate.
+    economy : collection of str, optional
+        The savings that are allowed, as in `solve`.
 
-    Asking raises ContactError where the scene has no answer that the package covers.
+    Raises
+    ------
+    ContactError
+        By any attribute, where the scene has no answer that the package covers.
+
+    Notes
+    -----
+    Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
+    contact. An attribute computes what it needs when it is read, and keeps it. This class is longer
+    than 200 lines because it holds every question that a user asks; the answers are elsewhere.
     """
 
     def __init__(
@@ -137,18 +143,32 @@ class Solution:
 
     @cached_property
     def bonded(self) -> tuple[Edges, JacobiDensity]:
-        """Of a bonded punch: its edges, and p + i q."""
+        """The edges of a flat punch in full stick, and p + i q."""
         return full_stick_contact(self.scene, self.tol)
 
     @property
     def normal_and_shear(self) -> JacobiDensity:
-        """p + i q of a bonded punch."""
+        """The traction p + i q in full stick."""
         _ = self.normal
         return self.bonded[1]
 
     @cached_property
     def pressure(self) -> SlopeDensity | Component:
-        """The contact pressure p(x)."""
+        """The contact pressure p, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            `pressure(x)` gives its values, `.resultant` and `.moment` its load, `.cauchy(z)` its
+            Cauchy potential ∫p(t)/(t - z) dt up to a factor, and `.hilbert(x)` the principal value.
+
+        Raises
+        ------
+        InequalityError
+            If one patch of contact would need tension, or would overlap the body elsewhere.
+        LoadError
+            If the profile carries no such load in one patch.
+        """
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
@@ -160,16 +180,14 @@ class Solution:
 
     @property
     def sheared(self) -> bool:
-        """Whether there is friction, and a load that shears, and not pressure and shear are one
-        problem.
+        """Whether the shear is found after the pressure: partial slip, or similar bodies
+        sliding.
         """
         return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
 
     @property
     def carries_shear(self) -> bool:
-        """Whether there is a shear traction: of partial slip, or of bodies that slide or are bonded
-        with their pressure.
-        """
+        """Whether there is a shear traction, of partial slip, sliding or full stick."""
         return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
 
     @cached_property
@@ -202,7 +220,7 @@ class Solution:
 
     @property
     def slope_density(self) -> SlopeDensity:
-        """The pressure where it is not that of a bonded punch."""
+        """The pressure, where it is not that of full stick."""
         return cast(SlopeDensity, self.pressure)
 
     @property
@@ -213,42 +231,62 @@ class Solution:
 
     @property
     def edges(self) -> tuple[float, float]:
-        """(x1, x2), where contact begins and ends."""
+        """Where contact begins and ends, (x1, x2), lengths.
+
+        Returns
+        -------
+        tuple of float
+            The edges rounded to doubles. The solution itself keeps them more exactly.
+        """
         contact = self.normal.edges.contact
         return contact.x1, contact.x2
 
     @property
     def half_width(self) -> float:
+        """Half-width of the contact, length."""
         return self.normal.edges.contact.r
 
     @property
     def centre(self) -> float:
+        """Centre of the contact, length."""
         return self.normal.edges.contact.m
 
     @property
     def normal_load(self) -> float:
-        """P, force per length."""
+        """Normal load P, force per length."""
         return self.normal.edges.normal_load
 
     @property
     def moment(self) -> float:
-        """∫ p x dx about x = 0, force (per length times length)."""
+        """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
         return self.normal.edges.moment
 
     @property
     def tilt(self) -> float:
-        """What was added to the slope of the profile."""
+        """Tilt of the indenter, the angle that is added to the slope of the profile."""
         return self.normal.edges.tilt
 
     @property
     def sharp(self) -> tuple[bool, bool]:
-        """Which edges are the indenter's own corners, where the pressure is square-root singular."""
+        """Which edges are corners of the indenter, (left, right).
+
+        Returns
+        -------
+        tuple of bool
+            True where the contact ends at an end of the profile's domain. The pressure is infinite
+            there.
+        """
         return self.normal.edges.sharp
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The stick zones as (lo, hi): the contact where no tangential load came, () in full
-        sliding and without friction.
+        """The stick zones, ((lo, hi), ...) in lengths.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The whole contact where no tangential load was applied; () in full sliding and without
+            friction.
         """
         if self.scene.epsilon:
             return ()
@@ -258,7 +296,13 @@ class Solution:
 
     @property
     def shear(self) -> Density:
-        """The shear traction q(x), which acts on the body in +x."""
+        """The shear traction q, which acts on the body along +x, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            As for `pressure`; zero everywhere without friction.
+        """
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
@@ -267,7 +311,7 @@ class Solution:
 
     @property
     def tangential_load(self) -> float:
-        """Q, force per length."""
+        """Tangential load Q, force per length; ±f P in full sliding."""
         slides = self.scene.slides
         return (
             slides * self.scene.friction * self.normal_load
@@ -276,11 +320,35 @@ class Solution:
         )
 
     def slip(self, x: ArrayLike) -> Array:
-        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick
-        and outside the contact.
+        """Relative slip: the tangential displacement of the indenter relative to the body.
 
-        It has the sign of q. In full sliding: what it is when the last point lets go. ContactError
-        for dissimilar bodies that slide: that takes their partial slip before.
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        ndarray of float
+            Slip in units of length, same shape as x: 0 in stick zones and outside the contact, with
+            the sign of q elsewhere.
+
+        Raises
+        ------
+        ContactError
+            For dissimilar bodies that slide: their slip depends on the partial slip before.
+
+        Notes
+        -----
+        In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0,
+        ...                   friction=0.5, tangential_load=20.0)
+        >>> sie.solve(scene).slip([0.0, 1.0]).tolist()
+        [0.0, 0.0]
         """
         self._refuse_unknown_slip()
         slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
@@ -288,19 +356,43 @@ class Solution:
 
     @property
     def energy_lost(self) -> float:
-        """What friction turned into heat since the normal load was applied: force (per length of
-        the line) times length.
+        """Energy that friction turned into heat since the normal load was applied.
+
+        Returns
+        -------
+        float
+            ∫∫|q| |dslip| dx, force per length of the line times length.
+
+        Raises
+        ------
+        ContactError
+            As for `slip`.
         """
         self._refuse_unknown_slip()
         return self.dissipated if self.sheared else 0.0
 
     @property
     def shift(self) -> float:
-        """How far slip lets the indenter move along x, beyond what the same loads would move it if
-        nothing slipped.
+        """Rigid-body shift of the indenter along x that slip adds, length.
 
-        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it
-        undetermined (Johnson 1985, § 2.2).
+        Returns
+        -------
+        float
+            The shift beyond that of the same loads without slip.
+
+        Raises
+        ------
+        ContactError
+            As for `slip`.
+
+        Notes
+        -----
+        The shift without slip is Q times a constant that depends on the place of observation,
+        because plane elasticity leaves it undetermined.
+
+        References
+        ----------
+        Johnson, Contact Mechanics (1985), § 2.2.
         """
         self._refuse_unknown_slip()
         return self.tangential.shift if self.sheared else 0.0
@@ -317,7 +409,7 @@ class Solution:
 
     @cached_property
     def tractions(self) -> Tractions:
-        """What acts on the body (y > 0), and what it is made of: all that a stress depends on."""
+        """The tractions and the constants that the stress in the body depends on."""
         scene, body = self.scene, self.scene.body
         if body is not None and not isinstance(body, Elastic):
             raise ContactError(
@@ -331,28 +423,94 @@ class Solution:
         )
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are
-        arrays of the broadcast shape.
+        """The stress at points of the body.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Positions and depths, y >= 0, length. They are broadcast against each other.
+
+        Returns
+        -------
+        Stress
+            Components, invariants and strains, arrays of the broadcast shape, computed as they are
+            read.
+
+        Raises
+        ------
+        ValueError
+            For points above the surface or not finite.
+        ContactError
+            If the body is rigid.
         """
         return Stress(self.tractions, x, y)
 
     def surface_stress(self, x: ArrayLike) -> Stress:
-        """The stress on the surface, in the contact and beside it."""
+        """The stress on the surface, in the contact and beside it.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        Stress
+            As `stress(x, 0.0)`.
+        """
         return self.stress(x, 0.0)
 
     def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """Where the body yields first, and at which load, by criterion "mises" or "tresca"; see
-        `YieldPoint`.
+        """Where the body yields first, and at which load.
+
+        Parameters
+        ----------
+        criterion : {"mises", "tresca"}, optional
+            Yield criterion.
+
+        Returns
+        -------
+        YieldPoint
+            First-yield load, place and stress.
+
+        Raises
+        ------
+        ValueError
+            For an unknown criterion, or if Poisson's ratio is needed and not given.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=1.0)
+        >>> found = sie.solve(scene).elastic_limit()
+        >>> round(found.y / found.half_width, 2)
+        0.7
         """
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:
-        """(value, x): the largest σ_xx on the surface, in the contact or beside it, and where."""
+        """The largest tension σ_xx on the surface.
+
+        Returns
+        -------
+        Peak
+            (value, x): stress, and the position where it is reached, in the contact or beside it.
+        """
         return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
-        """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends
-        of the indenter.
+        """The gap between the deformed bodies.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        ndarray of float
+            Gap in units of length, same shape as x: 0 in the contact, inf beyond the ends of the
+            indenter.
         """
         x = arguments.reals("x", x)
         if self.scene.bonded:
@@ -361,25 +519,45 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """`strain_notes` and `slip_notes`: sentences on what the equations leave out here."""
+        """Sentences on what the equations leave out for this scene.
+
+        Returns
+        -------
+        tuple of str
+            `strain_notes` and `slip_notes`; () where small strains and growing slip zones are
+            given.
+        """
         return *self.strain_notes, *self.slip_notes
 
     @property
     def slip_notes(self) -> tuple[str, ...]:
-        """A sentence on zones of slip that would retreat, so that the way to the loads matters."""
+        """A sentence on slip zones that would retreat on the way to the loads, or ()."""
         if not self.sheared or self.tangential.advancing:
             return ()
         return (f"note: slip is found in total displacements: {RETREAT}",)
 
     @property
     def strain_notes(self) -> tuple[str, ...]:
-        """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
+        """Sentences on strains that are not small: a slope above 0.2, p above E*/4."""
         if self.scene.bonded or "certificate" in self.__dict__:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
     def check(self) -> Certificate:
-        """The certificate of this answer, measured on points that were not used to find it."""
+        """The certificate: how well this answer satisfies the equations.
+
+        Returns
+        -------
+        Certificate
+            Measured at points that were not used to find the answer; `.ok` sums it up.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+        >>> sie.solve(scene).check().ok
+        True
+        """
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
@@ -400,8 +578,30 @@ class Solution:
         )
 
     def with_(self, **changes: Any) -> Solution:
-        """The solution of the scene with these fields changed. normal_load and half_width replace
-        each other, so do tilt and moment.
+        """The solution of a changed scene, which keeps the stages that cannot have changed.
+
+        Parameters
+        ----------
+        **changes
+            Fields of `Scene` and their new values. `normal_load` and `half_width` replace each
+            other, and so do `tilt` and `moment`.
+
+        Returns
+        -------
+        Solution
+            A new solution; this one stays as it is.
+
+        Raises
+        ------
+        ValueError
+            For a name that is no field of a scene, or a scene that is no contact problem.
+
+        Examples
+        --------
+        >>> import sie
+        >>> light = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0))
+        >>> round(light.with_(normal_load=4.0).half_width / light.half_width, 12)
+        2.0
         """
         for name in changes:
             if name not in _SCENE_FIELDS:
@@ -438,12 +638,32 @@ class Solution:
 def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> Solution:
     """The solution of a scene, as a lazy view: nothing is computed yet.
 
-    tol       relative accuracy asked of functions' resolution and of the certificate
-    economy   what may be skipped; () computes everything, with the same answer
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    tol : float, optional
+        Relative accuracy that is asked of the resolution of functions and of the certificate.
+    economy : collection of str, optional
+        What may be skipped; () computes everything, with the same answer.
 
+    Returns
+    -------
+    Solution
+        Its attributes compute what they need when they are read.
+
+    Raises
+    ------
+    ValueError
+        For a scene, tolerance or economy that is none.
+    ContactError
+        For loads that are not covered, as far as that shows without a solution.
+
+    Examples
+    --------
     >>> import sie
-    >>> solution = sie.solve(sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0))
-    >>> round(solution.half_width, 6)
+    >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0)
+    >>> round(sie.solve(scene).half_width, 6)
     0.282095
     """
     if not isinstance(scene, Scene):
