@@ -51,14 +51,41 @@ Array = NDArray[np.float64]
 def follow(
     scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY
 ) -> History:
-    """The solutions at the turning points of a path, as a lazy sequence: nothing is solved yet.
+    """The solutions at the turning points of a load path, as a lazy sequence.
 
-    The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises
-    ContactError where a step is not covered, as soon as that shows: in the loads, or once the
-    contact is known.
+    Parameters
+    ----------
+    scene : Scene
+        Profile, bodies, friction and tilt; its loads are replaced by those of the path.
+    path : Path
+        Turning points of the loads.
+    tol : float, optional
+        As in `solve`.
+    economy : collection of str, optional
+        As in `solve`.
 
+    Returns
+    -------
+    History
+        One solution for each turning point. Nothing is solved yet.
+
+    Raises
+    ------
+    ValueError
+        If `path` is no path, or the scene is one of full stick.
+    ContactError
+        Where a step is not covered, as soon as that shows: in the loads, or once the contact is
+        known.
+
+    References
+    ----------
+    Mindlin & Deresiewicz, J. Appl. Mech. 20 (1953) 327-344; Jäger, Arch. Appl. Mech. 68 (1998)
+    57-60.
+
+    Examples
+    --------
     >>> import sie
-    >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0, friction=0.5)
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0, friction=0.5)
     >>> loading, unloading = sie.follow(scene, sie.Path([(50.0, 20.0), (50.0, 0.0)]))
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
@@ -77,8 +104,23 @@ def follow(
 
 
 class History(Sequence[Solution]):
-    """The solutions at the turning points, each made when it is asked for; what they share is
-    solved once.
+    """The solutions at the turning points of a load path; `follow` makes it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Profile, bodies, friction and tilt.
+    path : Path
+        Turning points of the loads.
+    tol : float
+        As in `solve`.
+    economy : collection of str
+        As in `solve`.
+
+    Notes
+    -----
+    A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
+    asked for. What the points share is solved once. `history.path` is the path.
     """
 
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
@@ -129,7 +171,7 @@ class History(Sequence[Solution]):
         return self._plain[P]
 
     def first_loading(self, P: float, depth: float) -> Slip:
-        """What the loads depth × unit do to the contact under P that never slipped."""
+        """The state of the contact under P that never slipped, after the loads depth × unit."""
         key = (P, depth)
         if key not in self._first_loadings:
             plain, f = self.plain(P), self.scene.friction
@@ -154,7 +196,7 @@ class History(Sequence[Solution]):
         return self._first_loadings[key]
 
     def energy(self, index: int) -> float:
-        """Lost from the beginning of the path."""
+        """The energy lost from the beginning of the path to a turning point."""
         known = len(self._energy)
         if index >= known:
             lost = self._step_energies(range(known, index + 1))

@@ -83,7 +83,13 @@ PARTS = {
 
 
 class Interrupted(KeyboardInterrupt):
-    """A sweep that was interrupted; `result` is what it had found, the rest nan and "interrupted"."""
+    """A sweep that was interrupted from the keyboard.
+
+    Parameters
+    ----------
+    result : xarray.Dataset or dict
+        What the sweep had found; the other points are nan with the reason "interrupted".
+    """
 
     def __init__(self, result: Any) -> None:
         super().__init__("the sweep was interrupted: what it found is in the exception's `result`")
@@ -100,18 +106,45 @@ def sweep(
     chunk: int | None = None,
     progress: bool = True,
 ) -> Any:
-    """What is wanted of every scene of the grid: an xarray.Dataset where xarray is installed,
-    otherwise a dict of NumPy arrays.
+    """What is wanted of every scene of a grid of parameters.
 
-    over       the values of each parameter, by name; the results have one dimension for each, in this order
-    want       names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an array or a dict of them
-    executor   where chunks run; None is here. For a process pool, functions must be importable (no lambdas)
-    chunk      points in a chunk; progress: a bar on standard error, if it is a terminal and the work takes more than a second
+    Parameters
+    ----------
+    scene : Scene or callable
+        A scene whose fields are changed, or a function of the named parameters that returns a
+        Scene.
+    over : mapping of str to sequence
+        The values of each parameter by name: fields of the scene, or "profile." and a parameter of
+        its profile. The results have one dimension for each, in this order.
+    want : str, iterable of str or mapping, optional
+        Names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an
+        array or a dict of them.
+    executor : concurrent.futures.Executor, optional
+        Where chunks run; None is here. For a process pool, functions must be importable (no
+        lambdas).
+    tol : float, optional
+        As in `solve`.
+    chunk : int, optional
+        Points in a chunk.
+    progress : bool, optional
+        Whether a bar is drawn on standard error, if that is a terminal and the work takes more than
+        a second.
 
-    Beside the values there is "reason", why a point has none. ValueError, before any work is done,
-    for names that are not known. `Interrupted`, with all that was found, in place of
-    KeyboardInterrupt.
+    Returns
+    -------
+    xarray.Dataset or dict of ndarray
+        A Dataset where xarray is installed. Beside the values there is "reason", which says why a
+        point has none.
 
+    Raises
+    ------
+    ValueError
+        For names that are not known, before any work is done.
+    Interrupted
+        In place of KeyboardInterrupt, with all that was found.
+
+    Examples
+    --------
     >>> import sie
     >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
     >>> found = sie.sweep(scene, over={"normal_load": [0.25, 1.0]}, want="half_width")

@@ -27,26 +27,45 @@ RETREAT = "with Q and σ in proportion the zones of slip would retreat on the wa
 
 @dataclass(frozen=True)
 class Certificate:
-    """What was measured on an answer. Numbers are relative: to the peak pressure (residual,
-    inequalities), to P and P r (equilibrium).
+    """What was measured on an answer.
 
-    At a distance d from the nearer edge the pressure is wrong by at most
-    3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below
-    1e-15 of the peak, for what one ulp of x changes, and for what a function does on less than
-    5e-4 of the contact.
+    Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
+     At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
+    sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the peak,
+    for what one ulp of x changes, and for what a function does on less than 5e-4 of the contact.
 
-    abscissae       how much of the above is rounding of x itself: where p changes within one ulp of x no double can tell more
-    implied         the error of the pressure that would leave this residual
-    resolution      how far a function is from its resolution at points of its own, as a pressure
-    edges           what the load and rounding leave unknown of the edges, as an error of the
-                    pressure at a distance r from them
-    error           the estimated relative error of the pressure: the largest of these
-    tension, overlap    the intervals of x where p < 0 in contact and gap < 0 outside, as closely as these were scanned
-    notes           sentences on what the equations leave out: strains that are not small; they do
-                    not count for `ok`
+    Parameters
+    ----------
+    residual : float
+        Largest residual of the integral equation.
+    implied : float
+        The error of the pressure that would leave this residual.
+    force, moment : float
+        Defect of equilibrium.
+    lowest_pressure, lowest_gap : float
+        0 where p >= 0 in the contact and gap >= 0 beside it, otherwise negative.
+    abscissae : float
+        How much of the above is input rounding error: no double can tell p better where it changes
+        within one ulp of x.
+    tol : float
+        Tolerance that was asked for.
+    tension, overlap : tuple of tuple of float
+        Intervals of x where p < 0 in the contact and gap < 0 beside it, as closely as these were
+        scanned.
+    shear : ShearCertificate or None
+        What was measured on the shear traction.
+    resolution : float
+        How far a function is from its resolution at points of its own, as a pressure.
+    edges : float
+        What the load and rounding leave unknown of the edges, as an error of the pressure at a
+        distance r from them.
+    notes : tuple of str
+        Sentences on strains that are not small; they do not count for `ok`.
 
-    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is
-    (r/d)^(1/2 + |ε|).
+    Notes
+    -----
+    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is (r/d)^(1/2 +
+    |ε|).
     """
 
     residual: float
@@ -66,6 +85,7 @@ class Certificate:
 
     @property
     def error(self) -> float:
+        """Estimated relative error of the pressure: the largest of the defects."""
         defects = (
             self.residual,
             self.implied,
@@ -78,7 +98,7 @@ class Certificate:
 
     @property
     def ok(self) -> bool:
-        """Every defect within tol, but for what rounding of the abscissae explains."""
+        """Whether every defect is within tol, but for what rounding of x explains."""
         allowed = _allowed(self.tol, self.abscissae)
         if self.shear is not None and not self.shear.ok:
             return False
@@ -89,6 +109,7 @@ class Certificate:
         )
 
     def as_dict(self) -> dict[str, Any]:
+        """The certificate as numbers, lists and strings by name, for JSON."""
         numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {
             "error": self.error,
             "ok": self.ok,
@@ -145,6 +166,7 @@ class ShearCertificate:
 
     @property
     def error(self) -> float:
+        """Estimated relative error of the shear traction."""
         return max(
             LEAST,
             *(
@@ -155,10 +177,12 @@ class ShearCertificate:
 
     @property
     def ok(self) -> bool:
+        """Whether every defect is within tol, but for what rounding of x explains."""
         allowed = _allowed(self.tol, self.abscissae)
         return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
 
     def as_dict(self) -> dict[str, Any]:
+        """The certificate as numbers, strings and truth values by name, for JSON."""
         return {f.name: getattr(self, f.name) for f in fields(self)} | {
             "error": self.error,
             "ok": self.ok,

@@ -14,9 +14,22 @@ TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 
 
 @dataclass(frozen=True)
 class Path:
-    """Turning points (P, Q, σ) of the normal load, the tangential load and the bulk stress; σ may
-    be left out.
+    """A load path: the turning points (P, Q, σ) of its loads.
 
+    Parameters
+    ----------
+    points : iterable of sequence of float
+        (P, Q, σ) or (P, Q): normal load and tangential load in force per length, bulk stress in
+        units of stress. Loads change in proportion to time from each point to the next. The path
+        may begin unloaded, at (0, 0, 0).
+
+    Raises
+    ------
+    ValueError
+        For values that are no loads, or where the bodies do not touch.
+
+    Examples
+    --------
     >>> Path([(10.0, 0.0), (10.0, 2.0), (10.0, -2.0)]).points[1]
     (10.0, 2.0, 0.0)
     """
@@ -43,9 +56,25 @@ class Path:
         return len(self.points)
 
     def subdivided(self, parts: int) -> Path:
-        """The same path with every step in so many equal parts, but for that to its first point:
-        shows what happens between two of them.
+        """The same path with every step, but that to the first point, in equal parts.
 
+        Parameters
+        ----------
+        parts : int
+            Into how many parts a step is cut, at least 1.
+
+        Returns
+        -------
+        Path
+            The path that shows what happens between two turning points.
+
+        Raises
+        ------
+        ValueError
+            If `parts` is no whole number of at least 1.
+
+        Examples
+        --------
         >>> Path([(10.0, 0.0), (10.0, 2.0)]).subdivided(2)
         Path([(10.0, 0.0, 0.0), (10.0, 1.0, 0.0), (10.0, 2.0, 0.0)])
         """

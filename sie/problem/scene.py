@@ -1,6 +1,6 @@
-"""The question: a profile, two bodies, loads, friction.
+"""The question: a profile, two bodies, loads and friction.
 
-A value that refuses nonsense when it is built.
+A scene refuses what makes no contact problem when it is built.
 """
 
 from __future__ import annotations
@@ -18,20 +18,52 @@ from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modul
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A plane contact problem, per unit length, in any consistent units.
+    """A plane contact problem per unit length of the line of contact, in any consistent units.
 
-    profile            the gap h(x) between the undeformed indenter and the flat surface
-    body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
-                       or, in their place, modulus = E*, dundurs = β, poisson = ν
-    dundurs            beside body and indenter: 0 neglects their β, all else stays theirs; |β| < 1e-12 is 0 without asking
-    normal_load        P, force per length;  or half_width, length: exactly one of the two
-    tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
-    friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
-    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body. Both grow in proportion, after P is applied
-    sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
+    Parameters
+    ----------
+    profile : Profile
+        The gap h(x) between the undeformed indenter and the flat surface of the body.
+    body, indenter : Elastic or RIGID
+        The two bodies; the indenter is of the body's material if it is not given.
+    normal_load : float
+        P > 0, force per length. Exactly one of `normal_load` and `half_width` is given.
+    half_width : float
+        Half-width of the contact, length.
+    tilt : float, optional
+        Angle that is added to the slope of the profile.
+    moment : float, optional
+        ∫p x dx about x = 0 in place of `tilt`, which is then found.
+    friction : float, optional
+        Coulomb's coefficient f; inf for full stick (a flat punch).
+    tangential_load : float, optional
+        Q, force per length.
+    bulk_stress : float, optional
+        Tension σ along x in the body, stress. Q and σ grow in proportion, after P is applied.
+    sliding : {-1, 0, 1}, optional
+        +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows.
+    modulus : float
+        E* in place of the bodies, stress.
+    dundurs : float, optional
+        Dundurs' β beside `modulus`; |β| < 1e-12 is taken for 0. Beside bodies, 0 neglects their β.
+    poisson : float, optional
+        Poisson's ratio of the body beside `modulus`, for σ_zz.
 
-    Raises ValueError, with the value and the remedy, for anything that does not make a contact
-    problem.
+    Raises
+    ------
+    ValueError
+        For anything that does not make a contact problem, with the value and what to give instead.
+
+    Notes
+    -----
+    A scene is a value: equal, hashable, picklable, and printed as the code that rebuilds it.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0)
+    >>> round(sie.solve(scene).half_width, 6)
+    0.282095
     """
 
     profile: Profile
@@ -186,8 +218,9 @@ class Scene:
 
     @property
     def epsilon(self) -> float:
-        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β
-        f in full sliding.
+        """ε of the edge exponents in full sliding, 1/2 + ε on the left and 1/2 - ε on the right.
+
+        tan πε = -β f for sliding along +x.
         """
         slides = self.slides
         return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
@@ -210,11 +243,9 @@ class Scene:
 
     @property
     def tau(self) -> float:
-        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4
-        for similar bodies.
-
-        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E*
-        the bodies are taken as similar.
+        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress.
+         It is what 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)): σ/4 for
+        similar bodies. With modulus = E* the bodies are taken as similar.
         """
         if self.body is None or self.indenter is None:
             return 0.25 * self.bulk_stress

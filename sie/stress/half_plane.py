@@ -120,20 +120,33 @@ class Gradients(NamedTuple):
 
 
 class Stress:
-    """The stress at points (x, y), y >= 0 the depth; every value an array of the broadcast shape,
-    computed when it is asked for.
+    """The stress at points of the body; every value is computed when it is asked for.
 
-    xx, yy, xy, zz            components; tension is positive
-    in_plane_sum              xx + yy, for which no derivative of a potential is needed
-    in_plane_shear            the largest shear stress in the plane
-    j2, mises, max_shear      second invariant of the deviator; sqrt(3 J2); half the largest difference of principal stresses (Tresca)
-    principal                 (σ1, σ2, σ3), σ1 >= σ2 >= σ3, among them σ_zz
-    xx, yy, xy, zz = stress   all components at once
-    strain, gradients         Tensor and Gradients of the displacement, without the rigid rotation (at infinity it is 0)
+    Parameters
+    ----------
+    tractions : Tractions
+        What acts on the body.
+    x, y : array_like of float
+        Positions and depths, y >= 0, length. They are broadcast against each other, and every value
+        has the broadcast shape.
 
-    Where p is infinite (a sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both
-    given as -inf. ValueError for points above the surface, and where Poisson's ratio or the body is
-    needed but not given.
+    Raises
+    ------
+    ValueError
+        For points above the surface, and where Poisson's ratio or the body is needed but not given.
+
+    Notes
+    -----
+    Tension is positive. `xx, yy, xy, zz = stress` unpacks the components. Where p is infinite (a
+    sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both given as -inf.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+    >>> solution = sie.solve(scene)
+    >>> bool(solution.stress(0.0, 0.0).yy == -solution.pressure(0.0))
+    True
     """
 
     def __init__(self, tractions: Tractions, x: ArrayLike, y: ArrayLike) -> None:
@@ -155,20 +168,24 @@ class Stress:
 
     @property
     def xx(self) -> Array:
+        """σ_xx, ndarray of float, stress."""
         s, D = self._both
         return s - D.real
 
     @property
     def yy(self) -> Array:
+        """σ_yy, ndarray of float, stress."""
         s, D = self._both
         return s + D.real
 
     @property
     def xy(self) -> Array:
+        """σ_xy, ndarray of float, stress."""
         return self._both[1].imag.copy()
 
     @property
     def zz(self) -> Array:
+        """σ_zz, ndarray of float, stress: ν (σ_xx + σ_yy) in plane strain, 0 in plane stress."""
         t = self.tractions
         return _times(0.0 if t.plane == "stress" else 2.0 * t.known_poisson, self._s)
 
@@ -179,26 +196,30 @@ class Stress:
 
     @property
     def in_plane_sum(self) -> Array:
+        """σ_xx + σ_yy, for which no derivative of a potential is needed."""
         return 2.0 * self._s
 
     # -- invariants --------------------------------------------------------------------------------
 
     @property
     def in_plane_shear(self) -> Array:
+        """The largest shear stress in the plane."""
         return np.abs(self._both[1])
 
     @property
     def j2(self) -> Array:
-        """½ s:s = |D|² + (s - σ_zz)²/3."""
+        """Second invariant of the deviator, ½ s:s = |D|² + (s - σ_zz)²/3, stress²."""
         s, D = self._both
         return D.real**2 + D.imag**2 + _times(self.tractions.out_of_plane, s) ** 2 / 3.0
 
     @property
     def mises(self) -> Array:
+        """Von Mises stress √(3 J2)."""
         return np.sqrt(3.0 * self.j2)
 
     @property
     def max_shear(self) -> Array:
+        """Half the largest difference of principal stresses (Tresca)."""
         shear = self.in_plane_shear
         return np.maximum(
             shear, 0.5 * (shear + np.abs(_times(self.tractions.out_of_plane, self._s)))
@@ -206,6 +227,7 @@ class Stress:
 
     @property
     def principal(self) -> tuple[Array, Array, Array]:
+        """Principal stresses (σ1, σ2, σ3), σ1 >= σ2 >= σ3, with σ_zz among them."""
         s, shear, zz = self._s, self.in_plane_shear, self.zz
         finite = np.isfinite(shear)
         high = np.where(finite, s + np.where(finite, shear, 0.0), s)
@@ -216,7 +238,12 @@ class Stress:
 
     @property
     def strain(self) -> Tensor:
-        """Hooke's law, 2μ ε = σ - (3 - κ)/4 (σ_xx + σ_yy) 1 in the plane."""
+        """Strains, a `Tensor` of arrays.
+
+        Notes
+        -----
+        Hooke's law, 2μ ε = σ - (3 - κ)/4 (σ_xx + σ_yy) 1 in the plane.
+        """
         body = self.tractions.known_body
         two_mu = 2.0 * body.shear_modulus
         s, D = self._both
@@ -226,6 +253,7 @@ class Stress:
 
     @property
     def gradients(self) -> Gradients:
+        """Displacement gradients, a `Gradients` of arrays; the rotation at infinity is 0."""
         e, body = self.strain, self.tractions.known_body
         rotation = -(body.kolosov + 1.0) / (4.0 * body.shear_modulus) * self._real_potential
         infinite = np.isinf(rotation) & (e.xy == -rotation)

@@ -31,12 +31,23 @@ CRITERIA = ("mises", "tresca")
 class YieldPoint:
     """Where a body yields first.
 
-    load      P/k, a length: times the yield stress in shear k it is the load under which a contact of these edges begins to yield
-    x, y      where: the leftmost place if there are several; y = 0 on the surface
-    j2        the second invariant there, under the load of the solution
-    stress    what the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca), under that load
-    half_width, places     b, and all places where the largest value is taken
-    ratio     P/(bk), as in charts
+    Parameters
+    ----------
+    load : float
+        P/k, length: times the yield stress in shear k it is the load under which a contact of these
+        edges begins to yield.
+    x, y : float
+        Position and depth, length; of several places the leftmost. y = 0 is the surface.
+    j2 : float
+        Second invariant of the stress deviator there, stress², under the load of the solution.
+    stress : float
+        What the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca).
+    half_width : float
+        Half-width b of the contact, length.
+    places : tuple of tuple of float
+        All places (x, y) where the largest value is reached.
+    criterion : {"mises", "tresca"}
+        Yield criterion.
     """
 
     load: float
@@ -50,15 +61,25 @@ class YieldPoint:
 
     @property
     def ratio(self) -> float:
+        """P/(bk), as in charts."""
         return self.load / self.half_width
 
     @property
     def on_surface(self) -> bool:
+        """Whether the body yields first on its surface."""
         return self.y == 0.0
 
 
 class Peak(NamedTuple):
-    """The largest tension on the surface and where it is."""
+    """The largest tension on the surface, and where it is.
+
+    Parameters
+    ----------
+    value : float
+        σ_xx, stress.
+    x : float
+        Position, length.
+    """
 
     value: float
     x: float
