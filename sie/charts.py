@@ -1,5 +1,4 @@
-"""The charts of Ciavarella, Hills & Monno (1998) as numbers: what their Figs 4 to 8 show of the
-punch with rounded edges.
+"""The charts of Ciavarella, Hills & Monno (1998) as numbers: Figs 4 to 8, of the rounded punch.
 
 All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only.
 Drawing is elsewhere (`python -m validation --only paper`).

@@ -398,7 +398,7 @@ class PathSlip(Slip):
 
     @property
     def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
-        """What slipped while P fell, until the edges had passed it: slip turned there, or stopped."""
+        """What slipped while P fell, and then left the contact: slip turned there, or stopped."""
         zones: list[tuple[float, float, float]] = []
         for gone in self.state.slips:
             if gone is not self.state.last:

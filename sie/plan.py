@@ -280,7 +280,10 @@ def _coupling(scene: Scene) -> Step:
     if scene.beta == 0.0:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
     if scene.slides:
-        why = f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+        why = (
+            f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: "
+            f"edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+        )
         return Step("coupling", True, f"{why}, panels with Lerch's function for the logarithm")
     return Step(
         "coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure"

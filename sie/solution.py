@@ -69,7 +69,10 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
 }
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
 # constants stay.
-NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
+NEGLECTED = (
+    "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions "
+    "by a part of about β"
+)
 _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
 )

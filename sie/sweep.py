@@ -228,11 +228,13 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
     for name, quantity in wanted.items():
         if not callable(quantity) and quantity not in QUANTITIES:
             raise ValueError(
-                f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution'
+                f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, '
+                "or give a dict of functions of a solution"
             )
         if name == "reason":
             raise ValueError(
-                'want "reason" is what a sweep calls why a point has no answer: give the quantity another name'
+                'want "reason" is what a sweep calls why a point has no answer: '
+                "give the quantity another name"
             )
     return wanted
 

@@ -1,9 +1,8 @@
-"""The certificate of full stick: both equations measured at once, at points that the solver did not
-use.
+"""The certificate of full stick: both equations at once, at points that the solver did not use.
 
-With φ = p + i q, iβ φ(x) - 1/π PV∫φ(t)/(t - x) dt = E*/2 tilt on the whole contact and ∫φ dx = P +
-i Q. φ oscillates towards both edges, so that the rule is graded there. The gap is zero by
-assumption, and tension is allowed.
+With φ = p + i q, iβ φ(x) - 1/π PV∫φ(t)/(t - x) dt = E*/2 tilt on the whole contact, and
+∫φ dx = P + i Q. φ oscillates towards both edges, so that the rule is graded there. The gap is zero
+by assumption, and tension is allowed.
 """
 
 from __future__ import annotations

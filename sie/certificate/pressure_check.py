@@ -1,18 +1,17 @@
-"""The certificate: does the answer satisfy the question? Measured on the pressure's values alone,
-at points that no solver used.
+"""The certificate of a pressure: measured on its values alone, at points that no solver used.
 
-    residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak       the integral equation (1)
-    equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)              the equation is blind to C/w(x): these are not
+    residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 h'(x)| / peak     the integral equation (1)
+    equilibrium   |∫p dx - P| / P,    |∫p x dx - M| / (P r)
     inequalities  p >= 0 in contact, gap >= 0 outside
-    resolution    E*/2 |h' - its resolution| / peak                      of a function
-    edges         ΔP/(π r peak), ΔP the load that wrong edges carry      by their conditions
-
-The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the slope:
-nothing of the closed forms is used. The resolution is compared at points of a low-discrepancy
-sequence (`unseen`). An edge x2 that is off by δ carries ΔP = G r JR δ too much (`edges`), and
-leaves ΔP/(π w(x)) in the pressure, w = sqrt((x - x1)(x2 - x)), like the load on a flat punch: next
-to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if x2 is
-kept as a double; the rounding of ∫H dφ is a part of ΔP.
+    resolution    E*/2 |h' - its resolution| / peak                    of a function
+    edges         ΔP/(π r peak), ΔP the load that wrong edges carry    by their conditions
+ Equilibrium is measured by itself, because the equation is blind to C/w(x), w = sqrt((x - x1)(x2 -
+x)). The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the
+slope; nothing of the closed forms is used. The resolution is compared at points of a
+low-discrepancy sequence (`profiles.unresolved`). An edge x2 that is off by δ carries ΔP = G r JR δ
+too much (`contact.edges`), and leaves ΔP/(π w(x)) in the pressure, like the load on a flat punch:
+next to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if
+x2 is kept as a double. The rounding of ∫H dφ is a part of ΔP.
 """
 
 from __future__ import annotations

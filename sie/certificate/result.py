@@ -147,11 +147,30 @@ class Certificate:
 
 @dataclass(frozen=True)
 class ShearCertificate:
-    """What was measured on a shear traction (see `slipcheck`). Relative to the largest |q|, to ∫|q|
-    dx, to f times the peak pressure.
+    """What was measured on a shear traction (`shear_check`).
 
-    condition     how much larger the relative error of the load on the stick zone is than that of P or Q
-    advancing     whether the zones of slip only grow on the way to this state
+    Numbers are relative to the largest |q|, to ∫|q| dx, or to f times the peak pressure.
+
+    Parameters
+    ----------
+    residual : float
+        Largest residual of the equation where the contact never slipped.
+    equilibrium : float
+        Defect of ∫q dx = Q.
+    excess : float
+        Largest violation of |q| <= f p, and of |q| = f p in slip zones.
+    opposing : float
+        0 where all slip has the direction of q, otherwise negative.
+    abscissae : float
+        How much of the above is input rounding error.
+    condition : float
+        Relative error of the load on the stick zone over one of P or Q.
+    advancing : bool
+        Whether the slip zones only grow on the way to this state.
+    kind : str
+        Name of the state.
+    tol : float
+        Tolerance that was asked for.
     """
 
     residual: float

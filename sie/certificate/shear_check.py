@@ -1,9 +1,8 @@
-"""The certificate of a shear traction: measured on its values and those of the pressure, at points
-that no solver used.
+"""The certificate of a shear traction, measured at points that no solver used.
 
-residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
+residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     where the contact never slipped
 equilibrium   |∫q dx - Q| / ∫|q| dx
-excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
+excess        largest |q| - f p, and of ||q| - f p| in slip zones, over the peak of f p
 opposing      smallest slip in the direction of q over the largest
 """
 
@@ -23,9 +22,8 @@ from .result import ShearCertificate
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
-ENDS = (
-    32.0 * EPS
-)  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
+# of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
+ENDS = 32.0 * EPS
 
 
 def shear_certificate(
@@ -128,7 +126,7 @@ def _rounding(
 
 
 def _points(state: Slip, nodes: Array) -> Array:
-    """Where the equation is measured: over the zone that never slipped, half-way between two nodes."""
+    """Where the equation is measured: over the zone that never slipped, half-way between nodes."""
     lo, hi = state.untouched
     nodes = np.unique(nodes)
     at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)

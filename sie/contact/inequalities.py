@@ -54,8 +54,8 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
 
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
-    """Raise InequalityError, saying where, if one patch of contact would need p < 0 inside or gap <
-    0 outside.
+    """Verify p >= 0 inside and gap >= 0 outside; InequalityError says where one patch violates
+    them.
     """
     x = np.concatenate((_scan(density.contact, slope), inner(density.contact, slope.breaks)))
     p = density(x)

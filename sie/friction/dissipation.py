@@ -430,7 +430,7 @@ class Growth:
     # -- contacts ----------------------------------------------------------------------------------
 
     def _rate(self, y: float) -> float:
-        """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp (`edges`)."""
+        """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp."""
         (contact, sharp, k), G = self.contact(y), self._search.half_modulus
         rise1 = contact.r * k.JL - (0.5 * k.I0 if sharp[1] else 0.0)
         rise2 = contact.r * k.JR + (0.5 * k.I0 if sharp[0] else 0.0)

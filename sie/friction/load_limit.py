@@ -33,7 +33,8 @@ def _within(value: float, digits: int, side: int) -> str:
     shown = f"{value:.{digits}g}"
     if side * float(shown) < side * value:
         rounding = ROUND_CEILING if side > 0 else ROUND_FLOOR
-        shown = f"{float(Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):.{digits}g}"
+        context = Context(prec=digits, rounding=rounding)
+        shown = f"{float(context.create_decimal_from_float(value)):.{digits}g}"
     return shown
 
 

@@ -1,18 +1,18 @@
 """The memory of a contact that slips to and fro: which way each of its layers was last sheared.
 
-Let the contact grow from nothing to its normal load P, layer by layer: the pressure is p = ∫
-(∂p/∂P') dP', and so is every shear traction that slip at the edges can leave behind,
+Let the contact grow from nothing to its normal load P, layer by layer: the pressure is
+p = ∫ (∂p/∂P') dP', and so is every shear traction that slip at the edges can leave behind,
 
-    q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f                      (Jäger 1998; Mindlin & Deresiewicz 1953)
+    q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f
 
-because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P'. A change of Q at constant P
-overwrites κ by ± f from the top (the edges) down, as deep as it takes: Masing's rule, with all its
-memory of turning points, and their wiping out. P that grows adds a layer with κ = dQ/dP, which does
-not slip while |dQ/dP| <= f; P that falls takes layers away. Thickness is counted in Q: f dP'.
-
-At constant P the same holds of any step that opens slip zones monotonically, with a bulk stress in
-proportion to Q too: depth is then the amplitude of the step (Q, σ) that reaches it from a contact
-that never slipped. Only that the zones grow with the amplitude is used.
+because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P' (Mindlin & Deresiewicz 1953; Jäger
+1998). A change of Q at constant P overwrites κ by ± f from the top (the edges) down, as deep as it
+takes: this is Masing's rule, with its memory of turning points and their wiping out. P that grows
+adds a layer with κ = dQ/dP, which does not slip while |dQ/dP| <= f; P that falls takes layers away.
+Thickness is counted in Q: f dP'.
+ At constant P the same holds of any step that opens slip zones monotonically, also with a bulk
+stress in proportion to Q: depth is then the amplitude of the step (Q, σ) that reaches it in a
+contact that never slipped. Only that the zones grow with the amplitude is used.
 """
 
 from __future__ import annotations
@@ -44,8 +44,11 @@ PROPORTIONAL = (
 
 @dataclass(frozen=True)
 class TurningPoint:
-    """A turning point: its loads, the memory there, and what slipped since the last one, in the
-    order of time.
+    """A turning point of a path.
+
+    loads     P, Q and σ
+    memory    the layers there
+    slips     what slipped since the last turning point, in the order of time
     """
 
     loads: tuple[float, float, float]
@@ -67,6 +70,9 @@ def direction(path: Path) -> tuple[float, float]:
 
 
 def turning_points(scene: Scene, path: Path) -> tuple[TurningPoint, ...]:
+    """The layers after each step of a path. Raises ContactError, with the step, where one is not
+    covered.
+    """
     unit, f = direction(path), scene.friction
     state = TurningPoint((0.0, 0.0, 0.0), LoadMemory(0.0))
     found = []

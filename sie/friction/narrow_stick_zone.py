@@ -1,15 +1,15 @@
-"""A narrow stick zone between two zones of slip in opposite directions: what a large bulk stress
-leaves of the contact.
+"""A narrow stick zone between slip zones of opposite directions, as a large bulk stress leaves it.
 
-The two conditions of `slip_zones` in the combinations that stay apart when the stick zone [c - ρ, c
-+ ρ] shrinks; s = ±1 is the sign of τ, t the distance from c and |R| = sqrt(t² - ρ²):
+The two conditions of `slip_zones` in the combinations that stay apart when the stick zone
+[c - ρ, c + ρ] shrinks; s = ±1 is the sign of τ, t the distance from c, and |R| = sqrt(t² - ρ²):
 
-    ∫_left p/|R| ds + ∫_right p/|R| ds = π |τ|/f                     says how narrow it is: ρ ~ exp(-π |τ|/(2 f p(c)))
-    ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f                   says where it is: for ρ -> 0 slip to and fro balance Q
-
-Newton's method in ln ρ and ln(distance of c from the nearer edge), from the limit ρ -> 0. A zone
-narrower than `PINCHED` is a point in doubles: it is solved for with that width, and what is left of
-the strain is slip from c on (`SlipZones.unheld`).
+    ∫_left p/|R| ds + ∫_right p/|R| ds     = π |τ|/f
+    ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f
+ The first says how narrow it is, ρ ~ exp(-π |τ|/(2 f p(c))), the second where it is: for ρ -> 0
+slip to and fro balance Q. They are solved by Newton's method in ln ρ and ln(distance of c from the
+nearer edge), from the limit ρ -> 0. A zone narrower than `PINCHED` is a point in doubles: it is
+solved for with that width, and the strain that it does not hold is slip from c on
+(`SlipZones.unheld`).
 """
 
 from __future__ import annotations

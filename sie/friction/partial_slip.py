@@ -1,27 +1,30 @@
-"""From a pressure and a load step to zones of stick and slip, shear and slip, at β = 0.
+"""Partial slip: from a pressure and a load step to stick zones, slip zones and shear, at β = 0.
 
-After the normal load P, at constant P, the tangential load Q and the bulk stress σ (τ =
-`Scene.tau`, σ/4 for similar bodies) are applied:
+After the normal load P, at constant P, the tangential load Q and the bulk stress σ are applied
+(τ = `Scene.tau`, σ/4 for similar bodies):
 
-    |q| <= f p,      1/π PV∫q/(x - t) dt = τ  and slip 0 in the stick zone,      q = ± f p, in the direction of slip, beside it
+    |q| <= f p,      1/π PV∫q/(x - t) dt = τ and slip 0 in the stick zone,
+    q = ± f p, in the direction of slip, in the slip zones
+ slip(x) is the tangential displacement of the indenter relative to the body, positive along +x.
+Where it is positive so is q, which acts on the body. Loads and inequalities tell four states apart:
 
-slip(x) is the tangential displacement of the indenter relative to the body, positive along +x:
-where it is positive so is q, which acts on the body. There are five states, told apart by the loads
-and by the inequalities:
+    stick               Q = 0 = σ                       no shear
+    incipient sliding   |Q| = f P                       q = ± f p, no second solve
+    one-signed slip     π r |τ| <= |Q|, or if it fits   q = ± f (p - p̂), slip = ± f gap^
+    two-signed slip     otherwise                       opposite slip beside the two edges
 
-    stick       Q = 0 = σ                            no shear
-    sliding     |Q| = f P                            q = ± f p, no second solve
-    one sign    π r |τ| <= |Q|, or if it fits        q = ± f (p - p̂), slip = ± f gap^:  p̂ is the pressure of the same profile, tilted by
-                                                     -2τ/(± f E*), under the load P - |Q|/f, and gap^ the gap beside that contact
-    two signs   otherwise                            slip to the left on one side, to the right on the other (`zones`)
+In one-signed slip p̂, the corrective pressure, is that of the same profile, tilted by -2τ/(± f E*),
+under the reduced load P - |Q|/f, and gap^ is the gap beside that contact. This is Cattaneo's and
+Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998): subtracting the equations (1)
+and (12) leaves the normal problem for p̂ and for the slip. It holds where the contact of p̂ lies
+within that of p and p̂ <= 2p there. In two-signed slip the ends of the slip zones have equations of
+their own (`slip_zones`, and `narrow_stick_zone` for a large bulk stress).
 
-"One sign" is Cattaneo's and Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998):
-subtracting the equations (1) and (12) leaves the normal problem for p̂ and for the slip. It holds
-where the contact of p̂ lies within that of p and p̂ <= 2p there. Along the step itself dq = [dQ/π -
-dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone, so that with π r |τ| <= |Q|, r the half-width of
-the contact, it always does, and the zones of slip only grow. Where they would have to retreat on
-the way (r replaced by ρ, the wrong sign), the state given is that of the friction law in total
-displacements, as in Nowell & Hills (1987), and `advancing` is False.
+Along the step dq = [dQ/π - dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone of half-width ρ. With
+π r |τ| <= |Q|, r the half-width of the contact, slip is one-signed and the slip zones only grow.
+Where they would have to retreat on the way (r replaced by ρ, the wrong sign), the state given is
+that of the friction law in total displacements, as in Nowell & Hills (1987), and `advancing` is
+False.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
-"""Shear tractions in partial slip as densities: with their potential, which is exact up to the
-surface.
+"""Shear tractions in partial slip as densities, with their potentials up to the surface.
 
-    one sign     q = ± f (p - p̂),         Fq = ± f (Fp - Fp̂)
-    two signs    slip of the sign s next to z and of -s on the other side of the stick zone, N(z) the formal inversion of the slope there:
+    one-signed slip    q = ± f (p - p̂),         Fq = ± f (Fp - Fp̂)
 
-        Fq(z) = s f [Fp(z) - N(z)] + τ ± 2 s f R(z)/π ∫_other side p(t)/(|R(t)| (z - t)) dt        (+ where the other side is the left one)
+    two-signed slip    Fq(z) = s f [Fp(z) - N(z)] + τ ± 2 s f R(z)/π ∫ p(t)/(|R(t)| (z - t)) dt
 
-The integral is over the far zone: what is close to z is in closed form.
+Here slip has the sign s next to z and -s on the other side of the stick zone, N(z) is the formal
+inversion of the slope on the stick zone, and the integral is over the slip zone on the other side
+(+ where that is the left one). What is close to z is in closed form.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ROWS = 4096  # points at a time
 @dataclass(frozen=True, eq=False)
 class OneSignedShear(Density):
     """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip
-    zones' pull instead (`zones`).
+    zones instead (`SlipZones`).
     """
 
     pressure: SlopeDensity

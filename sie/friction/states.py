@@ -1,6 +1,6 @@
-"""The states of a contact under tangential load: where it sticks, where it slips, what it carries.
+"""The states of a contact under tangential load: where it sticks, where it slips, and the shear.
 
-`slip` says which one it is.
+`partial_slip.slip` decides which of them a contact is in.
 """
 
 from __future__ import annotations
@@ -73,9 +73,16 @@ class Step:
 
 
 class Slip(ABC):
-    """Zones of stick and slip of a contact, and the shear there.
+    """A state of stick and slip.
 
-    stick    the stick zones (lo, hi);     shear    q, a Density;     slip(x)    see the module;     kind    which of the states it is
+    kind         name of the state
+    contact      the contact
+    friction     f
+    stick        stick zones (lo, hi)
+    shear        shear traction q
+    slip(x)      relative slip
+    advancing    whether the slip zones grow along the whole step
+    condition    relative error of the load on the stick zone over one of P or Q
     """
 
     kind: str

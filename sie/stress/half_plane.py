@@ -286,7 +286,7 @@ class Stress:
         return s, D
 
     def _filled(self, function: Any, kind: type, second: Any = None) -> Any:
-        """function(x, y, surface?) over all points, in parts of one kind: on the surface or below."""
+        """function(x, y, surface?) over all points, in parts on the surface and parts below."""
         first: Any = np.empty(self.x.shape, dtype=kind)
         outs = [out.reshape(-1) for out in (first, second) if out is not None]
         x, y = (v.reshape(-1) if v.flags.c_contiguous else v.flat for v in (self.x, self.y))

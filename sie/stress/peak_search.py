@@ -1,9 +1,8 @@
-"""The largest value that a measure of the stress takes in the body: scanned on the scale of its
-singularities, polished by Newton.
-
-Where the maxima can hide.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it; what is not smooth
-are the edges and breaks of the tractions, the marks. So on a disc that keeps away from these by its own radius the stress is a fast
-convergent power series, and a scan whose cells are as large as a fraction of
+"""The largest value of a measure of stress in the body: scanned at every scale, polished by Newton.
+ Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
+What is not smooth are the edges and breaks of the tractions, the marks. On a disc that keeps away
+from these by its own radius the stress is a fast convergent power series, so that a scan whose
+cells are as large as a fraction of
 
     s(x) = min_j (|x - m_j| + g_j),      m_j the marks, g_j a fraction of the gap to the next one
 
@@ -16,13 +15,13 @@ the scan becomes a start, with its neighbours to both sides, because two maxima 
 side of a saddle under the centre; so does what lies beneath a maximum of the surface from which the
 measure grows inwards.
 
-Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with ρ = y/400 exact to 400^-N,
+Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with
+ρ = y/400 exact to 400^-N,
 
     F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
-
-so that gradient and Hessian are those of the stress itself, no finite differences. On the surface
-the derivative is Fp' there, and its sign changes are bracketed between neighbouring columns, of
-which every edge and break is one.
+ so that gradient and Hessian are those of the stress itself, without finite differences. On the
+surface the derivative is Fp' there, and its sign changes are bracketed between neighbouring
+columns, of which every edge and break is one.
 """
 
 from __future__ import annotations
@@ -53,15 +52,12 @@ OUTSIDE = 1.8  # half-widths: how far beside the contact the scan looks, and ...
 FAR = 1e3  # ... the surface
 DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
 LEVELS = 6  # depths between two decisions of what to leave out
-SPACING, CELL = (
-    0.15,
-    0.03,
-)  # of the depth: columns nearer to a mark than that are left out, and others nearer to each other than that
+# of the depth: columns nearer to a mark are left out, and others nearer to each other
+SPACING, CELL = 0.15, 0.03
 ALONE = 8.0  # depths: columns farther apart are no neighbours
-HOPELESS, WINDOW = (
-    0.8,
-    4.0,
-)  # what stays below this fraction of the largest value at one scale, on a surface so many depths wide, is left
+# what stays below this fraction of the largest value at one scale, on a surface so many depths
+# wide, is left
+HOPELESS, WINDOW = 0.8, 4.0
 # of the largest value known: maxima of the scan below it, which is off by its curvature over a
 # cell, are not polished
 WORTH = 0.85
@@ -527,7 +523,7 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
 
 
 def surface_values(tractions: Tractions, x: Array) -> Array:
-    """(s, D_r, D_i) on the surface, (3, n); at the edges of the contact their limits from inside."""
+    """(s, D_r, D_i) on the surface, (3, n); at the edges their limits from inside the contact."""
     p, q = tractions.pressure(x), tractions.shear(x)
     hilbert = hilbert_of_shear(tractions, x, p)
     if tractions.shear.interval == tractions.pressure.interval:

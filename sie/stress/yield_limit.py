@@ -1,14 +1,13 @@
-"""What the contact does to the material: the load at which the body yields first, and the largest
-tension on its surface.
+"""The first-yield load of a body, and the largest tension on its surface.
 
     von Mises   J2 = ½ s:s = |D|² + (s - σ_zz)²/3 = k²               (k: yield stress in shear)
     Tresca      max( |D|, (|D| + |s - σ_zz|)/2 ) = k
 
-with s and D of `field`. Stresses grow in proportion to the load in a contact of given edges
-(stiffer bodies under more load), so that P/k = P/√J2 is what one solution tells; charts show
-P/(bk). The largest J2 may be taken twice (either side of the centre, for a/b > 0.1277 of the
-frictionless rounded punch), in a flat valley, or jump to the surface as friction grows: `maxima`
-finds all, and ties are kept.
+with s and D of `half_plane`. Stresses grow in proportion to the load in a contact of given edges
+(stiffer bodies under more load), so that one solution gives P/k = P/√J2; charts show P/(bk). The
+largest J2 may be reached twice (either side of the centre, for a/b > 0.1277 of the frictionless
+rounded punch), in a flat valley, or jump to the surface as friction grows: `peak_search` finds all,
+and ties are kept.
 """
 
 from __future__ import annotations
