@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from .contact.pressure import Normal
 from .errors import ContactError, LoadError
-from .friction.dissipation import Growth, dissipated
+from .friction.dissipation import Dissipation, dissipated
 from .friction.memory import SlippedLayer, direction, turning_points
 from .friction.partial_slip import slip
 from .friction.states import OneSignedSlip, Slip, Step
@@ -223,15 +223,15 @@ class History(Sequence[Solution]):
                 self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
                 for P, o in zip(loads, layers, strict=True)
             ]
-        return self.growth.heat(loads, layers, self.scene.friction).tolist()
+        return self.dissipation.of_fronts(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
         return dissipated(self.first_loading(P, depth)) if depth else 0.0
 
     @cached_property
-    def growth(self) -> Growth:
-        """The contacts under all loads of the path."""
-        return Growth(
+    def dissipation(self) -> Dissipation:
+        """The heat of slip, and the contacts under all loads of the path."""
+        return Dissipation(
             self.scene,
             self.plain(max(P for P, _, _ in self.path.points)).normal,
             self.tol,
@@ -406,7 +406,10 @@ class PathSlip(Slip):
                     self.P - depth / self.friction
                     for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
                 )
-                outer, inner = (self.history.growth.contact(load).interval for load in (start, end))
+                outer, inner = (
+                    self.history.dissipation.contacts.contact(load).interval
+                    for load in (start, end)
+                )
                 zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
         return tuple(zones)
 
