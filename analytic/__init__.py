@@ -1,7 +1,7 @@
 """Closed forms of plane elastic contact, as plain functions of floats, arrays or mpmath numbers.
 
-A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0. Each module is one
-indenter under one kind of load:
+A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0.
+Each module is one indenter under one kind of load:
 
     hertz, flat, rounded_flat, wedge, power               pressed without friction, or bodies alike
     two_flats, two_parabolas                              two patches, one load

@@ -1,4 +1,5 @@
-"""Dissimilar bodies (beta != 0), where pressure and shear traction act on each other: one name for a family of modules.
+"""Dissimilar bodies (beta != 0), where pressure and shear traction act on each other: one name for
+a family of modules.
 
     dissimilar.sliding_hertz, .sliding_flat, .sliding_rounded_flat     full sliding, q = f p; `coupling` = beta f, signed as the sliding
     dissimilar.bonded_flat                                             full stick under P, Q and M; `dundurs` = beta

@@ -1,15 +1,17 @@
-"""Run times for development, off by default: pip install -e ".[bench]", then python -m pytest benchmarks --benchmark-group-by=func.
+"""Run times for development, off by default: pip install -e ".[bench]", then python -m pytest
+benchmarks --benchmark-group-by=func.
 
-What a change costs is seen by --benchmark-autosave before it and --benchmark-compare after it. Counts of solves and transforms, which do
-not depend on the machine, are asserted in tests/test_cost.py.
+What a change costs is seen by --benchmark-autosave before it and --benchmark-compare after it.
+Counts of solves and transforms, which do not depend on the machine, are asserted in
+tests/contact/test_cost.py.
 """
 
 import numpy as np
 import pytest
 
 import sie
-from validation.speed import closed_form
-from validation.timing import compared
+from validation.harness.timing import compared
+from validation.topics.speed import closed_form
 
 PROFILES = {
     "parabola": sie.Parabola(1.0),

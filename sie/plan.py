@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from .contact.pressure import upright_law
 from .problem.request import ECONOMY, sheared, wanted
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 
 # The stages of `Solution` that answer what is asked for.
 STAGES: dict[str, tuple[str, ...]] = {
@@ -115,6 +115,7 @@ def plan(
     >>> sorted(sie.plan(scene, want="pressure").stages)
     ['normal', 'pressure']
     """
+    refuse_no_scene(scene)
     names = wanted(want)
     needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
     stages = {stage for w in names for stage in needed[w]}

@@ -33,7 +33,7 @@ from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 from .profiles.sampled import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
@@ -669,12 +669,11 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     >>> round(sie.solve(scene).half_width, 6)
     0.282095
     """
-    if not isinstance(scene, Scene):
-        raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
+    refuse_no_scene(scene)
     tol = arguments.tolerance(tol)
-    unknown = set(economy) - ECONOMY
-    if unknown:
-        raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")
+    for name in arguments.listed("economy", economy, "a set of names"):
+        if not arguments.among(name, ECONOMY):
+            raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
     _refuse_uncovered(scene)
     return Solution(scene, tol, economy)
 

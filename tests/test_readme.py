@@ -1,4 +1,6 @@
-"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture and table are there."""
+"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture
+and table are there.
+"""
 
 import re
 import tomllib

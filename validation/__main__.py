@@ -1,6 +1,8 @@
-"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with pictures and one JSON of every number.
+"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with
+pictures and one JSON of every number.
 
-The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails, or a check is blind.
+The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails,
+or a check is blind.
 """
 
 from __future__ import annotations
@@ -13,11 +15,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from sie.io.files import write_files
-
-from . import readme
-from .report import Section, machine, number, page
-from .running import run
+from sie.files import write_files
+from validation import readme
+from validation.harness.report import Section, machine, number, page
+from validation.harness.running import run
 
 # Modules of this package, in the order of the page.
 TOPICS = (

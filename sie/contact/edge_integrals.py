@@ -58,6 +58,15 @@ class Moments(NamedTuple):
             self.size1,
         )
 
+    def balanced(self, r: float) -> Moments:
+        """Those of the contact moved sideways until I0 = 0, from those of one where I0 is small.
+
+        To first order, with 2 dI0 = (JR + JL) dm, 2 dI1 = (JR - JL) dm and dC2 = I1/r dm.
+        """
+        rise = self.JR + self.JL
+        I1 = self.I1 - self.I0 * (self.JR - self.JL) / rise
+        return self._replace(I0=0.0, I1=I1, C2=self.C2 - 2.0 * self.I0 / rise * self.I1 / r)
+
 
 NOTHING = Moments(*(0.0,) * 9)
 

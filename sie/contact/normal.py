@@ -107,12 +107,12 @@ def _within_scale(
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
     """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
-    sizes = {
-        "half-width": (r, SIZE),
-        "mean traction": (0.5 * load / r, SIZE),
-        "E* r²": (Estar * r * r, MOMENT),
-    }
-    for name, (size, largest) in sizes.items():
+    sizes = (
+        ("half-width", r, SIZE),
+        ("mean traction", 0.5 * load / r, SIZE),
+        ("E* r²", Estar * r * r, MOMENT),
+    )
+    for name, size, largest in sizes:
         if not 1.0 / largest <= size <= largest:
             raise LoadError(
                 f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {arguments.REMEDY}"

@@ -88,8 +88,10 @@ def pressure(
 def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
     """The power law of a profile that is pressed upright, where its closed form serves."""
     law = scene.profile.power_law
+    if law is None:
+        return None
     upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
-    return law if law is not None and law.explicit and upright else None
+    return law if law.explicit and upright else None
 
 
 def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:

@@ -34,6 +34,7 @@ NOTHING = 8.0 * EPS
 BALANCED = (
     1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
 )
+ROUNDED = 4.0 * EPS  # of f P: by so much a rise in proportion may exceed |dQ| = f dP
 PROPORTIONAL = (
     1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
 )
@@ -136,7 +137,7 @@ def _stepped(
         rise = f * (P - P0)
         k = (Q - Q0) / rise
         memory = replace(before.memory.raised(rise, min(max(k, -1.0), 1.0)), size=f * P)
-        if abs(k) <= 1.0:
+        if abs(Q - Q0) <= rise + ROUNDED * f * P:
             return TurningPoint(loads, memory)
         sheared = _sheared(loads, memory, Q)
         return replace(sheared, slips=tuple(slip.while_raised(rise) for slip in sheared.slips))
@@ -283,7 +284,7 @@ class LoadMemory:
             taken = left / jump if jump * thickness > left else thickness
             if 0.0 < thickness - taken <= NOTHING * (depth + taken):
                 taken = thickness
-            if jump:
+            if jump and depth + taken > depth:  # not by rounding alone
                 done.append(SlippedLayer(depth, depth + taken, jump))
             if taken < thickness and layer:
                 below = _laid(thickness - taken, k, below)

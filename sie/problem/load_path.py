@@ -37,9 +37,8 @@ class Path:
     points: tuple[tuple[float, float, float], ...]
 
     def __init__(self, points: Iterable[Sequence[float]]) -> None:
-        if not isinstance(points, Iterable):
-            raise ValueError(f"{points!r} is not a sequence of points: give [(P, Q, σ), ...]")
-        found = tuple(_point(k, point) for k, point in enumerate(points))
+        given = arguments.listed("points", points, "[(P, Q, σ), ...]")
+        found = tuple(_point(k, point) for k, point in enumerate(given))
         if not found:
             raise ValueError("the path has no points: give [(P, Q, σ), ...]")
         touching = next((k for k, (P, _, _) in enumerate(found) if P > 0.0), None)

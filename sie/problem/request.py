@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 
+from sie import arguments
+
 from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
@@ -26,13 +28,13 @@ ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear
 
 
 def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
-    if not isinstance(want, Iterable):
-        raise ValueError(f"want = {want!r} is not a name: ask for {', '.join(WANTS)}")
-    asked = (want,) if isinstance(want, str) else tuple(want)
-    names = tuple(ALSO.get(name, name) for name in asked)
-    for name, own in zip(asked, names, strict=True):
-        if own not in WANTS:
+    """The names among WANTS that are asked for."""
+    remedy = f"a name; ask for {', '.join(WANTS)}"
+    asked = (want,) if isinstance(want, str) else arguments.listed("want", want, remedy)
+    for name in asked:
+        if not arguments.among(name, {*WANTS, *ALSO}):
             raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
+    names = tuple(ALSO.get(name, name) for name in asked)
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names

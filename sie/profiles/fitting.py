@@ -1,9 +1,10 @@
 """What a trace is like: its gaps, its outliers, the line through it, and the nearest rounded flat.
 
-    h = c + t x + (|x - x0| - a)_+² / (2R)          a flat base of half-length a, arcs of radius R, centre x0, tilt t
+    h = c + t x + (|x - x0| - a)_+² / (2R)    flat |x - x0| <= a, arcs of radius R, tilt t
 
-c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub & Pereyra 1973): a scan of both first,
-since a trace of a nearly flat pad has other minima, then least squares with all five.
+c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub &
+Pereyra 1973): a scan of both first, since a trace of a nearly flat pad has other minima, then least
+squares with all five.
 """
 
 from __future__ import annotations
@@ -111,7 +112,7 @@ def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, fl
 
 
 def _extrapolation(x: Array, at: Array, degree: int) -> Array:
-    """Weights (n, m) of heights at x (n, m) in the value at `at` (n,) of a least-squares polynomial."""
+    """Weights (n, m) of heights at x (n, m) in the least-squares polynomial at `at` (n,)."""
     u = (x - at[:, None]) / np.ptp(x, axis=1)[:, None]
     weights: Array = np.linalg.pinv(u[..., None] ** np.arange(degree + 1))[:, 0]
     return weights
@@ -124,7 +125,8 @@ class RoundedFlatFit:
     rms, largest    what is left of h: the root of the mean square, and the largest
     residuals       at every point of the trace
 
-    The profile is `sie.RoundedFlat(fit.half_flat, fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
+    The profile is `sie.RoundedFlat(fit.half_flat,
+    fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
     """
 
     half_flat: float
@@ -166,7 +168,10 @@ def reason_at_an_end(x: Array, h: Array) -> str:
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
         return "the trace is a straight line, to rounding: an indenter has to rise on both sides"
     if _arched(x, left):
-        return "the trace arches upwards: heights of a surface have the other sign, scale = (1, -1) turns them over"
+        return (
+            "the trace arches upwards: heights of a surface have the other sign, "
+            "scale = (1, -1) turns them over"
+        )
     if int(np.argmin(h)) in (0, len(h) - 1):
         return (
             "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
@@ -188,7 +193,7 @@ def _arched(x: Array, left: Array) -> bool:
 
 
 def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
-    """The nearest rounded flat. Raises ValueError where the trace does not rise on both sides of a base."""
+    """The nearest rounded flat. ValueError if the trace does not rise on both sides of a base."""
     from scipy.optimize import least_squares  # noqa: PLC0415
 
     m, r = 0.5 * float(x[0] + x[-1]), 0.5 * float(x[-1] - x[0])

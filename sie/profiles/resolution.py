@@ -1,9 +1,13 @@
-"""Pieces on which a function is resolved by Chebyshev series: chop where the coefficients decay, split where they do not.
+"""Pieces on which a function is resolved by Chebyshev series.
 
-All open intervals are sampled in one call of the function, level by level. Halving towards a point where the function behaves like |x|^s
-grades the pieces geometrically by itself; a jump or a kink that was not declared is closed in to rounding. At a break that was declared
-H may vanish like |x|^s. What a series misses there is a small jump, and the pressure at the break is off by ln(length/piece) times as
-much: pieces that touch one are resolved further than rounding of H elsewhere would let others be.
+A series is chopped where its coefficients decay, and the piece is halved where they do not.
+
+All open intervals are sampled in one call of the function, level by level. Halving towards a point
+where the function behaves like |x|^s grades the pieces geometrically by itself; a jump or a kink
+that was not declared is closed in to rounding. At a break that was declared H may vanish like
+|x|^s. What a series misses there is a small jump, and the pressure at the break is off by
+ln(length/piece) times as much: pieces that touch one are resolved further than rounding of H
+elsewhere would let others be.
 """
 
 from __future__ import annotations
@@ -25,7 +29,8 @@ Array = NDArray[np.float64]
 
 SIZES = (17, 33)  # points a piece is tried with before it is split
 TAIL = 3  # the last coefficients that must have decayed
-# Points on no grid, where a settled series must agree with the function: what lies between the points is seen there, if not always.
+# Points on no grid, where a settled series must agree with the function: what lies between the
+# points is seen there, if not always.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
 MISSED = 32.0  # times what the series itself may miss
 NEIGHBOURS, CLOSE = 12, 1e-6
@@ -35,14 +40,14 @@ FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
-PATIENCE, HALVINGS = (
-    3,
-    8,
-)  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
+DEEP = 64  # levels, after which x = 0 is such a break
+# What has not settled next to a declared break after so many levels is singular there, and is then
+# halved so many times at once.
+PATIENCE, HALVINGS = 3, 8
 
 
 class Tolerance(NamedTuple):
-    """What a series may miss: relative to the largest |value|, and absolute; less next to the inner breaks that were declared."""
+    """What a series may miss: relative to the largest |value|, absolute, and next to breaks."""
 
     relative: float
     absolute: float
@@ -61,13 +66,23 @@ class Tolerance(NamedTuple):
 
 
 def resolved(
-    function: Callable[[Array], Array], breaks: Array, tol: float
+    function: Callable[[Array], Array],
+    breaks: Array,
+    tol: float,
+    cuts: Array | None = None,
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
+    """A refinement of `breaks`, and the Chebyshev degree that resolves each piece.
 
-    `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
+    A series misses at most tol times the largest |value|.
+
+    The function is smooth at the `cuts`, from which the refinement starts.
+    `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities,
+    ResolutionError if it does not settle.
     """
-    open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
+    ends = breaks
+    if cuts is not None:
+        ends = np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
+    open_ = np.stack((ends[:-1], ends[1:]), axis=1)
     noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
     tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
     done: list[tuple[float, float, int]] = []
@@ -83,12 +98,19 @@ def resolved(
         if len(done) + 2 * len(open_) > MAX_PIECES:
             middle = float(0.5 * open_[0].sum())
             raise ResolutionError(
-                f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
+                "the slope does not settle: "
+                f"{MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
                 "declare its breaks, narrow the domain, or smooth the noise",
                 x=middle,
             )
         level += 1
-        open_ = _split(open_, tolerance.breaks if level > PATIENCE else breaks[:0])
+        graded_towards = tolerance.breaks if level > PATIENCE else breaks[:0]
+        if level > DEEP:  # only next to x = 0 are doubles so close
+            inside = (open_[:, 0] < 0.0) & (open_[:, 1] > 0.0)
+            left, right = open_[inside] * [1.0, 0.0], open_[inside] * [0.0, 1.0]
+            open_ = np.concatenate((open_[~inside], left, right))
+            graded_towards = np.append(graded_towards, 0.0)
+        open_ = _split(open_, graded_towards)
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array(
         [p[2] for p in done], dtype=np.int64
@@ -96,7 +118,7 @@ def resolved(
 
 
 def _split(pieces: Array, graded_towards: Array) -> Array:
-    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once.
+    """Halves of the pieces (K, 2); many halvings at once of those that touch a graded break.
 
     A piece that has been halved before touches no more than one.
     """
@@ -117,7 +139,7 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
 def _degrees(
     function: Callable[[Array], Array], pieces: Array, n: int, tolerance: Tolerance, scale: float
 ) -> tuple[NDArray[np.int64], float]:
-    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far."""
+    """(The degree that resolves each piece (K, 2), -1 if n points do not; the largest |value|)."""
     lo, hi = pieces.T
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
     s = np.concatenate((chebyshev.points(n), PROBES))
@@ -147,34 +169,41 @@ def _at_probes(n: int) -> Array:
 
 
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
-    """How rough the function's values are on [lo, hi] by rounding of its own, like exp(x) - 1 near 0: no series can do better.
+    """How rough the function's values are on [lo, hi] by its own rounding, as exp(x) - 1 near 0.
 
-    What is left of its values at NEIGHBOURS points very close together after a parabola through them, the median of several places.
+    No series can do better.
+
+    What is left of its values at NEIGHBOURS points very close together after a parabola through
+    them, the median of several places.
     """
     middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
     s = chebyshev.points(NEIGHBOURS)
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
     refuse_non_finite(middle[:, None] + 0.0 * s, values)
     left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
-    return sorted(np.abs(left).max(axis=1).tolist())[
-        len(PROBES) // 2
-    ]  # np.median imports numpy.ma, which takes longer than a solve
+    # Not np.median: it imports numpy.ma, which takes longer than a solve.
+    return sorted(np.abs(left).max(axis=1).tolist())[len(PROBES) // 2]
 
 
 def refuse_non_finite(x: Array, values: Array) -> None:
+    """ValueError with the place of the first slope that is nan or infinite."""
     bad = ~np.isfinite(values)
     if bad.any():
         raise ValueError(
-            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside its domain; narrow the domain"
+            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: "
+            "it must be finite inside its domain; narrow the domain"
         )
 
 
-def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:
-    """The slope on [lo, hi], its functions resolved to tol times the largest |H| there; a slope without functions is returned as it is."""
+def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None = None) -> Slope:
+    """The slope on [lo, hi], its functions resolved to tol times the largest |H| there.
+
+    A slope without functions is returned as it is.
+    """
     if not slope.functions:
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
-    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol)
+    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
     k = np.clip(
         np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
     )
@@ -188,7 +217,7 @@ def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:
 
 
 def integral(slope: Slope, start: float, x: Array) -> Array:
-    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the ends of the indenter."""
+    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the indenter's ends."""
     lo, hi = slope.domain
     inside = np.clip(x, lo, hi)
     out = np.zeros(np.shape(x))
@@ -215,7 +244,7 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
     at -= at[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
-    s = np.clip((flat - lo[j]) / (0.5 * length[j]) - 1.0, -1.0, 1.0)
+    s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
     values = at[j] + np.array(
         [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
     )

@@ -1,26 +1,29 @@
 """Cubic splines through a trace, and the smoothing spline of a noisy one.
 
-The smoothing spline minimises, over all functions f on the trace's interval (Reinsch 1967, SciPy's `make_smoothing_spline`),
+The smoothing spline minimises, over all functions f on the trace's interval (Reinsch 1967, SciPy's
+`make_smoothing_spline`),
 
     Σ_i (h_i - f(x_i))² + λ ∫ f''² dx,          λ in units of length³
 
-It is a natural cubic spline with a knot at every point, and averages over a length of about (λ Δ)^(1/4), Δ the mean spacing. With
-thousands of points within that length a knot at every point costs digits (the equations' condition is the fourth power of the number) and
-buys nothing: then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's
-`smooth.spline`).
+It is a natural cubic spline with a knot at every point, and averages over a length of about (λ
+Δ)^(1/4), Δ the mean spacing. With thousands of points within that length a knot at every point
+costs digits (the equations' condition is the fourth power of the number) and buys nothing: then
+KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as
+in R's `smooth.spline`).
 
-With few points in that length (few enough for a knot at each) the second derivatives γ at the points are solved for, and f follows
-(Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines would lose f between the points as λ → 0.
+With few points in that length (few enough for a knot at each) the second derivatives γ at the
+points are solved for, and f follows (Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines
+would lose f between the points as λ → 0.
 
     (R + λ Q'Q) γ = Q'h,       f = h - λ Q γ,       Q'h second differences, R their mass matrix
 
-λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
-f(x).
-Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
+λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² /
+(n - tr A)², A the matrix from h to f(x). Its trace is exact for a short trace; for a long one it is
+z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
 
 What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
-s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance
-s² (B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance s²
+(B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
 (Nychka 1988).
 """
 
@@ -54,7 +57,10 @@ REFINED = 0.02  # of the logarithm of the averaging length
 
 
 def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
-    """(breaks, coefficients (N, 4), low order first, about the left end of each piece): not-a-knot, so that a cubic is reproduced."""
+    """(breaks, coefficients (N, 4), low order first, about the left end of each piece).
+
+    Not-a-knot at the ends, so that a cubic is reproduced.
+    """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
     c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
@@ -91,7 +97,7 @@ def cross_validated(x: Array, h: Array) -> float:
 
 
 def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
-    """Whether the misfit there exceeds that of a smaller λ by no more than noise does (an F-test)."""
+    """Whether the misfit there exceeds that of a smaller λ by no more than noise (an F-test)."""
     problem = _Problem(x, h)
     part, unit = _local(x, *between), problem.length**3
     rss, left = problem.misfit(lam / unit, part)
@@ -104,8 +110,8 @@ def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float,
 def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
     """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
 
-    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points: without
-    bias its sum of squares has the expectation s² tr (I - A)².
+    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points:
+    without bias its sum of squares has the expectation s² tr (I - A)².
     """
     from scipy.interpolate import BSpline  # noqa: PLC0415
 
@@ -179,7 +185,7 @@ class _Problem:
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:
-    """Coefficients of the smoothing spline about the left end of each piece, from its second derivatives."""
+    """Coefficients about the left end of each piece, from the spline's second derivatives."""
     from scipy.linalg import solveh_banded  # noqa: PLC0415
 
     step = np.diff(x)
@@ -199,9 +205,12 @@ def _reinsch(x: Array, h: Array, lam: float) -> Array:
 
 
 def _pieces(x: Array, f: Array, second: Array) -> Array:
-    """Coefficients about the left end of each piece of the cubic spline with these values and second derivatives at its knots.
+    """Coefficients of the cubic spline with these values and second derivatives at its knots.
 
-    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a corner of the indenter.
+    They are about the left end of each piece.
+
+    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a
+    corner of the indenter.
     """
     step = np.diff(x)
     chord = np.diff(f) / step
@@ -215,7 +224,7 @@ def _pieces(x: Array, f: Array, second: Array) -> Array:
 
 @dataclass
 class _Basis:
-    """Cubic B-splines on the chosen points, the data in them, and the bending energy, as banded matrices (upper form)."""
+    """Cubic B-splines on the chosen points: data and bending energy as banded matrices (upper)."""
 
     at: Array
     h: Array
@@ -244,7 +253,7 @@ class _Basis:
 
     @property
     def first_difference(self) -> Any:
-        """From the coefficients of f to those of f' in quadratic B-splines, on all knots but the outermost."""
+        """From coefficients of f to those of its slope in quadratic B-splines, less two knots."""
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(self.chosen)
