@@ -1,7 +1,8 @@
 """The contacts of one profile at one tilt under every load, and how fast they grow.
 
-The contact under a load y is found by Newton's method from those under other loads: the distances of
-the edges from the lowest points are power laws, about, and so cubics in logarithms.
+The contact under a load y is found by Newton's method from those under other loads. The distances
+of the edges from the lowest points are nearly power laws, so that cubics in logarithms predict
+them.
 """
 
 from __future__ import annotations

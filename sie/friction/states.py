@@ -1,6 +1,7 @@
 """The states of a contact under tangential load: where it sticks, where it slips, and the shear.
 
-`partial_slip.slip` decides which of them a contact is in.
+`partial_slip.slip` decides which of them a contact is in. The file is longer than 400 lines because
+the four states are one family, and are read side by side.
 """
 
 from __future__ import annotations
