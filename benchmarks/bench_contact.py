@@ -118,6 +118,22 @@ def test_shear_of_a_thousand_remembered_turning_points(benchmark):
     benchmark(lambda: sie.follow(question, path)[-1].shear(X))
 
 
+def test_stick_zones_over_those_without_a_guess(benchmark, monkeypatch):
+    """What a guess from known stick zones saves (`sie.history.KnownZones`): `ratio` without it."""
+    k = np.arange(1_000)
+    path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / 1_000) * (-1.0) ** k])
+    question = scene(PROFILES["rounded flat"], friction=0.5)
+    run = lambda: [point.stick for point in sie.follow(question, path)]  # noqa: E731
+
+    def without():
+        with monkeypatch.context() as patch:
+            patch.setattr(sie.history.KnownZones, "guess", lambda *_: None)
+            run()
+
+    benchmark.extra_info["ratio"] = compared(without, run)[1]
+    benchmark(run)
+
+
 def test_stress_on_a_grid(benchmark):
     solution = sie.solve(scene(PROFILES["rounded flat"], friction=0.5, sliding=1))
     x, y = np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 3.0, 200)[:, None]

@@ -11,7 +11,7 @@ from . import __version__
 from .io.sample_points import POINTS
 from .io.stress_grid import SIZE
 from .messages import nearest
-from .plan import UNASKED, WANTS
+from .problem.request import UNASKED, WANTS
 from .streams import print_text
 
 COMMANDS = {

@@ -112,6 +112,27 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
     graph.prepare()
 
 
+def needed_by(module):
+    """The modules that a module imports, directly or by way of others."""
+    below = {}
+    for name, target, _ in dependencies():
+        below.setdefault(name, set()).add(target)
+    found, left = set(), [module]
+    while left:
+        new = below.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def test_reading_a_scene_file_imports_no_module_of_the_solver():
+    """The names of the imports are followed, as `import sie` itself loads the whole package."""
+    needed = needed_by("sie.io.scene_file")
+    assert "sie.problem.scene" in needed
+    solver = {"cauchy", "certificate", "contact", "friction", "plan", "solution", "stress"}
+    assert not {name for name in needed if parts(name) in solver}
+
+
 def loaded_after(statement):
     code = (
         f"import sys; {statement}; import json; "

@@ -6,7 +6,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from sie.certificate.pressure_check import PROMISE
+from sie.certificate.result import PROMISE
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -9,39 +9,32 @@ relative accuracy is needed where the contact is, not where the domain is.
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.errors import ContactError, LoadError
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, interval_about
 from sie.numerics.root_finding import Bracket
+from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
-from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
-from sie.traction.of_slope import SlopeDensity, TransformDensity
-from sie.traction.on_panels import PanelDensity, PowerDensity
-from sie.traction.panels import CHOP, Panels
-from sie.traction.piece_quadrature import Geometry, SlidingGeometry
-from sie.traction.sliding import SlidingDensity
 
 from . import given_moment
 from .edges import PLACES, Edges, Found, Search
+from .pressure import Normal, resolution, slope_series, upright_law, with_breaks
 from .smooth_slope import smooth_contact
 from .widest_contact import widest_contact
 
 Array = NDArray[np.float64]
 
-# What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
-ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
 # A window of a function's slope is refitted while it is longer than the contact by more than this
 # factor ...
@@ -50,9 +43,6 @@ FITTED = 1.25  # ... to the contact times this.
 WINDOW_GROWTH = 8.0
 MOST_GROWN, MOST_SHRUNK = 12, 120
 GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
-# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut
-# into pieces.
-LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
@@ -66,23 +56,6 @@ NEARER = (
 # Looks at a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
-
-
-@dataclass(frozen=True)
-class Normal:
-    """The found contact, and whether its symmetry halved the search.
-
-    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
-    """
-
-    edges: Edges
-    symmetric: bool
-    series: Array | None = field(default=None, compare=False, repr=False)
-    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
-
-    def slope(self, profile: Profile) -> Slope:
-        """H of the profile as it is pressed: with these breaks, and tilted."""
-        return _broken(profile.pieces, self.seen).tilted(self.edges.tilt)
 
 
 def normal_contact(
@@ -164,12 +137,6 @@ def _asked(scene: Scene) -> str:
     return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
 
 
-def _broken(slope: Slope, places: tuple[float, ...]) -> Slope:
-    for x in places:
-        slope = slope.split_at(x)
-    return slope
-
-
 def _contact(
     scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
@@ -182,7 +149,7 @@ def _contact(
     looks = 0 if profile.convex or seen is not None else LOOKS
     seen = seen or ()
     smooth = (
-        _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy)
+        _smooth(scene, with_breaks(profile.pieces, seen), tol, "symmetry" in economy)
         if "transform" in economy
         else None
     )
@@ -196,7 +163,7 @@ def _contact(
     while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
-            resolved = refined(_broken(profile.pieces, seen), lo, hi, _resolution(tol))
+            resolved = refined(with_breaks(profile.pieces, seen), lo, hi, resolution(tol))
             found = _searched(scene, resolved, economy, tilt)
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
@@ -245,15 +212,6 @@ def _contact(
         tilt = found.edges.tilt
 
 
-def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
-    """The power law of a profile that is pressed upright, where its closed form serves."""
-    law = scene.profile.power_law
-    if law is None:
-        return None
-    upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
-    return law if law.explicit and upright else None
-
-
 def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:
     """Whether the moment is not given, or is that of a load on the axis."""
     if scene.moment is None or scene.normal_load is None:
@@ -279,7 +237,7 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
     slope, G = slope.tilted(scene.tilt), 0.5 * scene.Estar
     axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
     load = None if scene.normal_load is None else scene.normal_load / G
-    found = smooth_contact(slope, load, scene.half_width, axis, _resolution(tol))
+    found = smooth_contact(slope, load, scene.half_width, axis, resolution(tol))
     if found is None:
         return None
     contact, c = found.contact.rounded(slope.break_points), found.series
@@ -312,7 +270,7 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     assert found.series is not None
     contact = found.edges.contact
     series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])
-    return bool(between_points(found.slope(profile), (series.H,), contact, _resolution(tol)))
+    return bool(between_points(found.slope(profile), (series.H,), contact, resolution(tol)))
 
 
 def _unseen(
@@ -323,11 +281,11 @@ def _unseen(
     By the pieces that gave the edges, and by what will give the pressure.
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
-    accuracy = _resolution(tol)
+    accuracy = resolution(tol)
     pieces = expanded(slope, resolved, contact)
     places = between_pieces(slope, pieces, contact, accuracy)
     transform = not scene.epsilon and "transform" in economy
-    series = _series(slope, contact, accuracy) if transform else None
+    series = slope_series(slope, contact, accuracy) if transform else None
     if series is None:
         resolved = refined(slope, contact.x1, contact.x2, accuracy)
         final = expanded(slope, resolved, contact)
@@ -363,43 +321,6 @@ def contact_under(
     return normal_contact(
         Scene(profile=profile, modulus=scene.Estar, normal_load=load, tilt=tilt), tol, economy, seen
     )
-
-
-def pressure(
-    normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
-) -> SlopeDensity:
-    """The pressure that answers the slope on the contact: a transform where the slope is smooth
-    there, exact panels where it is not.
-    """
-    edges = normal.edges
-    contact, G = edges.contact, 0.5 * scene.Estar
-    common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
-    if normal.series is not None:
-        return TransformDensity(*common, normal.series)
-    declared = normal.slope(scene.profile)
-    if scene.epsilon:
-        slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-        geometry = SlidingGeometry(
-            slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
-        )
-        return SlidingDensity(*common, Panels(geometry, edges.I0))
-    if "transform" in economy:
-        series = _series(declared, contact, _resolution(tol))
-        if series is not None:
-            if not any(edges.sharp):
-                series[0] = 0.0  # the edges' condition, which quadrature met to rounding
-            return TransformDensity(*common, series)
-    law = upright_law(scene, economy, edges.tilt)
-    if law is not None:
-        return PowerDensity(*common, law, declared, _resolution(tol))
-    slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-    return PanelDensity(
-        *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
-    )
-
-
-def _resolution(tol: float) -> float:
-    return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS
 
 
 def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
@@ -559,30 +480,6 @@ def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float
 def _reach(edges: Edges) -> float:
     """The moment of the load at the farther edge: what rounding of M is relative to."""
     return edges.normal_load * (edges.contact.r + abs(edges.contact.m))
-
-
-def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
-    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do
-    not decay.
-    """
-    breaks = slope.break_points
-    inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)
-    if inner[0] < inner[1]:
-        return None
-    k = Geometry(slope, contact, keep_zero=True)
-    if len(k.k) != 1:
-        return None
-    if not slope.functions:
-        return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0]
-    noise = NOISE * rounding_noise(slope.inside, contact.x1, contact.x2)
-    n = 17
-    while n <= LARGEST_TRANSFORM:
-        c = k.chebyshev_slope(n)[0]
-        scale = float(np.abs(c).max())
-        if np.abs(c[-3:]).max() <= max(tol * scale, min(noise, ROUGHEST * scale)):
-            return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
-        n = 2 * n - 1
-    return None
 
 
 def _first_window(scene: Scene) -> tuple[float, float]:

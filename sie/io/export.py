@@ -44,16 +44,14 @@ from numpy.typing import NDArray
 from sie import __version__
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.history import Followed
-from sie.plan import UNASKED
+from sie.history import PathSolution
+from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
 from .sample_points import POINTS, abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
-
-NEED_SHEAR = {"shear", "stress", "yield", "tension", "check"}
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
@@ -119,7 +117,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
-    if isinstance(solution, Followed):
+    if isinstance(solution, PathSolution):
         out["path"] = turning_points(solution)
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
@@ -208,7 +206,7 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
     )
 
 
-def turning_points(solution: Followed) -> list[dict[str, Any]]:
+def turning_points(solution: PathSolution) -> list[dict[str, Any]]:
     """The loads of each point of a path, its stick zones, and the energy dissipated up to it."""
     names = ("normal_load", "tangential_load", "bulk_stress")
     points = zip(solution.history.path.points, solution.history, strict=True)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from sie.history import Followed
+from sie.history import PathSolution
 from sie.solution import Solution
 
 from .export import energy_of, notes_of, slipping, turning_points, wanted
@@ -104,11 +104,11 @@ def shear_summary(solution: Solution, units: Units) -> str:
         ("energy lost", f"{_number(energy)} {units.moment}")
         for energy in energy_of(solution).values()
     ]
-    table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
+    table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
     return "\n\n".join([_rows(*rows), *table])
 
 
-def _path_table(solution: Followed, units: Units) -> str:
+def _path_table(solution: PathSolution, units: Units) -> str:
     head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
     for point in turning_points(solution):

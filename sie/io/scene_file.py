@@ -45,9 +45,9 @@ from typing import Any
 
 from sie import files
 from sie.messages import choices, nearest, shortened, suggestion, with_short_words
-from sie.plan import WANTS
 from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
+from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS

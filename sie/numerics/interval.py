@@ -106,3 +106,22 @@ def interval_about(centre: float, half_width: float) -> Interval:
     x1, tail1 = two_sum(centre, -half_width)
     x2, tail2 = two_sum(centre, half_width)
     return Interval(x1, x2, tail1, tail2)
+
+
+def inner(contact: Interval, x: Array) -> Array:
+    """Those x that lie strictly inside the contact."""
+    within: Array = x[(contact.from_left(x) > 0.0) & (contact.from_right(x) > 0.0)]
+    return within
+
+
+def angles(contact: Interval, x: Array) -> Array:
+    """Angles ψ of ascending x from the right edge, x = m + r cos ψ, ascending."""
+    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
+    return psi[::-1]
+
+
+def position(contact: Interval, angle: Array) -> Array:
+    """x = m + r cos ψ, counted from the nearer edge."""
+    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
+    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
+    return np.where(angle < 0.5 * np.pi, right, left)

@@ -26,7 +26,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sie.history import Followed, follow
+from sie.history import PathSolution, follow
 from sie.io.sample_points import REACH, abscissae, ceiling, peak, summits
 from sie.io.scene_file import UNITS, Units
 from sie.problem.load_path import Path
@@ -211,14 +211,14 @@ def _draw_shear(axes: Axes, view: _View) -> None:
 
 def _has_loop(solution: Solution) -> bool:
     """Whether there is a path of more than one point at constant P, over which something slips."""
-    if not isinstance(solution, Followed) or len(solution.history) < 2 or not solution.sheared:
+    if not isinstance(solution, PathSolution) or len(solution.history) < 2 or not solution.sheared:
         return False
     loads = solution.history.path.points
     return len({P for P, _, _ in loads}) == 1 and any(Q != 0.0 for _, Q, _ in loads)
 
 
 def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
-    assert isinstance(solution, Followed)
+    assert isinstance(solution, PathSolution)
     history = solution.history
     start = (history.path.points[0][0], 0.0, 0.0)
     path = Path([start, *history.path.points]).subdivided(LOOP_POINTS)

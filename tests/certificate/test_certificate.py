@@ -9,9 +9,9 @@ import pytest
 import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
-from sie.certificate import pressure_check, quadrature
-from sie.certificate.pressure_check import PROMISE
-from sie.contact import gap, normal
+from sie.certificate import pressure_check, quadrature, result
+from sie.certificate.result import PROMISE
+from sie.contact import gap, inequalities, normal
 from sie.numerics.interval import interval_about
 from sie.profiles import unresolved
 from sie.traction import on_panels
@@ -107,7 +107,7 @@ def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
 def test_the_same_promise_is_printed_and_documented():
     found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
     assert PROMISE in " ".join(str(found).split())
-    assert PROMISE in " ".join(pressure_check.Certificate.__doc__.split())
+    assert PROMISE in " ".join(result.Certificate.__doc__.split())
 
 
 def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
@@ -332,7 +332,7 @@ def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
     def refuse(*_):
         raise AssertionError("integrated")
 
-    monkeypatch.setattr(pressure_check, "gap", refuse)
+    monkeypatch.setattr(inequalities, "gap", refuse)
     powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
     for profile in (
         sie.Parabola(1.0),
@@ -356,7 +356,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
     profile = sie.Power(exponent, 0.75).shifted(0.7)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
-    for module in (pressure_check, quadrature, gap, on_panels):
+    for module in (pressure_check, inequalities, quadrature, gap, on_panels):
         monkeypatch.setattr(module, "refined", refuse)
     assert solution.check().ok
 

@@ -13,7 +13,8 @@ import strategies
 from hypothesis import given
 
 import sie
-from sie.contact.normal import normal_contact, pressure
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import pressure
 from validation.cases import BUMP, CASES, SINH, Case, solved
 from validation.wrong_programs.pressures import (
     PUNCH,

@@ -11,8 +11,8 @@ from test_cost import counted
 
 import sie
 from analytic import power
-from sie.contact import normal
-from sie.contact.normal import ECONOMY
+from sie.contact import normal, pressure
+from sie.problem.request import ECONOMY
 from sie.traction import on_panels
 
 EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
@@ -96,7 +96,12 @@ def test_the_explicit_form_and_the_panels_agree(m):
 @pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
 def test_an_upright_power_takes_no_search_and_no_panels(m, given):
     with ExitStack() as stack:
-        parts = (normal, "Search"), (normal, "refined"), (on_panels, "Panels")
+        parts = (
+            (normal, "Search"),
+            (normal, "refined"),
+            (pressure, "refined"),
+            (on_panels, "Panels"),
+        )
         calls = [stack.enter_context(counted(*part)) for part in parts]
         _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
     assert not any(calls)

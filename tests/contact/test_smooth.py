@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import sie
-from sie.contact.normal import ECONOMY
+from sie.problem.request import ECONOMY
 
 INF = float("inf")
 BY_PIECES = ECONOMY - {"transform"}

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 import sie
 from oracles.kalker import Mesh
-from sie.friction.memory import Ladder
-from sie.friction.slip_zones import zone
-from sie.friction.states import rims
+from sie.friction.memory import LoadMemory
+from sie.friction.slip_zones import slip_zone
+from sie.friction.states import edge_frames
 from sie.io.export import as_dict
 from sie.io.report import summary
 from sie.io.scene_file import SceneFile
@@ -88,7 +88,7 @@ def test_a_closed_loop_closes_after_the_first_cycle_and_is_forgotten():
     assert again.slip(x) == pytest.approx(first.slip(x), abs=1e-16)
     assert down.shear(x) == pytest.approx(-first.shear(x), abs=1e-15)
     assert first.stick[0][1] < small.stick[0][1] < back.stick[0][1]
-    assert len(again.history.states[4].ladder.layers) == 1
+    assert len(again.history.turning_points[4].memory.layers) == 1
 
 
 @pytest.mark.parametrize("scene", [PUNCH, *CORNERED], ids=["smooth", "left corner", "right corner"])
@@ -120,15 +120,15 @@ def test_every_point_of_every_path_obeys_the_laws(fractions, scene):
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=12))
 def test_the_ladder_carries_the_load_within_its_limits(targets):
-    ladder = Ladder(1.0)
+    memory = LoadMemory(1.0)
     for target in targets:
-        before, (ladder, done) = (
-            ladder,
-            ladder.pulled(target - ladder.total) if target != ladder.total else (ladder, ()),
+        before, (memory, done) = (
+            memory,
+            memory.sheared(target - memory.total) if target != memory.total else (memory, ()),
         )
-        assert ladder.total == pytest.approx(target, abs=1e-14)
-        assert all(thickness > 0.0 and abs(k) <= 1.0 for thickness, k in ladder.layers)
-        assert sum(thickness for thickness, _ in ladder.layers) <= 1.0 + 1e-15
+        assert memory.total == pytest.approx(target, abs=1e-14)
+        assert all(thickness > 0.0 and abs(k) <= 1.0 for thickness, k in memory.layers)
+        assert sum(thickness for thickness, _ in memory.layers) <= 1.0 + 1e-15
         pulled = sum(o.jump * (o.lower - o.upper) for o in done)
         assert pulled == pytest.approx(abs(target - before.total), abs=1e-14)
 
@@ -140,13 +140,13 @@ def test_a_thousand_steps_cost_less_than_a_thousand_solves():
     zones = [solution.stick for solution in history]
     spent = sum(
         state.found.edges.evaluations
-        for state in history._virgin.values()
+        for state in history._first_loadings.values()
         if hasattr(state, "found")
     )
     assert len(zones) == 1000 and len(history._plain) == 1
     assert spent < 0.6 * 1000 * sie.solve(PUNCH).normal.edges.evaluations
     assert "pressure" in vars(history.plain(P))
-    assert not any("corrective" in vars(state) for state in history._virgin.values())
+    assert not any("corrective" in vars(state) for state in history._first_loadings.values())
 
 
 def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_each(monkeypatch):
@@ -155,9 +155,9 @@ def test_energy_of_ten_thousand_remembered_turning_points_takes_no_contact_for_e
     """
     k = np.arange(10_000)
     history = at_constant_load(PUNCH, *(0.95 * (1.0 - k / 10_000) * (-1.0) ** k))
-    assert len(history.states[-1].ladder.layers) == 10_000
+    assert len(history.turning_points[-1].memory.layers) == 10_000
     assert history.energy(9_999) > history.energy(9_998) > 0.0
-    assert history.growth.evaluations < 500 and not history._virgin
+    assert history.dissipation.evaluations < 500 and not history._first_loadings
 
 
 def test_the_shear_of_many_turning_points_takes_the_pressure_of_the_contact_once():
@@ -167,20 +167,22 @@ def test_the_shear_of_many_turning_points_takes_the_pressure_of_the_contact_once
     shear, pressure = history[-1].shear, history.plain(P).slope_density
     corners = {id(part) for _, part in shear.bases}
     assert sum(part is pressure for _, part in shear.terms) == 1
-    assert len(corners) <= len(history.states[-1].ladder.layers) + 1
+    assert len(corners) <= len(history.turning_points[-1].memory.layers) + 1
     x = np.linspace(*history[-1].edges, 41)
-    one_by_one = sum(weight * virgin.shear(x) for weight, virgin in history[-1].tangential._terms)
+    one_by_one = sum(weight * loading.shear(x) for weight, loading in history[-1].tangential._terms)
     assert shear(x) == pytest.approx(one_by_one, abs=1e-14)
 
 
 @pytest.mark.parametrize("length", [1e-12, 1e-3, 0.3])
 def test_what_a_slip_zone_pulls_with_beyond_its_length_is_its_sum(length):
     solved = sie.solve(sie.Scene(**fields(PUNCH)))
-    zone_ = zone(rims(solved.slope_density, solved.normal.slope(PUNCH.profile))[1], length)
+    zone_ = slip_zone(
+        edge_frames(solved.slope_density, solved.normal.slope(PUNCH.profile))[1], length
+    )
     distance = length * np.array([0.0, 1e-8, 0.3, 0.999, 1.0, 1.001, 3.0, 1e4])
-    weight = zone_.force / np.sqrt(zone_.inwards * (zone_.inwards + 0.8))
+    weight = zone_.force / np.sqrt(zone_.from_stick * (zone_.from_stick + 0.8))
     assert zone_.pull(distance, 0.4) == pytest.approx(
-        (weight / (distance[:, None] + zone_.inwards)).sum(axis=1), rel=1e-13
+        (weight / (distance[:, None] + zone_.from_stick)).sum(axis=1), rel=1e-13
     )
 
 
@@ -189,7 +191,7 @@ def test_nothing_is_solved_before_it_is_asked_for():
     assert len(history) == 3
     assert not history._plain
     _ = history[1].stick
-    assert len(history._virgin) == 1
+    assert len(history._first_loadings) == 1
 
 
 # -- P and Q together -----------------------------------------------------------------------------
@@ -297,7 +299,7 @@ def test_slip_that_turns_while_the_normal_load_falls_is_told_in_both_directions(
     """
     history = sie.follow(HERTZ, sie.Path([(0.2, -0.09), (0.4, 0.0), (0.1, -0.045)]))
     last = history[-1].tangential
-    first, turned = history.states[-1].slips
+    first, turned = history.turning_points[-1].slips
     assert first.sign == -turned.sign
     ((a, b, plus), (c, d, minus), *now) = last.slipped
     assert plus == minus == first.sign and {sign for _, _, sign in now} == {turned.sign}
@@ -320,16 +322,16 @@ def test_what_slips_while_the_ladder_is_lowered_accounts_for_the_load(layers, sh
     """Q falls by what the layers carried away, and rises by the pull of the slip; no front is
     behind the edge.
     """
-    ladder = Ladder(1.0)
+    memory = LoadMemory(1.0)
     for target, _ in layers:
-        if target != ladder.total:
-            ladder, _ = ladder.pulled(0.9 * target - ladder.total)
+        if target != memory.total:
+            memory, _ = memory.sheared(0.9 * target - memory.total)
     thickness = share * 0.9
-    if abs(ladder.total + rate * thickness) >= 1.0 - thickness:
+    if abs(memory.total + rate * thickness) >= 1.0 - thickness:
         return  # the bodies slide
-    lower, slips = ladder.lowered(thickness, rate)
+    lower, slips = memory.lowered(thickness, rate)
     assert lower.size == pytest.approx(1.0 - thickness, abs=1e-14)
-    assert lower.total == pytest.approx(ladder.total + rate * thickness, abs=1e-13)
+    assert lower.total == pytest.approx(memory.total + rate * thickness, abs=1e-13)
     for slip in slips:
         for o in slip.layers:
             assert o.lower >= o.upper and 0.0 < o.jump <= 2.0

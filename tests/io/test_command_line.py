@@ -16,10 +16,10 @@ from command import run
 import sie
 from sie import cli as command
 from sie import files
-from sie.certificate.pressure_check import Certificate
+from sie.certificate.result import Certificate
 from sie.cli import main
 from sie.io import report, sample_points, scene_file
-from sie.plan import WANTS
+from sie.problem.request import WANTS
 from sie.profiles import kinds
 
 KINDS = list(kinds.KINDS)
@@ -584,7 +584,7 @@ WITHOUT_MATPLOTLIB = """
 import sys
 sys.modules["matplotlib"] = None
 from sie.cli import main
-from sie.certificate.pressure_check import Certificate
+from sie.certificate.result import Certificate
 assert main(["solve", "scene.toml", "--csv", "out.csv"]) == 0
 assert not {"scipy", "mpmath"} & {name.split(".")[0] for name in sys.modules}
 sys.exit(main(["solve", "scene.toml", "--plot", "out.png"]))

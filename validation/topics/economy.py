@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 import sie
-from sie.contact.normal import ECONOMY
+from sie.problem.request import ECONOMY
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
 from validation.harness.timing import medians

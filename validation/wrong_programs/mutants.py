@@ -19,7 +19,7 @@ import numpy as np
 
 import sie
 from analytic import hertz, rounded_flat, sliding_hertz
-from sie.contact import normal
+from sie.contact import pressure
 from sie.traction import potential
 from validation.harness.measures import largest
 from validation.rivals import solvers
@@ -210,7 +210,7 @@ REPLACED = (
     replaced("panels off by 1e-11", "V of the contact",
              _times(potential, "on_contact", _off_by(1e-11)), GIVEN_LOAD),
     replaced("one Chebyshev coefficient", "the second of the transform off by 1e-10",
-             _times(normal, "TransformDensity", _second_coefficient_off), SMOOTH),
+             _times(pressure, "TransformDensity", _second_coefficient_off), SMOOTH),
     replaced("frictional panels off by 1e-11", "V of the sliding contact",
              _times(potential, "on_contact", _off_by(1e-11)), SLIDING_RIM),
 )  # fmt: skip

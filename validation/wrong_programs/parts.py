@@ -227,7 +227,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         "slip against the load",
         partial(
             number,
-            _instead(partial_slip, "_one_way", lambda f, s, g: f(s, -g)),
+            _instead(partial_slip, "_one_signed", lambda f, s, g: f(s, -g)),
             _shear,
             _true_shear,
         ),
@@ -255,7 +255,9 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     (
         "Masing's factor",
         "1 in place of 2 after a turn of the load",
-        partial(number, _property(memory.Ladder, "corners", _once), _unloading, _true_unloading),
+        partial(
+            number, _property(memory.LoadMemory, "corners", _once), _unloading, _true_unloading
+        ),
     ),
     (
         "energy of a branch",

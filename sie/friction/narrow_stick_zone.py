@@ -1,13 +1,15 @@
-"""A narrow stick zone between two zones of slip in opposite directions: what a large bulk stress leaves of the contact.
+"""A narrow stick zone between slip zones of opposite directions, as a large bulk stress leaves it.
 
-The two conditions of `zones` in the combinations that stay apart when the stick zone [c - ρ, c + ρ] shrinks; s = ±1 is the sign of τ, t the
-distance from c and |R| = sqrt(t² - ρ²):
+The two conditions of `slip_zones` in the combinations that stay apart when the stick zone
+[c - ρ, c + ρ] shrinks; s = ±1 is the sign of τ, t the distance from c, and |R| = sqrt(t² - ρ²):
 
-    ∫_left p/|R| ds + ∫_right p/|R| ds = π |τ|/f                     says how narrow it is: ρ ~ exp(-π |τ|/(2 f p(c)))
-    ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f                   says where it is: for ρ -> 0 slip to and fro balance Q
-
-Newton's method in ln ρ and ln(distance of c from the nearer edge), from the limit ρ -> 0. A zone narrower than `PINCHED` is a point in
-doubles: it is solved for with that width, and what is left of the strain is slip from c on (`Zones.spare`).
+    ∫_left p/|R| ds + ∫_right p/|R| ds     = π |τ|/f
+    ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f
+ The first says how narrow it is, ρ ~ exp(-π |τ|/(2 f p(c))), the second where it is: for ρ -> 0
+slip to and fro balance Q. They are solved by Newton's method in ln ρ and ln(distance of c from the
+nearer edge), from the limit ρ -> 0. A zone narrower than `PINCHED` is a point in doubles: it is
+solved for with that width, and the strain that it does not hold is slip from c on
+(`SlipZones.unheld`).
 """
 
 from __future__ import annotations
@@ -20,9 +22,11 @@ import numpy as np
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
 from sie.numerics.root_finding import false_position, increasing_root
 
-from .slip_zones import Drive, Rim, Zone, Zones, zone
+from .slip_zones import Drive, EdgeFrame, SlipZone, SlipZones, slip_zone
 
-NARROW = 0.5  # of the distance of c from the nearer edge: beyond, the lengths of the slip zones are the better unknowns
+# of the distance of c from the nearer edge: beyond, the lengths of the slip zones are the better
+# unknowns
+NARROW = 0.5
 PINCHED = 8.0 * EPS  # of the distance of c from the nearer edge, which says where c is
 STEP = 1e-7  # of finite differences
 MAX_STEPS = 30
@@ -30,16 +34,22 @@ ROUGHLY = 1e-3  # of ln ρ, and of the excess along it: from there Newton's meth
 SETTLED = 1e-10  # relative steps below it that no longer shrink are rounding
 
 
-def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zones | None:
-    """The zones of slip in both directions if the stick zone between them is narrow, otherwise None."""
+def narrow_stick_zone(
+    frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
+) -> SlipZones | None:
+    """The zones of slip in both directions if the stick zone between them is narrow, otherwise
+    None.
+    """
     strain, width = abs(drive.strain), 2.0 * contact.r
-    near, depth = _balanced(rims, contact, drive)
+    near, depth = _balanced(frames, contact, drive)
     load = (drive.left, drive.right)[
         1 - near
     ] * drive.load  # what the far side carries more than the near one
 
-    def cut(rho: float, depth: float) -> tuple[Zone, Zone]:
-        return zone(rims[near], depth - rho), zone(rims[1 - near], width - depth - rho)
+    def cut(rho: float, depth: float) -> tuple[SlipZone, SlipZone]:
+        return slip_zone(frames[near], depth - rho), slip_zone(
+            frames[1 - near], width - depth - rho
+        )
 
     def excess(rho: float, depth: float) -> tuple[float, float]:
         (pull, turn), (far_pull, far_turn) = (_pull_and_turn(z, rho) for z in cut(rho, depth))
@@ -55,34 +65,39 @@ def narrow_zones(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> Zone
         rho = _narrowed(lambda rho: excess(rho, depth)[0], least, NARROW * depth)
         rho, depth = _settled(excess, rho, depth)
         if not rho < min(depth, width - depth):
-            return None  # Newton's method left the contact, or did not settle: the stick zone is not narrow
+            # Newton's method left the contact, or did not settle: the stick zone is not narrow
+            return None
     zones = cut(rho, depth)
     left, right = zones[near], zones[1 - near]
-    return Zones(_about(contact, rho, depth, near), left, right, drive, max(short, 0.0))
+    return SlipZones(_about(contact, rho, depth, near), left, right, drive, max(short, 0.0))
 
 
-def _balanced(rims: tuple[Rim, Rim], contact: Interval, drive: Drive) -> tuple[int, float]:
-    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and how far from it."""
+def _balanced(
+    frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
+) -> tuple[int, float]:
+    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and
+    how far from it.
+    """
     near, depth = 0, 0.0
     for near, sign in ((0, drive.left), (1, drive.right)):
-        force = 0.5 * (rims[near].density.resultant + sign * drive.load)
-        depth = _depth(rims[near], force) if force > 0.0 else 0.0
+        force = 0.5 * (frames[near].density.resultant + sign * drive.load)
+        depth = _depth(frames[near], force) if force > 0.0 else 0.0
         if depth <= contact.r:
             break
     return near, depth
 
 
-def _depth(rim: Rim, force: float) -> float:
+def _depth(frame: EdgeFrame, force: float) -> float:
     """How far from an edge the pressure has this resultant."""
     return increasing_root(
-        lambda d: float(zone(rim, d).force.sum()) - force, 0.5 * rim.width, rim.width
+        lambda d: float(slip_zone(frame, d).force.sum()) - force, 0.5 * frame.width, frame.width
     )
 
 
-def _pull_and_turn(z: Zone, rho: float) -> tuple[float, float]:
+def _pull_and_turn(z: SlipZone, rho: float) -> tuple[float, float]:
     """∫p/|R| ds and ∫p t/|R| ds over a zone."""
-    weight = z.force / np.sqrt(z.inwards * (z.inwards + 2.0 * rho))
-    return float(weight.sum()), float(weight @ (z.inwards + rho))
+    weight = z.force / np.sqrt(z.from_stick * (z.from_stick + 2.0 * rho))
+    return float(weight.sum()), float(weight @ (z.from_stick + rho))
 
 
 def _about(contact: Interval, rho: float, depth: float, near: int) -> Interval:
