@@ -240,17 +240,24 @@ class _Corners(NamedTuple):
     left: Number
 
 
+def _pressed(
+    half_width: Number, normal_load: Number, moment: Number, lib: Library
+) -> tuple[tuple[Number, Number, Number], Number]:
+    """(b, P, M) and the lever |M|/P of the load."""
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
+    M = real("moment", moment, lib)
+    return (b, P, M), abs(M) / P
+
+
 def _checked(
     half_width: Number, normal_load: Number, moment: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
-    M = real("moment", moment, lib)
-    lever, half = abs(M) / P, b / 2
+    (b, P, M), lever = _pressed(half_width, normal_load, moment, lib)
     remedy = (
         "|M|/P = {} exceeds half_width/2 = {}: one corner lifts off; "
         "use partial_pressure, ..., or a smaller M."
     )
-    refuse(lever > half * (1 + ROUNDING), remedy, lever, half)
+    refuse(lever > b / 2 * (1 + ROUNDING), remedy, lever, b / 2)
     return b, P, M
 
 
@@ -266,14 +273,12 @@ def _one_corner(
     half_width: Number, normal_load: Number, moment: Number, lib: Library
 ) -> tuple[Number, Number, Number, Number]:
     """b, P, the sign s of the corner that touches, and the contact's half-width r."""
-    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
-    M = real("moment", moment, lib)
-    lever, half = abs(M) / P, b / 2
+    (b, P, M), lever = _pressed(half_width, normal_load, moment, lib)
     few = (
         "|M|/P = {} is less than half_width/2 = {}: both corners touch; "
         "use pressure, ..., or a larger M."
     )
-    refuse(lever * (1 + ROUNDING) < half, few, lever, half)
+    refuse(lever * (1 + ROUNDING) < b / 2, few, lever, b / 2)
     many = (
         "|M|/P = {} is not less than half_width = {}: the flat would tip over its corner; "
         "use a smaller M."

@@ -99,8 +99,7 @@ def half_width(
     >>> round(float(found), 12)
     1.0
     """
-    L, p = positives(lib, wavelength=wavelength, mean_pressure=mean_pressure)
-    whole = closing_pressure(wavelength=L, amplitude=amplitude, modulus=modulus, lib=lib)
+    L, p, whole = _closing(mean_pressure, wavelength, amplitude, modulus, lib=lib)
     message = (
         "mean_pressure = {} exceeds closing_pressure = {}: the surfaces touch everywhere; "
         "use complete_pressure."
@@ -136,8 +135,7 @@ def complete_pressure(
     >>> round(float(found), 12)
     1.0
     """
-    L, p = positives(lib, wavelength=wavelength, mean_pressure=mean_pressure)
-    whole = closing_pressure(wavelength=L, amplitude=amplitude, modulus=modulus, lib=lib)
+    L, p, whole = _closing(mean_pressure, wavelength, amplitude, modulus, lib=lib)
     message = (
         "mean_pressure = {} is less than closing_pressure = {}: the troughs are open; use pressure."
     )
@@ -167,6 +165,14 @@ def potential(
     z = cartesian(in_period(lib, z.real, L), z.imag, lib)
     value = in_plane(lib, on_cut(lib, z, a), side, _potential_on_cut, _potential, z, a, L)
     return as_result(scaled(p1, value, lib))
+
+
+def _closing(
+    mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number, *, lib: Library
+) -> tuple[Number, Number, Number]:
+    """lambda, the mean pressure, and the one at which the surfaces touch everywhere."""
+    L, p = positives(lib, wavelength=wavelength, mean_pressure=mean_pressure)
+    return L, p, closing_pressure(wavelength=L, amplitude=amplitude, modulus=modulus, lib=lib)
 
 
 def _contact(

@@ -22,6 +22,7 @@ from sie import workers
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
 THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
+FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
 LOADS, TILTS = [0.1, 0.2, 0.4], [0.0, 0.01]
 
 
@@ -208,13 +209,7 @@ def test_an_interrupt_while_chunks_are_given_to_the_workers_keeps_what_is_done()
             return super().submit(function, *args, **kwargs)
 
     with pytest.raises(sie.Interrupted) as caught:
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
-            want="half_width",
-            executor=Impatient(),
-            chunk=1,
-        )
+        sie.sweep(SCENE, **FOUR_WIDTHS, executor=Impatient(), chunk=1)
     assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [
         True,
         True,
@@ -342,15 +337,7 @@ def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_agai
             future.set_result(function(*args, **kwargs))
             return future
 
-    found = plain(
-        sie.sweep(
-            SCENE,
-            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
-            want="half_width",
-            executor=Refusing(),
-            chunk=1,
-        )
-    )
+    found = plain(sie.sweep(SCENE, **FOUR_WIDTHS, executor=Refusing(), chunk=1))
     assert np.isfinite(found["half_width"]).tolist() == [True, True, False, works_again]
     assert "died" in found["reason"][2]
 
