@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, cast
 
 import numpy as np
@@ -23,7 +23,7 @@ from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
-from .contact.normal import normal_contact
+from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError
 from .friction.dissipation import dissipated
@@ -31,6 +31,7 @@ from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
+from .numerics.interval import Interval
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene
@@ -196,9 +197,18 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
-        return slip(
-            Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy)
+        return slip(self.load_step(*self._loads))
+
+    def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
+        """The load Q and the strain τ on this contact; `near` is a stick zone that the one asked
+        for may be close to, which saves work and changes nothing.
+        """
+        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.normal
+        under = partial(
+            contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
         )
+        on = partial(pressure, scene=scene, tol=tol, economy=economy)
+        return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
 
     @cached_property
     def dissipated(self) -> float:

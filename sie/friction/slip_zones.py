@@ -29,7 +29,7 @@ s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -42,9 +42,6 @@ from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import increasing_root
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
-from sie.traction.on_panels import PanelDensity, PowerDensity
-from sie.traction.panels import Panels
-from sie.traction.piece_quadrature import Geometry
 
 Array = NDArray[np.float64]
 
@@ -94,28 +91,10 @@ def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
     width = 2.0 * contact.r
     seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
     return EdgeFrame(
-        moved(density, seen, -edge, -tail),
+        density.moved(seen, -edge, -tail),
         slope.shifted(-edge).shifted(-tail),
         side,
         (-edge, -tail),
-    )
-
-
-def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> SlopeDensity:
-    """The same density with its contact, and what it knows of the slope, moved by dx + tail."""
-    if isinstance(density, PowerDensity):
-        return density.moved(contact, dx, tail)
-    if not isinstance(density, PanelDensity):
-        return replace(density, contact=contact)
-    old = density.panels
-    slope = old.geometry.slope.shifted(dx).shifted(tail)
-    # A slope that ended with the contact still does: an ulp short of it, all of H would jump there
-    breaks = slope.breaks.copy()
-    breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
-    return replace(
-        density,
-        contact=contact,
-        panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0),
     )
 
 

@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 
 import sie
 from sie.contact import normal
-from sie.friction import partial_slip
 
 mp = mpmath.mp.clone()
 mp.dps = 70  # 40 are left where θ - sin θ cos θ of a thin rim cancels
@@ -199,7 +198,11 @@ def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_
 def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, sign, monkeypatch):
     solution = sheared(profile, sign)
     _ = solution.normal
-    monkeypatch.setattr(partial_slip, "contact_under", None)
+
+    def refused(*_args, **_options):
+        pytest.fail("a second contact was solved")
+
+    monkeypatch.setattr(sie.solution, "contact_under", refused)
     x = np.linspace(-0.9, 0.9, 7) * solution.half_width
     assert (solution.shear(x) == sign * F * solution.pressure(x)).all()
     assert solution.stick == ()
