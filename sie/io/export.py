@@ -42,21 +42,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
-from sie.contact.small_strains import notes
-from sie.errors import ContactError
 from sie.history import PathSolution
-from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
+from .answers import energy_of, notes_of, slip_of, slipping, wanted
 from .sample_points import POINTS, abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
-
-
-def wanted(file: SceneFile) -> tuple[str, ...]:
-    """What a scene file asks for: the contact, if it does not say."""
-    return file.want or UNASKED
 
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
@@ -118,7 +111,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if isinstance(solution, PathSolution):
-        out["path"] = turning_points(solution)
+        out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
     return out | {
@@ -126,19 +119,6 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         for name, section in sections.items()
         if name in wanted(file)
     }
-
-
-def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
-
-    Where nothing but the edges is wanted the pressure is not computed: its mean is looked at.
-    """
-    if NEED_SHEAR & set(wanted(file)):
-        return solution.notes
-    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
-        return solution.strain_notes
-    slopes = solution.scene.profile.slope(np.linspace(*solution.edges, POINTS)) + solution.tilt
-    return notes(slopes, solution.normal_load / (2.0 * solution.half_width) / solution.scene.Estar)
 
 
 def _pressure(solution: Solution, points: int) -> dict[str, Any]:
@@ -159,37 +139,6 @@ def _gap(solution: Solution, points: int) -> dict[str, Any]:
     return {"x": x.tolist(), "gap": solution.gap(x).tolist()}
 
 
-def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
-    """The slip at x; {} where a path does not determine it.
-
-    It is not determined for points that came into contact while the bodies slipped.
-    """
-    try:
-        return {"slip": solution.slip(x)}
-    except ContactError:
-        return {}
-
-
-def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} for dissimilar bodies in full sliding.
-
-    They slipped in part before, and what they dissipated then is not known.
-    """
-    return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
-
-
-def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
-    """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
-    if solution.scene.epsilon:
-        return ((*solution.edges, float(solution.scene.slides)),)
-    if not solution.sheared:
-        return ()
-    x1, x2 = solution.edges
-    return tuple(
-        z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
-    )  # not what the contact has left
-
-
 def _shear(solution: Solution, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
     return (
@@ -204,19 +153,6 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
         | energy_of(solution)
         | {name: values.tolist() for name, values in slip_of(solution, x).items()}
     )
-
-
-def turning_points(solution: PathSolution) -> list[dict[str, Any]]:
-    """The loads of each point of a path, its stick zones, and the energy dissipated up to it."""
-    names = ("normal_load", "tangential_load", "bulk_stress")
-    points = zip(solution.history.path.points, solution.history, strict=True)
-    rows = []
-    for loads, point in points:
-        stick = [list(zone) for zone in point.stick] if loads[0] else []
-        energy = point.energy_lost if loads[0] else 0.0
-        row = dict(zip(names, loads, strict=True))
-        rows.append(row | {"stick": stick, "energy_lost": energy})
-    return rows
 
 
 def _check(solution: Solution, _points: int) -> dict[str, Any]:
