@@ -388,11 +388,14 @@ class OneSignedSlip(Slipping):
 
 @dataclass(frozen=True, eq=False)
 class TwoSignedSlip(Slipping):
-    """Slip in opposite directions at the two edges: `sign` at the left one."""
+    """Slip in opposite directions at the two edges.
+
+    found     stick zone and slip zones, with the signs of slip
+    formal    the inversion of the profile's slope on the stick zone, which needs the tails of p to
+              vanish at both ends
+    """
 
     found: SlipZones
-    # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish
-    # at both ends
     formal: SlopeDensity
     kind = "two signs"
 

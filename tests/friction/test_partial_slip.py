@@ -22,14 +22,14 @@ E, F, P = 2.0, 0.5, 0.375
 FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
 
 
-def sheared(profile, fraction, **more):
+def sheared(profile, fraction, load=P, **more):
     return sie.solve(
         sie.Scene(
             profile=profile,
             modulus=E,
-            normal_load=P,
+            normal_load=load,
             friction=F,
-            tangential_load=fraction * F * P,
+            tangential_load=fraction * F * load,
             **more,
         )
     )
@@ -120,15 +120,7 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
     """
     profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
     load = float(rounded_load(mp.mpf(a), mp.mpf(1)))
-    solution = sie.solve(
-        sie.Scene(
-            profile=profile,
-            modulus=E,
-            normal_load=load,
-            friction=F,
-            tangential_load=fraction * F * load,
-        )
-    )
+    solution = sheared(profile, fraction, load)
     b, c = (a + rounded_rim(a, P) for P in (mp.mpf(load), left_over(solution)))
     state = solution.tangential
     inner = state.corrective.contact
