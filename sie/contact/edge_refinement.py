@@ -307,6 +307,8 @@ class Polish:
         if behind <= 0.0:
             return behind / A - d
         v = math.sqrt(behind / A) if B <= 0.0 else behind / (B + math.sqrt(B * B + A * behind))
+        if C > 0.0 and B >= 0.0:  # beyond the root by either of them; steps from far beyond creep
+            v = min(v, math.cbrt(1.5 * behind / C))
         for _ in range(STEPS_TO_A_BREAK):
             slope = 2.0 * (B + v * (A + C * v))
             step = (

@@ -356,7 +356,8 @@ class Search:
             raise LoadError(
                 f"no single patch of contact was found that carries the load {target * self.half_modulus:.6g}: "
                 f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with {carried * self.half_modulus:.6g}; "
-                "the profile has several bumps, raise the load, lower it, or smooth the profile",
+                "the profile has several bumps, or doubles there do not resolve so narrow a contact: "
+                "raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
@@ -524,7 +525,7 @@ def _logarithmic_root(
     steps = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         f, slope = function(u)
-        if f > best:
+        if f > best or f >= target:  # the last that is enough, or else the largest
             best, best_u = f, u
         rising = 0.0 < f < math.inf and slope > 0.0
         if rising and not 0.0 < target / f < math.inf:
