@@ -245,7 +245,7 @@ class Polish:
             step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
             missed = abs(over) / sum(self.rounding(contact, k, 0.0))
             if missed <= 1.0:
-                return contact.moved(step, step), k
+                return contact.moved(step, step) if rise > 0.0 else contact, k
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
             place = bracket.place(wanted, missed > 0.5 * earlier[-2])
