@@ -53,6 +53,10 @@ MEANING = {
     "z": "a point x + iy of the plane",
     "y": "a depth below the surface, a length >= 0",
     "poisson": "Poisson's ratio",
+    "coefficients": "a list of numbers, in units of stress",
+    "xx": "a component of a stress, as `Stresses` holds it",
+    "yy": "a component of a stress, as `Stresses` holds it",
+    "xy": "a component of a stress, as `Stresses` holds it",
     "peak_pressure": "the largest pressure of the line contact, > 0",
 }
 
@@ -79,6 +83,8 @@ def bits(lib: Library) -> int:
 
 def real(name: str, value: Number, lib: Library) -> Number:
     """`value` as float or array of float64, or as context number. ValueError unless it is real and finite."""
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} has masked entries; leave them out, or fill them.")
     try:
         number = _float64(value) if lib is np else lib.mpf(lib.convert(value))
     except (TypeError, ValueError, OverflowError):
@@ -113,6 +119,8 @@ def _not_tiny(name: str, number: Number, lib: Library) -> Number:
 
 def point(value: Number, lib: Library) -> Number:
     """z as complex array or context number. ValueError unless it is finite."""
+    if np.ma.is_masked(value):
+        raise ValueError("z has masked entries; leave them out, or fill them.")
     try:
         # Adding zero turns an imaginary part of -0.0 into +0.0. Without it z - b and z + b would carry opposite signs
         # of zero, and sqrt(z - b) sqrt(z + b) the wrong sign on x < -b.
@@ -122,6 +130,20 @@ def point(value: Number, lib: Library) -> Number:
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"z = {value!r} is not {_kind(lib)}; give {MEANING['z']}.") from None
     return _accept("z", number, _finite(number, lib), "finite")
+
+
+def representable(name: str, formula: Callable[[Number], Number], x: Number) -> Number:
+    """formula(x), which grows with |x|. ValueError where it is more than the largest double."""
+    with np.errstate(over="ignore"):
+        try:
+            value = formula(np.float64(x) if isinstance(x, float) else x)
+        except OverflowError:  # of plain floats
+            value = math.inf
+    infinite = abs(value) == math.inf
+    if everywhere(np.logical_not(infinite)):
+        return as_result(value)
+    far = first_where(np.asarray(infinite), np.asarray(x, dtype=object))[0]
+    raise ValueError(f"the {name} at x = {far} is more than the largest double; give a smaller x.")
 
 
 def larger(first: Number, second: Number, lib: Library) -> Number:

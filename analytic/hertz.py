@@ -19,6 +19,7 @@ from analytic._lib import (
     point,
     positive,
     real,
+    representable,
     root,
     scaled,
     seen_from,
@@ -34,7 +35,7 @@ def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     0.5
     """
     x, R = real("x", x, lib), positive("radius", radius, lib)
-    return as_result(x * (x / (2 * R)))
+    return representable("height", lambda x: x * (x / (2 * R)), x)
 
 
 def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:

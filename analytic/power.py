@@ -19,7 +19,18 @@ from functools import partial
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, bits, fraction, pick, positive, real, sign
+from analytic._lib import (
+    Library,
+    Number,
+    as_result,
+    bits,
+    fraction,
+    pick,
+    positive,
+    real,
+    representable,
+    sign,
+)
 
 # xi² = e² at which the two series meet. Both gain one bit a term there.
 MATCH_SQUARE = 1 / 2
@@ -34,7 +45,7 @@ def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = n
     4.0
     """
     m, C = _shape(exponent, coefficient, lib)
-    return as_result(C * abs(real("x", x, lib)) ** m)
+    return representable("height", lambda x: C * abs(x) ** m, real("x", x, lib))
 
 
 def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
@@ -44,8 +55,7 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
     -6.0
     """
     m, C = _shape(exponent, coefficient, lib)
-    x = real("x", x, lib)
-    return as_result(sign(x) * m * C * abs(x) ** (m - 1))
+    return representable("slope", lambda x: sign(x) * m * C * abs(x) ** (m - 1), real("x", x, lib))
 
 
 def pressure(

@@ -49,6 +49,7 @@ from analytic._lib import (
     point,
     positive,
     real,
+    representable,
     scaled,
     side_of_cut,
     sign,
@@ -72,8 +73,12 @@ def height(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -
         not_negative("half_flat", half_flat, lib),
         positive("radius", radius, lib),
     )
-    over = unit.beyond(x, a)
-    return as_result(over * (over / (2 * R)))
+
+    def gap(x: Number) -> Number:
+        over = unit.beyond(x, a)
+        return over * (over / (2 * R))
+
+    return representable("height", gap, x)
 
 
 def slope(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -> Number:

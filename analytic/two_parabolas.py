@@ -26,6 +26,7 @@ from analytic._lib import (
     pick,
     positive,
     real,
+    representable,
     sign,
 )
 
@@ -40,8 +41,12 @@ def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) ->
     >>> float(height(-3.0, distance=1.0, radius=4.0))
     0.5
     """
-    off = abs(real("x", x, lib)) - positive("distance", distance, lib)
-    return as_result(off * (off / (2 * positive("radius", radius, lib))))
+    x, d, R = (
+        real("x", x, lib),
+        positive("distance", distance, lib),
+        positive("radius", radius, lib),
+    )
+    return representable("height", lambda x: (abs(x) - d) * ((abs(x) - d) / (2 * R)), x)
 
 
 def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> Number:

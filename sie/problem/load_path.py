@@ -21,6 +21,7 @@ from .scene import Scene
 
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
 ROUNDED = 4.0 * EPS  # of f P: by so much a rise in proportion may exceed |dQ| = f dP
+MOST_POINTS = 10**6  # of a path cut into parts
 PROPORTIONAL = (
     1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
 )
@@ -63,6 +64,11 @@ class Path:
         if isinstance(parts, bool) or not isinstance(parts, Integral) or parts < 1:
             raise ValueError(
                 f"parts = {parts!r} is not a whole number of at least 1: give how many parts a step gets"
+            )
+        if parts * len(self.points) > MOST_POINTS:
+            raise ValueError(
+                f"parts times the {len(self.points)} points of the path are more than "
+                f"{MOST_POINTS}: give fewer parts"
             )
         shares = [k / int(parts) for k in range(1, int(parts))]
         points = [self.points[0]]

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from numbers import Integral
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -110,6 +111,8 @@ class Sampled(Profile):
         Raises ValueError, with the numbers of the lines, where values are missing, and OSError where there is no file.
         """
         factors = _factors(scale)
+        if not isinstance(path, (str, PathLike)):
+            raise ValueError(f"path = {path!r} is not the name of a file: give a string or a Path")
         if is_text(path):
             pair = arguments.listed("columns", columns, "those of x and of h")
             if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):
@@ -375,6 +378,7 @@ def _refuse_out_of_range(points: Array, heights: Array) -> None:
 
 
 def _numbers(name: str, values: Any) -> Array:
+    arguments.refuse_masked(name, values)
     try:
         given = np.asarray(values)
         array = np.array(given, dtype=float) if given.dtype.kind in "biufO" else None

@@ -169,6 +169,7 @@ class Density(ABC):
 
     def strength(self, x: float) -> float:
         """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
+        arguments.real("x", x)
         return 0.0
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
