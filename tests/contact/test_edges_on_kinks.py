@@ -290,7 +290,7 @@ def test_a_half_width_far_from_the_axis_carries_what_it_does_on_the_axis(share, 
 
 @pytest.mark.parametrize("m", [1e2, -1e5, 1e9])
 def test_a_half_width_far_from_the_axis_of_a_fourth_power_is_right_to_rounding_of_the_moment(m):
-    """h' = 4 (m + sin φ)³: P = I1/2 = π (3 m² + 3/4), and M = m P + 3 π m/4 by ∫H cos²φ - I0/2 = -3 π m/2."""
+    """h' = 4 (m + sin φ)³: P = I1/2 = π (3 m² + 3/4), M = m P - (C2 - I0/2)/2 = m P + 3 π m/4."""
     load = mp.pi * (3 * mp.mpf(m) ** 2 + mp.mpf(3) / 4)
     moment = m * load + 3 * mp.pi * m / 4
     profile = sie.Power(4.0, 1.0)
@@ -301,7 +301,7 @@ def test_a_half_width_far_from_the_axis_of_a_fourth_power_is_right_to_rounding_o
 
 
 def test_the_centre_of_two_that_have_the_moment_is_where_a_load_presses():
-    """Between the two lowest points of this profile a contact of this half-width would be pulled."""
+    """Between the lowest points of this profile such a contact would be pulled."""
     profile = sie.Polynomial((0.0, 0.0, 0.5, -0.26, -0.17, 0.0, 0.05))
     tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.3, tilt=0.58))
     turned = tilted.with_(tilt=0.0, moment=tilted.moment)
