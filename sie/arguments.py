@@ -22,6 +22,8 @@ def real(name: str, value: Any) -> float:
     """`value` as a float; ValueError unless it is one number (nan is not a number)."""
     if isinstance(value, (bool, str, bytes)):
         raise ValueError(f"{name} = {value!r} is not a number: give a float")
+    if value is np.ma.masked:
+        raise ValueError(f"{name} is masked: give a number")
     try:
         number = float(value)
     except OverflowError:
@@ -91,6 +93,7 @@ def listed(name: str, values: Any, what: str) -> tuple[Any, ...]:
     """What a list or another collection holds; ValueError, with what to give, for all else."""
     single = isinstance(values, (str, bytes)) or getattr(values, "shape", None) == ()
     if isinstance(values, Iterable) and not single:
+        refuse_masked(name, values)
         return tuple(values)
     raise ValueError(f"{name} = {values!r} is not a list: give {what}")
 
@@ -102,6 +105,7 @@ def among(value: Any, choices: Collection[Any]) -> bool:
 
 def reals(name: str, values: Any) -> NDArray[np.float64]:
     """`values` as an array of floats; ValueError unless they are real numbers, inf or nan."""
+    refuse_masked(name, values)
     array = _array(values)
     if array.dtype == np.float64:
         return array
@@ -117,6 +121,7 @@ def reals(name: str, values: Any) -> NDArray[np.float64]:
 
 def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
+    refuse_masked(name, values)
     array = _array(values)
     try:
         if array.dtype.kind in "cfiu":
@@ -126,6 +131,15 @@ def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     except (TypeError, ValueError, OverflowError):
         pass
     raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
+
+
+def refuse_masked(name: str, values: Any) -> None:
+    """Raises ValueError for an array with masked entries: NumPy's conversion drops the mask."""
+    if np.ma.is_masked(values):
+        raise ValueError(
+            f"{name} has masked entries: fill them, with nan where a value is missing, "
+            "or leave them out"
+        )
 
 
 def _array(values: Any) -> NDArray[Any]:

@@ -129,6 +129,7 @@ class CauchyEquation:
     # -- what is asked -----------------------------------------------------------------------------
 
     def _intervals(self) -> tuple[Interval, ...]:
+        arguments.refuse_masked("interval", self.interval)
         try:
             ends = np.array(self.interval, dtype=float)
             ends = (
@@ -136,6 +137,10 @@ class CauchyEquation:
                 if ends.ndim in (1, 2) and ends.shape[-1] == 2
                 else np.zeros((0, 2))
             )
+        except OverflowError:
+            raise ValueError(
+                f"interval holds a whole number beyond the range of doubles: {arguments.REMEDY}"
+            ) from None
         except (TypeError, ValueError):
             ends = np.zeros((0, 2))
         if not len(ends):
@@ -170,6 +175,11 @@ class CauchyEquation:
             raise ValueError(
                 f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm "
                 "equation; give a larger b"
+            )
+        if abs(self.b) < np.finfo(float).tiny:
+            raise ValueError(
+                f"b = {self.b:g} is below the least normal double: "
+                "multiply the equation by a large number"
             )
         if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
             raise ValueError(

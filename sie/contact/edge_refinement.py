@@ -227,7 +227,8 @@ class Polish:
             step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
             missed = abs(over) / sum(self.rounding(contact, k, 0.0))
             if missed <= 1.0:
-                return contact.moved(step, step), k.balanced(contact.r)
+                balanced = contact.moved(step, step) if rise > 0.0 else contact
+                return balanced, k.balanced(contact.r)
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
             place = bracket.place(wanted, missed > 0.5 * earlier[-2])
@@ -294,6 +295,8 @@ class Polish:
         if behind <= 0.0:
             return behind / A - d
         v = math.sqrt(behind / A) if B <= 0.0 else behind / (B + math.sqrt(B * B + A * behind))
+        if C > 0.0 and B >= 0.0:  # beyond the root by either of them; steps from far beyond creep
+            v = min(v, math.cbrt(1.5 * behind / C))
         for _ in range(STEPS_TO_A_BREAK):
             slope = 2.0 * (B + v * (A + C * v))
             step = (

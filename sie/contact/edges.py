@@ -368,7 +368,8 @@ class Search:
                 f"{target * self.half_modulus:.6g}: "
                 f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with "
                 f"{carried * self.half_modulus:.6g}; "
-                "the profile has several bumps, raise the load, lower it, or smooth the profile",
+                "the profile has several bumps, or doubles there do not resolve so narrow a "
+                "contact: raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)

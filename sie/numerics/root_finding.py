@@ -161,7 +161,7 @@ def logarithmic_root(
     steps = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         f, slope = function(u)
-        if f > best:
+        if f > best or f >= target:  # the last that is enough, or else the largest
             best, best_u = f, u
         rising = 0.0 < f < math.inf and slope > 0.0
         if rising and not 0.0 < target / f < math.inf:

@@ -309,6 +309,17 @@ class Slope:
         c[:, 0] += tilt
         return replace(self, coefficients=c)
 
+    def less_level(self, x: float, near: float) -> tuple[float, Slope]:
+        """H(x), and H - H(x) with x as the origin of every piece whose own is not so near.
+
+        Nothing cancels about x.
+        """
+        level = float(self(x))
+        origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
+        c = _recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
+        c[:, 0] -= level
+        return level, replace(self, origins=origins, coefficients=c)
+
     def split_at(self, x: float) -> Slope:
         """The same slope with a break at x, which changes nothing but where its pieces end."""
         k = int(np.searchsorted(self.breaks, x))

@@ -13,6 +13,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 from numbers import Integral
+from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -51,6 +52,8 @@ def read_trace(
 
     Raises ValueError where the file holds no trace, and OSError where it cannot be read.
     """
+    if not isinstance(path, (str, PathLike)):
+        raise ValueError(f"path = {path!r} is not the name of a file: give a string or a Path")
     path = Path(path)
     pair = arguments.listed("columns", columns, "those of x and of h")
     if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):

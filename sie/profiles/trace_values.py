@@ -103,6 +103,7 @@ def _refuse_out_of_range(points: Array, heights: Array) -> None:
 
 
 def _numbers(name: str, values: Any) -> Array:
+    arguments.refuse_masked(name, values)
     try:
         given = np.asarray(values)
         array = np.array(given, dtype=float) if given.dtype.kind in "biufO" else None

@@ -279,6 +279,7 @@ class Density(ABC):
         float
             The factor of the infinity. Those of densities of one profile add up as these do.
         """
+        arguments.real("x", x)
         return 0.0
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:

@@ -64,6 +64,7 @@ class SlopeDensity(Density):
 
     def strength(self, x: float) -> float:
         """k1, k2 at a sharp edge; ±1 under a corner of the profile, whatever the load."""
+        x = arguments.real("x", x)
         for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
             if x == edge and k:
                 return k
