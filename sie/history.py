@@ -95,8 +95,8 @@ def follow(
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
         raise ValueError(
-            "a bonded contact never slips, and forgets its path: give a finite friction, or solve "
-            "the last point as a scene"
+            "a bonded contact never slips, so its path does not matter: give a finite friction, "
+            "or solve the last point as a scene"
         )
     return History(scene, path, tol, economy)
 

@@ -92,7 +92,9 @@ class Interrupted(KeyboardInterrupt):
     """
 
     def __init__(self, result: Any) -> None:
-        super().__init__("the sweep was interrupted: what it found is in the exception's `result`")
+        super().__init__(
+            "the sweep was interrupted: its answers up to then are in the exception's `result`"
+        )
         self.result = result
 
 

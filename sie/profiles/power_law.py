@@ -84,7 +84,7 @@ class PowerLaw:
     def _refuse_beyond_range(self, given: str, *logarithms: float) -> None:
         if max(map(abs, logarithms)) > RANGE:
             raise LoadError(
-                f"the {given} under h = {self.coefficient:.6g} |x|^{self.exponent:.6g} asks for "
+                f"the {given} under h = {self.coefficient:.6g} |x|^{self.exponent:.6g} needs "
                 "numbers beyond the range of doubles: choose other units"
             )
 

@@ -1,5 +1,6 @@
 """The largest value of a measure of stress in the body: scanned at every scale, polished by Newton.
- Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
+
+Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
 What is not smooth are the edges and breaks of the tractions, the marks. On a disc that keeps away
 from these by its own radius the stress is a fast convergent power series, so that a scan whose
 cells are as large as a fraction of
@@ -19,7 +20,8 @@ Polishing.  Derivatives up to the third come from Cauchy's formula on a circle i
 ρ = y/400 exact to 400^-N,
 
     F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
- so that gradient and Hessian are those of the stress itself, without finite differences. On the
+
+so that gradient and Hessian are those of the stress itself, without finite differences. On the
 surface the derivative is Fp' there, and its sign changes are bracketed between neighbouring
 columns, of which every edge and break is one.
 """
