@@ -1,4 +1,4 @@
-"""Refusals of values that mean nothing: one sentence with the value and the remedy."""
+"""Checks of arguments. A refusal is one sentence with the value and the remedy."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def tolerance(value: Any) -> float:
 
 
 def listed(name: str, values: Any, what: str) -> tuple[Any, ...]:
-    """What a list or another collection holds; ValueError, with what to give, for all else."""
+    """The items of a list or another collection; otherwise ValueError, with what to give."""
     single = isinstance(values, (str, bytes)) or getattr(values, "shape", None) == ()
     if isinstance(values, Iterable) and not single:
         refuse_masked(name, values)
@@ -150,7 +150,7 @@ def _array(values: Any) -> NDArray[Any]:
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
-    """What a user's function returns. ValueError, with the remedy, if it fails on arrays."""
+    """The result of a user's function. ValueError, with the remedy, if it fails on arrays."""
     try:
         return function(*arrays)
     except Exception as problem:  # whatever a user's function may raise
@@ -164,7 +164,7 @@ def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
 def real_values(
     name: str, function: Callable[..., Any], x: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What a user's function of an array returns, as floats of x's shape.
+    """The result of a user's function of an array, as floats of x's shape.
 
     ValueError unless it returns real numbers of that shape, or one.
     """

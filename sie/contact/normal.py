@@ -1,5 +1,4 @@
-"""The normal problem at β = 0: from the slope of a profile and a load to the edges and the
-pressure.
+"""The normal problem at β = 0: the edges and the pressure of a profile under a load.
 
 Where the slope is a polynomial on each piece this is one search for the edges (`edges`) and one
 expansion. A slope given by a function is resolved first, on a window that is fitted to the contact:

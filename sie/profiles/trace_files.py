@@ -2,7 +2,8 @@
 
 Text is read with a comma, semicolon, tab or blanks between the columns; with a decimal comma where
 commas do not separate columns; with comments after # or %, and with header lines before the first
-number. What is not a number after that is missing, and is reported with the number of its line.
+number. After that a cell without a number is a missing value, which is reported with its line
+number.
 Other formats are read by SurfaceTopography (the extra `traces`).
 """
 
@@ -27,7 +28,7 @@ Column = int | str
 
 
 class Limit(NamedTuple):
-    """How long a file may be."""
+    """The largest size of a file."""
 
     size: int  # bytes
     lines: int

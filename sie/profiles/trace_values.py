@@ -1,4 +1,4 @@
-"""The points and heights of a trace: what is refused, and what `mend` puts in order."""
+"""Checks of the points and heights of a trace, and their repair by `mend`."""
 
 from __future__ import annotations
 
