@@ -38,6 +38,7 @@ from .problem.load_path import Path
 from .problem.material import RIGID, Elastic
 from .problem.scene import Scene
 from .profiles.base import Profile
+from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
 from .profiles.shapes import (
     Flat,
@@ -78,6 +79,7 @@ __all__ = [
     "Parabola",
     "Path",
     "Peak",
+    "Periodic",
     "Piecewise",
     "Plan",
     "Polynomial",
@@ -85,6 +87,7 @@ __all__ = [
     "Profile",
     "ResolutionError",
     "RoundedFlat",
+    "Row",
     "Sampled",
     "Scene",
     "Solution",

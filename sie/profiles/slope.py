@@ -281,7 +281,7 @@ class Slope:
             self.breaks[1:-1],
             self.coefficients.shape[1],
         )
-        return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
+        return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -363,7 +363,7 @@ class Slope:
             other.origins[theirs],
         )
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
-        c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
+        c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
 
@@ -395,7 +395,7 @@ def _distance(origins: Array, breaks: Array) -> Array:
     )
 
 
-def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
+def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
     """Coefficients of the pieces k about new origins (Horner's synthetic division, exact where the origin stays)."""
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
