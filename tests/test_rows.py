@@ -60,6 +60,12 @@ def test_a_periodic_profile_repeats_itself(wave, turns):
     np.testing.assert_allclose(there, here, rtol=1e-11, atol=1e-11)
 
 
+def test_an_unbounded_profile_is_repeated_as_the_lowest_of_all_its_copies():
+    wave = Periodic(Parabola(2.0).shifted(3.0) + Polynomial((0.0, 0.1, 0.01)), 7.0)
+    copies = np.min([wave.profile.height(X - 7.0 * turn) for turn in range(-3, 4)], axis=0)
+    np.testing.assert_allclose(wave.height(X), copies, rtol=1e-12)
+
+
 @pytest.mark.parametrize("profile", [Parabola(1.0), Flat(0.5), TRACE, FLATS.raised(0.2)])
 @pytest.mark.parametrize("dz", [0.1, -2.0])
 def test_raising_moves_a_profile_away(profile, dz):

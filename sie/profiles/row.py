@@ -175,8 +175,9 @@ class Periodic(Profile):
     ----------
     profile : Profile
         The indenter on one period: on its domain where that is bounded (and no longer than the
-        period); otherwise on one period about its axis, or about x = 0 if it has none. Where it is
-        shorter than the period there is no indenter between.
+        period); otherwise on one period about its axis, or about x = 0 if it has none, with its
+        neighbours where they are lower. Where it is shorter than the period there is no indenter
+        between.
     period : float
         The length after which it is repeated.
 
@@ -231,9 +232,23 @@ class Periodic(Profile):
         return (self.profile.axis or 0.0) - 0.5 * self.repeats
 
     @cached_property
+    def repeated(self) -> Profile:
+        """What is repeated: the profile, or the lowest of its neighbours where the ends of an unbounded one do not meet."""
+        if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
+            return self.profile
+        return Row([self.profile.shifted(turn * self.repeats) for turn in (-1, 0, 1)])
+
+    def _level(self, profile: Profile) -> bool:
+        """Whether both ends of a period are equally high."""
+        x = self.start + self.repeats * np.linspace(0.0, 1.0, 9)
+        heights = profile.height(x)
+        size = np.abs(heights[np.isfinite(heights)]).max(initial=0.0)
+        return bool(abs(heights[-1] - heights[0]) <= LEVEL * size)
+
+    @cached_property
     def pieces(self) -> Slope:
         """H on one period, from `start`; shorter where the indenter is."""
-        slope = self.profile.pieces
+        slope = self.repeated.pieces
         return _cut(slope, self.start, min(self.start + self.repeats, slope.domain[1]))
 
     @cached_property
@@ -241,15 +256,11 @@ class Periodic(Profile):
         """Those in the period that begins at `start`; the last one may reach up to its end."""
         lo, hi = self.pieces.domain
         end = self.start + self.repeats
-        found = [(a, b) for a, b in self.profile.walls if lo < a and b < hi]
+        found = [(a, b) for a, b in self.repeated.walls if lo < a and b < hi]
         if end - hi > WHOLE * self.repeats:
             found.append((hi, end))
-        else:
-            heights = self.profile.height(np.array([lo, hi]))
-            sizes = np.abs(self.profile.height(np.linspace(lo, hi, 9)))
-            size = sizes[np.isfinite(sizes)].max(initial=0.0)
-            if abs(heights[1] - heights[0]) > LEVEL * size:
-                found.append((hi, hi))
+        elif not self._level(self.repeated):
+            found.append((hi, hi))
         return tuple(found)
 
     def within(self, x: Array) -> Array:
@@ -267,7 +278,7 @@ class Periodic(Profile):
     def height(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         finite = np.isfinite(x)
-        values = self.profile.height(self.within(np.where(finite, x, self.start)))
+        values = self.repeated.height(self.within(np.where(finite, x, self.start)))
         return np.where(finite, values, np.nan)[()]
 
     @property

@@ -1,0 +1,408 @@
+"""From a load to the patches, their number included.
+
+A grid says where contact is, about; Newton's method finds the edges; the inequalities are verified by
+bounds. Where they fail the patches are mended, cut where they pull, born where the bodies overlap,
+merged where a gap overlaps all over, and Newton's method starts again. What is not certified is not
+returned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import ContactError, LoadError
+
+from . import newton
+from .admissible import Findings, Overlap, findings
+from .chord import Chord
+from .newton import Event, Given, State
+from .operator import Operator
+from .panels import Patches
+from .pieces import Pieces
+from .start import FEW, Grid, Patch, grid_pressure, patches_on
+
+Array = NDArray[np.float64]
+
+ROUNDS = 30
+FEWEST_CELLS, MOST_CELLS = 2048, 65536
+CELLS = 1.5  # for each break in the window
+NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
+COARSE = 512  # cells of a grid that looks for the window
+WINDOWS = 80
+NEARLY = 1e-7  # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is asked, in units of E*/2.
+
+    pieces     window -> the slope, without tilt
+    height     the profile's h(x)
+    domain     where the indenter is known; corners: whether its ends are the indenter's own
+    given      load, tilt or moment
+    """
+
+    pieces: Callable[[tuple[float, float]], Pieces]
+    height: Callable[[Array], Array]
+    domain: tuple[float, float]
+    corners: tuple[bool, bool]
+    breaks: Array
+    chord: Chord
+    given: Given
+
+    def tilted(self, tilt: float) -> Callable[[Array], Array]:
+        return lambda x: self.height(x) + tilt * x if tilt else self.height(x)
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A certified answer."""
+
+    state: State
+    operator: Operator
+    findings: Findings
+    rounds: int
+    steps: int
+
+
+def contact(problem: Problem) -> Found:
+    """The patches of a problem. Raises ContactError where none are certified."""
+    window = fitted_window(problem)
+    tilt = problem.given.tilt
+    if problem.given.moment is not None:
+        tilt = _level(problem, window)
+    cells = FEWEST_CELLS
+    inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
+    while cells < min(CELLS * inside, MOST_CELLS // 4):
+        cells *= 2
+    last: ContactError | None = None
+    pieces = problem.pieces(window)
+    while cells <= MOST_CELLS:
+        grid = grid_pressure(
+            problem.tilted(tilt), window, cells, problem.given.load, problem.chord.periodic
+        )
+        try:
+            return settled(start_of(grid, pieces, problem, tilt), pieces, problem)
+        except ContactError as error:
+            last = error
+        cells *= 8
+    assert last is not None
+    raise last
+
+
+# -- the window ------------------------------------------------------------------------------------
+
+
+def fitted_window(problem: Problem) -> tuple[float, float]:
+    """Where contact may be: the domain, or what a coarse grid leaves of the line."""
+    if problem.chord.periodic:
+        return problem.domain[0], problem.domain[0] + problem.chord.period
+    lo, hi = _first_window(problem)
+    height = problem.tilted(problem.given.tilt)
+    for _ in range(WINDOWS):
+        grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
+        x = grid.x[grid.p > 0.0]
+        a, b = x[0] - 0.5 * grid.dx, x[-1] + 0.5 * grid.dx
+        left, right = (
+            a - lo < 2.0 * grid.dx and lo > problem.domain[0],
+            hi - b < 2.0 * grid.dx and hi < problem.domain[1],
+        )
+        if left or right:
+            lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
+            lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
+        elif b - a < NARROWEST * (hi - lo):
+            margin = 2.0 * (b - a)
+            lo, hi = max(lo, a - margin), min(hi, b + margin)
+        else:
+            return lo, hi
+    return lo, hi
+
+
+def _first_window(problem: Problem) -> tuple[float, float]:
+    """The domain where it is bounded; otherwise about the breaks as far as the slope has to rise to carry the load."""
+    lo, hi = problem.domain
+    if np.isfinite(lo) and np.isfinite(hi):
+        return lo, hi
+    finite = problem.breaks[np.isfinite(problem.breaks)]
+    first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+    height = problem.tilted(problem.given.tilt)
+    sizes = np.geomspace(1e-140, 1e140, 281)
+    with np.errstate(over="ignore", invalid="ignore"):
+        least = (
+            float(np.min(height(np.linspace(first, last, 257))))
+            if finite.size
+            else float(height(np.zeros(1))[0])
+        )
+        # a contact of half-width w is about as deep as its mean load
+        enough = [
+            np.flatnonzero(height(np.clip(x, lo, hi)) - least > problem.given.load)
+            for x in (last + sizes, first - sizes)
+        ]
+    size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
+    return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
+
+
+def _level(problem: Problem, window: tuple[float, float]) -> float:
+    """The tilt whose load has the given moment, on a coarse grid: M falls as the tilt grows."""
+    assert problem.given.moment is not None
+    lo, hi = window
+
+    def moment(tilt: float) -> float:
+        grid = grid_pressure(problem.tilted(tilt), window, COARSE, problem.given.load, False)
+        return float((grid.p * grid.x).sum() * grid.dx) - problem.given.moment  # type: ignore[operator]
+
+    size = problem.given.load / (hi - lo)
+    now = moment(0.0)
+    if now == 0.0:
+        return 0.0
+    sign = np.sign(now)
+    near, far = 0.0, sign * size
+    for _ in range(60):
+        if moment(far) * sign <= 0.0:
+            break
+        near, far = far, 2.0 * far
+    for _ in range(24):
+        middle = 0.5 * (near + far)
+        if moment(middle) * sign > 0.0:
+            near = middle
+        else:
+            far = middle
+    return 0.5 * (near + far)
+
+
+# -- from a grid to patches ------------------------------------------------------------------------
+
+
+def start_of(grid: Grid, pieces: Pieces, problem: Problem, tilt: float) -> State:
+    """The patches on a grid, those of a few cells as parabolas under their load."""
+    patches = patches_on(grid)
+    loads, centres = np.array([p.load for p in patches]), np.array([p.centre for p in patches])
+    ends = []
+    for n, patch in enumerate(patches):
+        ends.append(
+            _small(n, patch, loads, centres, pieces, problem, tilt, grid.dx) or (patch.a, patch.b)
+        )
+    ends = _apart(ends)
+    a, b = np.array(ends).T
+    if problem.chord.periodic:
+        a, b = _one_period(a, b, problem.chord.period)
+    return bounded(a, b, pieces, problem.chord, tilt)
+
+
+def _small(
+    n: int,
+    patch: Patch,
+    loads: Array,
+    centres: Array,
+    pieces: Pieces,
+    problem: Problem,
+    tilt: float,
+    dx: float,
+) -> tuple[float, float] | None:
+    if patch.cells >= FEW:
+        return None
+    x, half = patch.centre, 0.5 * dx * patch.cells
+    others = np.arange(len(loads)) != n
+    chord = problem.chord
+
+    def missing(x: float) -> tuple[float, float]:
+        d = chord.apart(x - centres[others])
+        pull = (loads[others] * chord.cosine(x - centres[others]) / d).sum() / np.pi
+        k = int(pieces.locate(x))
+        steepness = float(pieces.curvature(k, x)) + float((loads[others] / d**2).sum()) / np.pi
+        return float(pieces.value(k, x, 0.0)) + tilt - float(pull), steepness
+
+    for _ in range(8):
+        H, steepness = missing(x)
+        if not steepness > 0.0:
+            return None
+        step = -H / steepness
+        if abs(x + step - patch.centre) > half + dx:
+            break
+        x += step
+    curvature = float(pieces.curvature(int(pieces.locate(x)), x))
+    if not curvature > 0.0:
+        return None
+    r = np.sqrt(2.0 * patch.load / (np.pi * curvature))
+    return (x - r, x + r) if r < half + dx else None
+
+
+def _apart(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Patches that overlap as one."""
+    found: list[tuple[float, float]] = []
+    for a, b in sorted(ends):
+        if found and a <= found[-1][1]:
+            found[-1] = found[-1][0], max(b, found[-1][1])
+        else:
+            found.append((a, b))
+    return found
+
+
+def _one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
+    """Cut where the gap is widest."""
+    gaps = np.append(a[1:], a[0] + period) - b
+    k = (int(np.argmax(gaps)) + 1) % len(a)
+    return np.append(a[k:], a[:k] + period), np.append(b[k:], b[:k] + period)
+
+
+def bounded(
+    a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float, charge: Array | None = None
+) -> State:
+    """Patches whose edges stay on the indenter: sharp where they reach its ends."""
+    a, b = _at_walls(a, b, pieces)
+    lo, hi = pieces.solid_around(0.5 * (a + b))
+    sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
+    a, b = np.maximum(a, lo), np.minimum(b, hi)
+    kept = b > a
+    state = Patches(a[kept], b[kept], chord)
+    sharp = sharp.reshape(-1, 2)[kept].ravel()
+    zero = np.zeros(len(sharp)) if charge is None else charge
+    return State(state, sharp, zero, tilt)
+
+
+def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
+    """Patches that reach across walls, cut there."""
+    void = np.flatnonzero(pieces.void)
+    if not void.size:
+        return a, b
+    lo, hi = pieces.ends[void], pieces.ends[void + 1]
+    ends = []
+    for start, stop in zip(a.tolist(), b.tolist(), strict=True):
+        crossed = (lo > start) & (hi < stop)
+        ends += zip([start, *hi[crossed].tolist()], [*lo[crossed].tolist(), stop], strict=True)
+    cut = np.array(ends)
+    return cut[:, 0], cut[:, 1]
+
+
+# -- Newton's method and repairs -------------------------------------------------------------------
+
+
+def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
+    """The certified answer near a start."""
+    steps = 0
+    nearly: Found | None = None
+    for round_ in range(ROUNDS):
+        if not state.patches.number:
+            break
+        state, event, count = newton.solve(state, pieces, problem.given)
+        steps += count
+        if event is not None:
+            state = after(event, state, pieces, problem)
+            continue
+        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        found = Found(state, o, findings(o), round_ + 1, steps)
+        if found.findings.ok:
+            return found
+        if not found.findings.overlap and found.findings.lowest > -NEARLY:
+            nearly = found
+        state = mended(state, found.findings, o)
+    if nearly is not None:
+        return nearly
+    raise LoadError(
+        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = {problem.given.load:.6g}: "
+        "two of them are about to merge, or one to appear; change the load a little"
+    )
+
+
+def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State:
+    """The patches after an event."""
+    P = state.patches
+    a, b, sharp = P.a.copy(), P.b.copy(), state.sharp.copy()
+    if event.kind == "smooth":
+        o = Operator(P, pieces, np.where(sharp, state.charge, 0.0))
+        found = findings(o)
+        if found.tension:  # a cut may leave the end without pull
+            return mended(state, found, o)
+        k = event.index // 2
+        sharp[event.index] = False
+        if event.index % 2:
+            b[k] -= 0.1 * P.r[k]
+        else:
+            a[k] += 0.1 * P.r[k]
+        charge = np.where(sharp, state.charge, 0.0)
+        return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
+    if event.kind == "vanish":
+        keep = np.arange(P.number) != event.index
+        return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
+    if event.kind == "merge" and P.number > 1:
+        k = event.index
+        if k == P.number - 1:  # across the cut of the period
+            a[0] = a[k] - P.chord.period
+            a, b = a[:-1], b[:-1]
+        else:
+            a, b = np.delete(a, k + 1), np.delete(b, k)
+        return bounded(a, b, pieces, P.chord, state.tilt)
+    return state
+
+
+def mended(state: State, found: Findings, o: Operator) -> State:
+    """The patches cut where they pull, born and merged where the bodies overlap."""
+    P, pieces = state.patches, o.pieces
+    ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
+    cut: list[tuple[float, float]] = []
+    for k, (a, b) in enumerate(ends):
+        start = a
+        for t in (t for t in found.tension if t.patch == k):
+            middle, half = 0.5 * (t.lo + t.hi), max(0.5 * (t.hi - t.lo), 1e-3 * (b - a))
+            lo, hi = middle - np.sqrt(2.0) * half, middle + np.sqrt(2.0) * half
+            if lo - start > 0.01 * (b - a):
+                cut.append((start, lo))
+            start = max(hi, start)
+        if b - start > 0.01 * (b - a):
+            cut.append((start, b))
+    merged = set()
+    born = []
+    for overlap in found.overlap:
+        k = overlap.gap
+        inner = 0 <= k < P.number - 1 or P.chord.periodic
+        if inner and overlap.largest < 0.1 * overlap.depth:
+            merged.add(k)
+        else:
+            born.append(_born(overlap, state, pieces))
+    for k in sorted(merged):
+        if k < P.number - 1:
+            cut.append((P.b[k] - 0.01 * P.r[k], P.a[k + 1] + 0.01 * P.r[k + 1]))
+        else:
+            cut.append((P.a[0] - P.gaps[k] - 0.01 * P.r[k], P.a[0] + 0.01 * P.r[0]))
+    a, b = np.array(_apart(cut + [e for e in born if e is not None])).T
+    if P.chord.periodic:
+        a, b = _one_period(*_wrapped(a, b, P.chord.period), P.chord.period)
+    return bounded(a, b, pieces, P.chord, state.tilt)
+
+
+def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
+    """Patches that reach into each other across the cut, as one."""
+    while len(a) > 1 and b[-1] >= a[0] + period:
+        a, b = a[1:], np.append(b[1:-1], b[0] + period) if b[0] + period > b[-1] else b[1:]
+    while len(a) > 1 and a[0] + period <= b[-1]:
+        a = np.append(a[1:-1], a[-1])
+        b = b[1:]
+    return a, b
+
+
+def _born(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
+    """A patch where the bodies overlap: as deep as a parabola that its load presses in."""
+    P = state.patches
+    x = overlap.x
+    curvature = float(pieces.curvature(int(pieces.locate(x)), x))
+    distance = float(np.abs(P.chord.difference(P.edges - x)).min())
+    wide = 0.5 * (overlap.hi - overlap.lo)
+    if curvature > 0.0:
+        r = np.sqrt(2.0 * overlap.depth / curvature)
+        for _ in range(20):
+            r = np.sqrt(
+                2.0 * overlap.depth / curvature / (np.log(max(2.0 * distance / r, 1.1)) + 0.5)
+            )
+        wide = min(r, 0.5 * distance)
+    elif wide == 0.0:
+        wide = 0.1 * distance
+    return x - wide, x + wide
+
+
+def changed(problem: Problem, **changes: Any) -> Problem:
+    return replace(problem, given=problem.given._replace(**changes))
