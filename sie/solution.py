@@ -25,10 +25,11 @@ from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.normal import ECONOMY, Normal, normal_contact, pressure
-from .errors import ContactError, LoadError
+from .errors import ContactError, InequalityError, LoadError
 from .friction.full_stick import Component, bonded_certificate, bonded_contact
 from .friction.partial_slip import refuse_sliding, sheared, slip
 from .friction.states import Slip, Step
+from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .problem.material import Elastic
 from .problem.scene import Scene
 from .profiles.sampled import explained, traces_in
@@ -75,7 +76,9 @@ _STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
 class Solution:
     """What a scene answers; see `solve`. Lengths, stresses and loads in the scene's units.
 
-    edges        (x1, x2)              half_width, centre, normal_load, moment, tilt        floats
+    edges        (x1, x2)              the outermost two
+    patches      the patches of contact, ascending;  patch_loads: ∫p over each
+                                       half_width, centre, normal_load, moment, tilt        floats
     pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
     shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
     gap(x)       the gap between the deformed bodies, 0 in contact
@@ -100,20 +103,47 @@ class Solution:
     # -- stages -------------------------------------------------------------------------------------------------------
 
     @cached_property
-    def normal(self) -> Normal:
+    def normal(self) -> Normal | SeveralPatches:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        if asks_for_patches(self.scene.profile):
+            return self._in_patches()
         try:
             return self._one_patch()
+        except (InequalityError, LoadError) as error:
+            if self._may_be_in_patches:
+                return self._in_patches(error)
+            raise explained(error, self.scene.profile) from None
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
+
+    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches:
+        """Contact in several patches; `one_patch` is why it is not one."""
+        try:
+            found = several_patches(self.scene)
+        except ContactError as error:
+            raise explained(error, self.scene.profile) from one_patch
+        self.__dict__["pressure"] = found.pressure
+        self.__dict__["inequalities"] = True
+        return found
+
+    @property
+    def _may_be_in_patches(self) -> bool:
+        scene = self.scene
+        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+
+    @property
+    def _several(self) -> SeveralPatches | None:
+        """The contact, if it is in several patches or per period."""
+        return self.normal if isinstance(self.normal, SeveralPatches) else None
 
     def _one_patch(self) -> Normal:
         try:
             found = normal_contact(self.scene, self.tol, self.economy)
         except LoadError:
-            self._look_for_a_second_patch()
+            if not self._may_be_in_patches:
+                self._look_for_a_second_patch()
             raise
         if self._may_not_be_convex:
             self.__dict__["pressure"] = self._verified(self.scene, found)
@@ -195,6 +225,8 @@ class Solution:
             return bonded_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
+        if self._several is not None:
+            return self._several.certificate(self.tol)
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
@@ -221,6 +253,16 @@ class Solution:
         """(x1, x2), where contact begins and ends."""
         contact = self.normal.edges.contact
         return contact.x1, contact.x2
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        """The patches of contact as (x1, x2), ascending; per period those of one period."""
+        return (self.edges,) if self._several is None else self._several.patches
+
+    @property
+    def patch_loads(self) -> tuple[float, ...]:
+        """∫p over each patch, force per length."""
+        return (self.normal_load,) if self._several is None else self._several.pressure.loads
 
     @property
     def half_width(self) -> float:
@@ -257,7 +299,7 @@ class Solution:
             return ()
         if self.sheared:
             return self.tangential.stick
-        return (self.edges,) if self.scene.friction else ()
+        return self.patches if self.scene.friction else ()
 
     @property
     def shear(self) -> Density:
@@ -347,6 +389,8 @@ class Solution:
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
+        if self._several is not None:
+            return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     @property
@@ -364,7 +408,7 @@ class Solution:
     @property
     def strain_notes(self) -> tuple[str, ...]:
         """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
-        if self.scene.bonded or "certificate" in self.__dict__:
+        if self.scene.bonded or "certificate" in self.__dict__ or self._several is not None:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
@@ -384,9 +428,9 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        return (
-            () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
-        )
+        if self.scene.bonded or self._several is not None:
+            return ()
+        return trace_reports(self.scene, cast(Normal, self.normal), self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""

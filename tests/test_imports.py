@@ -21,7 +21,7 @@ LAYERS = (
     ("profiles",),
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
-    ("friction",),
+    ("friction", "patches"),
     ("certificate",),
     ("plan",),
     ("solution",),

@@ -87,12 +87,27 @@ def contact(problem: Problem) -> Found:
             problem.tilted(tilt), window, cells, problem.given.load, problem.chord.periodic
         )
         try:
-            return settled(start_of(grid, pieces, problem, tilt), pieces, problem)
+            found = settled(start_of(grid, pieces, problem, tilt), pieces, problem)
         except ContactError as error:
             last = error
+        else:
+            refuse_unknown_ends(found.state, problem)
+            return found
         cells *= 8
     assert last is not None
     raise last
+
+
+def refuse_unknown_ends(state: State, problem: Problem) -> None:
+    """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
+    edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
+    for edge, end, corner in edges:
+        if edge == end and not corner and not problem.chord.periodic:
+            raise LoadError(
+                f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
+                "is like beyond is not known: lower the load or the tilt, or measure further out",
+                end=end,
+            )
 
 
 # -- the window ------------------------------------------------------------------------------------

@@ -240,7 +240,7 @@ class Periodic(Profile):
 
     def _level(self, profile: Profile) -> bool:
         """Whether both ends of a period are equally high."""
-        x = self.start + self.repeats * np.linspace(0.0, 1.0, 9)
+        x = self.start + self.repeats * np.linspace(0.0, 1.0, SAMPLES + 5)
         heights = profile.height(x)
         size = np.abs(heights[np.isfinite(heights)]).max(initial=0.0)
         return bool(abs(heights[-1] - heights[0]) <= LEVEL * size)
