@@ -30,6 +30,7 @@ LEVELS = ((24, 32), (60, 18), (400, 8))  # ... so often where there are no more 
 SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
 PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
+EXPLAINED = 16.0  # times an ulp of x
 LEAST = 8.0 * float(np.finfo(float).eps)
 ROUGH = (
     1e-9  # what the sum that measures may miss of a rough profile, whose pieces it does not grade
@@ -128,7 +129,7 @@ def certificate(
         lowest_pressure=min(f.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=ROUGH if rough else LEAST,
+        measured_to=max(ROUGH if rough else LEAST, EXPLAINED * _rounding(rule, p) / peak),
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in f.tension),
         overlap=tuple((v.lo, v.hi) for v in f.overlap),
@@ -206,6 +207,15 @@ def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
     middles = place((lo + 0.5 * length)[:, None])[chosen, 0]
     everywhere = np.repeat(patch, NODES)
     return Measure(place(angle).ravel(), weight.ravel(), everywhere, middles, patch[chosen])
+
+
+def _rounding(rule: Measure, p: Array) -> float:
+    """What an ulp of x changes in p where the equation is measured."""
+    order = np.argsort(rule.x, kind="stable")
+    x, p = rule.x[order], p[order]
+    k = np.clip(np.searchsorted(x, rule.at), 1, len(x) - 1)
+    apart = np.maximum(x[k] - x[k - 1], np.spacing(np.abs(x[k])))
+    return float((np.abs(p[k] - p[k - 1]) / apart * np.spacing(np.abs(x).max())).max(initial=0.0))
 
 
 def _residual(pressure: PatchPressure, rule: Measure, p: Array) -> float:

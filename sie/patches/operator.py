@@ -303,26 +303,59 @@ class Group:
 
     def _D(self, x: Points, reference: Any, piece: Any, S: Any, owner: Any) -> Any:
         o = self.operator
-        d = o.patches.chord.apart
-        xa, xo = x.anchor[:, None], x.offset[:, None]
-        total = np.zeros(x.offset.shape, dtype=np.result_type(x.offset, reference))
-        if self.far.size:
-            t, w, wH = self._far
-            kernel = 1.0 / d(t.anchor - xa, t.offset - xo)
-            total += kernel @ wH - reference * (kernel @ w)
+        total = self._by_charges(x, reference)
         if not self.near.size:
             return total
-        k = o.panels
-        t = k.points[self.near]
+        # only differences of H count: about a local value the sums of both lose nothing
+        local = float(np.real(reference[0]))
+        t = o.panels.points[self.near]
         _, nu = self._near
-        step = d(t.anchor - xa[..., None], t.offset - xo[..., None])
+        charge = nu * (o.H[self.near] - local)
+        step = o.patches.chord.apart(
+            t.anchor - x.anchor[:, None, None], t.offset - x.offset[:, None, None]
+        )
         rows, panels = self._close(x)
-        step[rows, panels] = np.where(step[rows, panels] == 0.0, np.inf, step[rows, panels])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            quotient = nu * ((o.H[self.near] - reference[:, None, None]) / step)
-        sums = quotient.sum(axis=2)
-        self._mend(sums, rows, panels, x, reference, piece, S, owner, step)
-        total += sums.sum(axis=1)
+        close = step[rows, panels]
+        step[rows, panels] = np.inf
+        kernel = np.reciprocal(step, out=step).reshape(len(total), -1)
+        total += kernel @ charge.ravel() - (reference - local) * (kernel @ nu.ravel())
+        if rows.size:
+            shared = self._shared(rows, panels, x, reference, piece, S, owner, close)
+            if np.iscomplexobj(shared):
+                total += np.bincount(rows, shared.real, len(total)) + 1j * np.bincount(
+                    rows, shared.imag, len(total)
+                )
+            else:
+                total += np.bincount(rows, shared, len(total))
+        return total
+
+    def _by_charges(self, x: Points, reference: Any) -> Any:
+        """The sums over far cells; those far from all targets are interpolated between them."""
+        o = self.operator
+        total = np.zeros(x.offset.shape, dtype=np.result_type(x.offset, reference))
+        if not self.far.size:
+            return total
+        t, w, wH = self._far
+        apart = o.patches.chord.apart
+        lo, hi = float(np.real(x.x).min()), float(np.real(x.x).max())
+        direct = np.ones(self.far.size, dtype=bool)
+        if len(total) > 2 * CHARGES and not np.iscomplexobj(x.offset):
+            cells = o.cells
+            away = o.patches.chord.distance(cells.middle[self.far], lo, hi) - cells.half[self.far]
+            direct = away < (FAR - 1.0) * 0.5 * (hi - lo)
+        each = np.repeat(direct, CHARGES)
+        if each.any():
+            some = t[each]
+            kernel = 1.0 / apart(some.anchor - x.anchor[:, None], some.offset - x.offset[:, None])
+            total += kernel @ wH[each] - reference * (kernel @ w[each])
+        if not each.all():
+            some = t[~each]
+            middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
+            nodes = middle + half * chebyshev.points(CHARGES)
+            kernel = 1.0 / apart(some.anchor - nodes[:, None], some.offset)
+            series = chebyshev.transform(np.stack((kernel @ wH[~each], kernel @ w[~each])))
+            s = ((x.anchor - middle) + x.offset) / half
+            total += chebyshev.evaluate(series[0], s) - reference * chebyshev.evaluate(series[1], s)
         return total
 
     def _close(self, x: Points) -> tuple[Index, Index]:
@@ -342,9 +375,8 @@ class Group:
         away = np.minimum(np.abs(angle - middle), np.abs(angle.conj() - middle))
         return np.nonzero(away < reach)
 
-    def _mend(
+    def _shared(
         self,
-        sums: Any,
         rows: Index,
         panels: Index,
         x: Points,
@@ -353,43 +385,45 @@ class Group:
         S: Any,
         owner: Any,
         step: Any,
-    ) -> None:
-        """Exact quotients on the same piece, the pole's share on others."""
-        if not rows.size:
-            return
+    ) -> Any:
+        """The integral over each near panel: the exact quotient on the same piece of H, and on others the pole apart."""
         o, k = self.operator, self.operator.panels
         own = k.piece[self.near][panels]
         same = own == piece[rows]
-        _, nu = self._near
-        r, p = rows[same], panels[same]
-        if r.size:
-            q = self.near[p]
-            t = k.points[q]
-            xs = x.anchor[r, None], x.offset[r, None]
+        nu = self._near[1][panels]
+        sums = np.empty(len(rows), dtype=np.result_type(x.offset, reference))
+        if same.any():
+            t = k.points[self.near[panels[same]]]
+            xs = x.anchor[rows[same], None], x.offset[rows[same], None]
             exact = o.pieces.divided(own[same][:, None], (t.anchor, t.offset), xs)
             if o.patches.chord.periodic:
-                plain = (t.anchor - xs[0]) + (t.offset - xs[1])
-                with np.errstate(divide="ignore", invalid="ignore"):
-                    exact = exact * np.where(np.isinf(step[r, p]), 1.0, plain / step[r, p])
-            sums[r, p] = (nu[p] * exact).sum(axis=1)
-        poles = ~same & (k.patch[self.near[panels]] == owner[rows])
-        r, p = rows[poles], panels[poles]
-        if r.size:
-            q, other = self.near[p], own[poles]
-            xs = x[r]
-            residue = o.pieces.value(other, xs.anchor, xs.offset) - o.H0 - reference[r]
-            lo, hi = o.pieces.ends[other], o.pieces.ends[other + 1]
-            real = np.real(xs.x)
-            beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(xs.offset)))
-            residue = np.where(beyond <= o.pieces.reach[other], residue, 0.0)
-            counts = residue != 0.0
-            r, p, q, xs, residue = r[counts], p[counts], q[counts], xs[counts], residue[counts]
-            if r.size:
-                gauss = (o.weight[q] / step[r, p]).sum(axis=1)
-                pole = self._pole(q, xs)
-                finite = np.isfinite(pole)
-                pole = np.where(finite, pole, np.where(np.abs(residue) < 1e-12, gauss, pole))
-                sums[r, p] += residue * self._f(q, xs, S[r]) * (pole - gauss)
+                plain = o.patches.chord.difference(t.anchor - xs[0], t.offset - xs[1])
+                zero = step[same] == 0.0
+                exact = exact * np.where(zero, 1.0, plain / np.where(zero, 1.0, step[same]))
+            sums[same] = (nu[same] * exact).sum(axis=1)
+        other = np.flatnonzero(~same)
+        if not other.size:
+            return sums
+        step = np.where(step[other] == 0.0, np.inf, step[other])
+        q, xs, ref = self.near[panels[other]], x[rows[other]], reference[rows[other]]
+        sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
+        residue = o.pieces.value(own[other], xs.anchor, xs.offset) - o.H0 - ref
+        lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
+        real = np.real(xs.x)
+        beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(xs.offset)))
+        counts = (
+            (beyond <= o.pieces.reach[own[other]])
+            & (k.patch[q] == owner[rows[other]])
+            & (residue != 0.0)
+        )
+        if counts.any():
+            q, xs, residue = q[counts], xs[counts], residue[counts]
+            gauss = (o.weight[q] / step[counts]).sum(axis=1)
+            pole = self._pole(q, xs)
+            rounding = ~np.isfinite(pole) & (np.abs(residue) < 1e-12)
+            pole = np.where(rounding, gauss, pole)
+            sums[other[counts]] += residue * self._f(q, xs, S[rows[other]][counts]) * (pole - gauss)
+        return sums
 
     def _f(self, panel: Index, x: Points, S: Any) -> Any:
         """dν_i/(dt/W_k) of the panel's patch k, continued to x."""
