@@ -30,6 +30,8 @@ from .friction.full_stick import Component, bonded_certificate, bonded_contact
 from .friction.partial_slip import refuse_sliding, sheared, slip
 from .friction.states import Slip, Step
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
+from .patches.certificate import worst_of
+from .patches.friction import PatchSlip
 from .problem.material import Elastic
 from .problem.scene import Scene
 from .profiles.sampled import explained, traces_in
@@ -215,6 +217,8 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        if self._several is not None:
+            return PatchSlip(self.scene, self._several, *self._loads)
         return slip(
             Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy)
         )
@@ -226,7 +230,10 @@ class Solution:
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self._several is not None:
-            return self._several.certificate(self.tol)
+            stages = [self._several]
+            if self.sheared and isinstance(self.tangential, PatchSlip):
+                stages += [self.tangential.corrective] if self.tangential.corrective else []
+            return worst_of([stage.certificate(self.tol) for stage in stages])
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found

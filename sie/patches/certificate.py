@@ -9,7 +9,8 @@ condition     relative change of the narrowest patch per relative change of the 
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -135,6 +136,19 @@ def certificate(
         overlap=tuple((v.lo, v.hi) for v in f.overlap),
         notes=_notes(condition),
     )
+
+
+def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
+    """The first, that of the pressure, with the worst numbers of all: what a shear is made of counts as well."""
+    worst = {
+        name: max(getattr(c, name) for c in found)
+        for name in ("residual", "force", "moment", "condition", "measured_to")
+    }
+    lowest = min(c.lowest_pressure for c in found)
+    beside = {
+        name: tuple(v for c in found for v in getattr(c, name)) for name in ("tension", "overlap")
+    }
+    return replace(found[0], lowest_pressure=lowest, **worst, **beside)
 
 
 def _notes(condition: float) -> tuple[str, ...]:

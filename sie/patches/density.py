@@ -100,8 +100,8 @@ class PatchPressure(Density):
 
     # -- on the line -------------------------------------------------------------------------------
 
-    def _placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:
-        """x by the nearest edge of a patch; that patch, and whether x is on it."""
+    def placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:
+        """x by the nearest edge of a patch; the patch that it is nearest to, and whether it is on that."""
         P = self.operator.patches
         if P.chord.periodic:
             cut = P.a[0] - 0.5 * P.gaps[-1]
@@ -119,7 +119,7 @@ class PatchPressure(Density):
         flat = x.ravel()
         out = zero_or_nan(flat)
         finite = np.isfinite(flat)
-        points, k, inside = self._placed(np.where(finite, flat, 0.0))
+        points, k, inside = self.placed(np.where(finite, flat, 0.0))
         inside &= finite
         if inside.any():
             out[inside] = in_order(self._inside, points.x[inside])
@@ -127,7 +127,7 @@ class PatchPressure(Density):
 
     def _inside(self, x: Array) -> Array:
         o = self.operator
-        points, k, _ = self._placed(x)
+        points, k, _ = self.placed(x)
         piece = o.pieces.locate(points.x)
         at_end = points.x == o.patches.b[k]
         piece = np.where(at_end, o.pieces.locate(points.x, "left"), piece)
@@ -145,7 +145,7 @@ class PatchPressure(Density):
         flat = x.ravel()
         out = zero_or_nan(flat)
         finite = np.isfinite(flat)
-        points, k, inside = self._placed(np.where(finite, flat, 0.0))
+        points, k, inside = self.placed(np.where(finite, flat, 0.0))
         inside, beside = inside & finite, ~inside & finite
         o = self.operator
         if inside.any():
@@ -172,7 +172,7 @@ class PatchPressure(Density):
         return np.asarray(o.pieces.value(piece, points.anchor, 0.0))
 
     def _beside(self, x: Array) -> Array:
-        points, k, _ = self._placed(x)
+        points, k, _ = self.placed(x)
         return np.asarray(self._potential(points, k))
 
     # -- in the plane ------------------------------------------------------------------------------
@@ -225,7 +225,7 @@ class PatchPressure(Density):
         return out
 
     def _off_axis(self, z: Complex) -> Complex:
-        points, k, _ = self._placed(z.real)
+        points, k, _ = self.placed(z.real)
         return np.asarray(self._potential(Points(points.anchor, points.offset + 1j * z.imag), k))
 
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
@@ -238,7 +238,7 @@ class PatchPressure(Density):
 
     def _derivative(self, z: Complex, side: int) -> Complex:
         """By Cauchy's formula on a circle that touches no traction; in contact from the values of p beside it."""
-        points, k, inside = self._placed(z.real)
+        points, k, inside = self.placed(z.real)
         P = self.operator.patches
         off = np.maximum(np.maximum(P.a[k] - points.x, points.x - P.b[k]), 0.0)
         radius = NARROW * np.hypot(off, z.imag)
@@ -254,7 +254,7 @@ class PatchPressure(Density):
         return out
 
     def _derivative_inside(self, x: Array, side: int) -> Complex:
-        points, k, _ = self._placed(x)
+        points, k, _ = self.placed(x)
         o = self.operator
         piece = o.pieces.locate(points.x)
         steep = self.half_modulus * o.pieces.curvature(piece, points.x)

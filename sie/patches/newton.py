@@ -235,6 +235,20 @@ def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | No
     return state, Event("stall", -1), MOST_STEPS
 
 
+def punch(o: Operator) -> Array:
+    """The charges at all edges of a flat punch on the patches, under a unit load."""
+    P, N = o.patches, o.patches.number
+    k = np.repeat(np.arange(N), 2)
+    ratio = edge_ratio(P, np.arange(N))
+    matrix = np.zeros((2 * N, 2 * N))
+    matrix[:N] = ratio * P.chord.cosine(P.edges - P.c[:, None])
+    matrix[N : 2 * N - 1] = closures(o, ratio)[1]
+    matrix[2 * N - 1] = P.chord.apart(P.edges - P.c[k])
+    size = np.abs(matrix).max(axis=1)
+    right = np.append(np.zeros(2 * N - 1), 1.0 / size[-1])
+    return np.asarray(np.linalg.solve(matrix / size[:, None], right))
+
+
 def held_open(patches: Patches, pieces: Pieces) -> set[int]:
     """The gaps that never close."""
     lo, hi = patches.b, patches.b + patches.gaps
