@@ -112,7 +112,7 @@ class Solution:
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
-            return self._one_patch()
+            return self.one_patch()
         except (InequalityError, LoadError) as error:
             if self._may_be_in_patches:
                 return self._in_patches(error)
@@ -140,7 +140,8 @@ class Solution:
         """The contact, if it is in several patches or per period."""
         return self.normal if isinstance(self.normal, SeveralPatches) else None
 
-    def _one_patch(self) -> Normal:
+    def one_patch(self) -> Normal:
+        """The contact if it is one patch. Raises ContactError if it is not."""
         try:
             found = normal_contact(self.scene, self.tol, self.economy)
         except LoadError:

@@ -19,7 +19,9 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
     domain = profile.pieces.domain
     return Problem(
         pieces=lambda window: of_profile(profile, window, tol),
+        slope=profile.pieces,
         height=profile.height,
+        by_slope=bool(profile.pieces.functions),
         domain=domain,
         corners=profile.ends_are_corners,
         breaks=np.asarray(profile.breaks),

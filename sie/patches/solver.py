@@ -21,6 +21,7 @@ from . import newton
 from .admissible import Findings, Overlap, findings
 from .chord import Chord
 from .newton import Event, Given, State
+from .opening import gap
 from .operator import Operator
 from .panels import Patches
 from .pieces import Pieces
@@ -33,7 +34,12 @@ FEWEST_CELLS, MOST_CELLS = 2048, 65536
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
 COARSE = 512  # cells of a grid that looks for the window
-WINDOWS = 80
+WINDOWS = 200
+WIDENED = 12  # times a window is widened, before the slope is said to rise too little
+FAR, LOOKED_AT = (
+    1e3,
+    4000,
+)  # windows beyond a window, and places there, at which the bodies must not overlap
 NEARLY = 1e-7  # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 
 
@@ -42,21 +48,27 @@ class Problem:
     """What is asked, in units of E*/2.
 
     pieces     window -> the slope, without tilt
-    height     the profile's h(x)
+    slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
     domain     where the indenter is known; corners: whether its ends are the indenter's own
     given      load, tilt or moment
     """
 
     pieces: Callable[[tuple[float, float]], Pieces]
+    slope: Callable[[Array], Array]
     height: Callable[[Array], Array]
+    by_slope: bool
     domain: tuple[float, float]
     corners: tuple[bool, bool]
     breaks: Array
     chord: Chord
     given: Given
 
-    def tilted(self, tilt: float) -> Callable[[Array], Array]:
-        return lambda x: self.height(x) + tilt * x if tilt else self.height(x)
+    def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
+        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once for all heights."""
+        if not self.by_slope:
+            return lambda x: self.height(x) + tilt * x
+        pieces = self.pieces(window)
+        return lambda x: pieces.rises(np.full(x.shape, window[0]), x) + tilt * x
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +85,18 @@ class Found:
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     window = fitted_window(problem)
+    for _ in range(WIDENED):
+        found = _within(problem, window)
+        beyond = _overlap_beyond(found, problem, window)
+        if beyond == window:
+            return found
+        window = beyond
+    raise LoadError(
+        f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; give a domain"
+    )
+
+
+def _within(problem: Problem, window: tuple[float, float]) -> Found:
     tilt = problem.given.tilt
     if problem.given.moment is not None:
         tilt = _level(problem, window)
@@ -82,10 +106,9 @@ def contact(problem: Problem) -> Found:
         cells *= 2
     last: ContactError | None = None
     pieces = problem.pieces(window)
+    height = problem.tilted(tilt, window)
     while cells <= MOST_CELLS:
-        grid = grid_pressure(
-            problem.tilted(tilt), window, cells, problem.given.load, problem.chord.periodic
-        )
+        grid = grid_pressure(height, window, cells, problem.given.load, problem.chord.periodic)
         try:
             found = settled(start_of(grid, pieces, problem, tilt), pieces, problem)
         except ContactError as error:
@@ -96,6 +119,42 @@ def contact(problem: Problem) -> Found:
         cells *= 8
     assert last is not None
     raise last
+
+
+def _overlap_beyond(
+    found: Found, problem: Problem, window: tuple[float, float]
+) -> tuple[float, float]:
+    """A wider window where contact reaches the end of this one, or the bodies overlap beyond it, where the load is a force."""
+    lo, hi = found.operator.pieces.domain
+    if problem.chord.periodic or (lo, hi) == problem.domain:
+        return window
+    P = found.state.patches
+    a, b = float(P.a[0]), float(P.b[-1])
+    wider = [lo, hi]
+    for k, (end, limit, side) in enumerate(
+        ((lo, problem.domain[0], -1.0), (hi, problem.domain[1], 1.0))
+    ):
+        if end == limit:
+            continue
+        if end == (a, b)[k]:
+            wider[k] = end + side * 4.0 * (hi - lo)
+            continue
+        distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
+        x = np.clip(end + side * distance, *sorted((end, limit)))
+        with np.errstate(all="ignore"):
+            H = problem.slope(x) + found.state.tilt
+            rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
+            middle = 0.5 * (a + b)
+            opened = float(gap(found.operator, np.array([end]))[0])
+            g = (
+                opened
+                + rise
+                - problem.given.load / np.pi * np.log(np.abs((x[1:] - middle) / (x[0] - middle)))
+            )
+            below = np.flatnonzero(g < -1e-3 * max(opened, 0.0))
+        if below.size:
+            wider[k] = float(x[1:][below[0]]) + side * 2.0 * (hi - lo)
+    return max(wider[0], problem.domain[0]), min(wider[1], problem.domain[1])
 
 
 def refuse_unknown_ends(state: State, problem: Problem) -> None:
@@ -118,8 +177,9 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
     if problem.chord.periodic:
         return problem.domain[0], problem.domain[0] + problem.chord.period
     lo, hi = _first_window(problem)
-    height = problem.tilted(problem.given.tilt)
+    widened = 0
     for _ in range(WINDOWS):
+        height = problem.tilted(problem.given.tilt, (lo, hi))
         grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
         x = grid.x[grid.p > 0.0]
         a, b = x[0] - 0.5 * grid.dx, x[-1] + 0.5 * grid.dx
@@ -128,6 +188,9 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
             hi - b < 2.0 * grid.dx and hi < problem.domain[1],
         )
         if left or right:
+            widened += 1
+            if widened > WIDENED:
+                break
             lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
             lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
         elif b - a < NARROWEST * (hi - lo):
@@ -135,7 +198,10 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
             lo, hi = max(lo, a - margin), min(hi, b + margin)
         else:
             return lo, hi
-    return lo, hi
+    raise LoadError(
+        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: "
+        "the slope rises too little, give a domain"
+    )
 
 
 def _first_window(problem: Problem) -> tuple[float, float]:
@@ -145,19 +211,12 @@ def _first_window(problem: Problem) -> tuple[float, float]:
         return lo, hi
     finite = problem.breaks[np.isfinite(problem.breaks)]
     first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    height = problem.tilted(problem.given.tilt)
-    sizes = np.geomspace(1e-140, 1e140, 281)
-    with np.errstate(over="ignore", invalid="ignore"):
-        least = (
-            float(np.min(height(np.linspace(first, last, 257))))
-            if finite.size
-            else float(height(np.zeros(1))[0])
-        )
-        # a contact of half-width w is about as deep as its mean load
-        enough = [
-            np.flatnonzero(height(np.clip(x, lo, hi)) - least > problem.given.load)
-            for x in (last + sizes, first - sizes)
-        ]
+    sizes = np.geomspace(1e-140, 1e140, 561)
+    with np.errstate(all="ignore"):
+        # a contact of half-width w under slopes of the size H carries about w H
+        right = sizes * (problem.slope(np.clip(last + sizes, lo, hi)) + problem.given.tilt)
+        left = -sizes * (problem.slope(np.clip(first - sizes, lo, hi)) + problem.given.tilt)
+        enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
     size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
 
@@ -168,7 +227,9 @@ def _level(problem: Problem, window: tuple[float, float]) -> float:
     lo, hi = window
 
     def moment(tilt: float) -> float:
-        grid = grid_pressure(problem.tilted(tilt), window, COARSE, problem.given.load, False)
+        grid = grid_pressure(
+            problem.tilted(tilt, window), window, COARSE, problem.given.load, False
+        )
         return float((grid.p * grid.x).sum() * grid.dx) - problem.given.moment  # type: ignore[operator]
 
     size = problem.given.load / (hi - lo)
