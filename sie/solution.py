@@ -32,6 +32,7 @@ from .friction.states import Slip, Step
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.certificate import worst_of
 from .patches.friction import PatchSlip
+from .patches.full import FullContact
 from .problem.material import Elastic
 from .problem.scene import Scene, refuse_no_scene
 from .profiles.sampled import explained, traces_in
@@ -105,7 +106,7 @@ class Solution:
     # -- stages -------------------------------------------------------------------------------------------------------
 
     @cached_property
-    def normal(self) -> Normal | SeveralPatches:
+    def normal(self) -> Normal | SeveralPatches | FullContact:
         """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
@@ -120,12 +121,13 @@ class Solution:
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
 
-    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches:
+    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
         """Contact in several patches; `one_patch` is why it is not one."""
         try:
             found = several_patches(self.scene)
         except ContactError as error:
-            raise explained(error, self.scene.profile) from one_patch
+            told = one_patch if isinstance(one_patch, LoadError) else error
+            raise explained(told, self.scene.profile) from None
         self.__dict__["pressure"] = found.pressure
         self.__dict__["inequalities"] = True
         return found
@@ -136,9 +138,9 @@ class Solution:
         return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
 
     @property
-    def _several(self) -> SeveralPatches | None:
+    def _several(self) -> SeveralPatches | FullContact | None:
         """The contact, if it is in several patches or per period."""
-        return self.normal if isinstance(self.normal, SeveralPatches) else None
+        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
 
     def one_patch(self) -> Normal:
         """The contact if it is one patch. Raises ContactError if it is not."""

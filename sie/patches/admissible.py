@@ -82,7 +82,8 @@ def legendre(n: int) -> Array:
     return matrix
 
 
-def _lower_bound(values: Array) -> Array:
+def lower_bound(values: Array) -> Array:
+    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
     c = values @ legendre(values.shape[1])
     return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))
 
@@ -103,7 +104,7 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         D, x = intensities(o, panel, angle)
         finite = D[np.isfinite(D)]
         scale = max(scale, float(finite.max(initial=0.0)))
-        bound = _lower_bound(np.where(np.isfinite(D), D, scale))
+        bound = lower_bound(np.where(np.isfinite(D), D, scale))
         negative = -TENSION * scale > D
         extent = np.abs(x[:, -1] - x[:, 0])
         for j in np.flatnonzero(negative.any(axis=1)):
@@ -218,8 +219,8 @@ def _overlaps(o: Operator) -> tuple[Overlap, ...]:
             beside = np.where(np.isfinite(value) & (away <= hull), value, 0.0)
             np.maximum.at(largest, gap, beside.max(axis=1))
         tolerance = np.maximum(OVERLAP * largest[gap], ROUNDING * H * away.max(axis=1))
-        enough = _lower_bound(value) >= -tolerance
-        enough |= edge & (_lower_bound(phi) >= 0.0)
+        enough = lower_bound(value) >= -tolerance
+        enough |= edge & (lower_bound(phi) >= 0.0)
         negative = (value < -tolerance[:, None]) & ~enough[:, None]
         wide = x.max(axis=1) - x.min(axis=1)
         for j in np.flatnonzero(negative.any(axis=1)):

@@ -17,6 +17,7 @@ from sie.profiles.slope import Slope
 
 from .certificate import PatchCertificate, certificate
 from .density import PatchPressure
+from .full import FullContact, full_contact
 from .of_scene import problem_of
 from .opening import gap
 from .solver import Found, Problem, contact
@@ -62,11 +63,21 @@ def asks_for_patches(profile: Profile) -> bool:
     )
 
 
-def several_patches(scene: Scene) -> SeveralPatches:
+def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     """Raises ContactError where no patches are certified, or the scene asks for what is not covered."""
     _refuse_uncovered(scene)
     problem = problem_of(scene)
-    return answered(problem, contact(problem), scene)
+    return whole(problem, scene) or answered(problem, contact(problem), scene)
+
+
+def whole(problem: Problem, scene: Scene) -> FullContact | None:
+    """Full contact of a periodic profile, if that is the answer."""
+    if not problem.chord.periodic:
+        return None
+    G, start, period = 0.5 * scene.Estar, problem.domain[0], problem.chord.period
+    return full_contact(
+        problem.pieces((start, start + period)), start, period, G, G * problem.given.load
+    )
 
 
 def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:

@@ -32,6 +32,7 @@ SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
 PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times an ulp of x
+MOST = 1e-3  # of the peak: where an ulp of x can do more nothing is certified
 LEAST = 8.0 * float(np.finfo(float).eps)
 ROUGH = (
     1e-9  # what the sum that measures may miss of a rough profile, whose pieces it does not grade
@@ -130,7 +131,9 @@ def certificate(
         lowest_pressure=min(f.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=max(ROUGH if rough else LEAST, EXPLAINED * _rounding(rule, p) / peak),
+        measured_to=max(
+            ROUGH if rough else LEAST, min(EXPLAINED * _rounding(rule, p) / peak, MOST)
+        ),
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in f.tension),
         overlap=tuple((v.lo, v.hi) for v in f.overlap),

@@ -26,10 +26,10 @@ from sie.problem.scene import Scene
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
-from .answer import SeveralPatches, answered
+from .answer import SeveralPatches, answered, whole
+from .full import FullContact
 from .of_scene import problem_of
 from .newton import punch
-from .opening import gap
 from .operator import edge_ratio
 from .solver import changed, contact
 
@@ -46,7 +46,7 @@ class PatchSlip(Slip):
     kind = KIND
 
     def __init__(
-        self, scene: Scene, full: SeveralPatches, tangential_load: float, tau: float
+        self, scene: Scene, full: SeveralPatches | FullContact, tangential_load: float, tau: float
     ) -> None:
         self.scene, self.full = scene, full
         self.friction = scene.friction
@@ -55,12 +55,17 @@ class PatchSlip(Slip):
         self.contact = Interval(*full.pressure.interval)
 
     @cached_property
-    def corrective(self) -> SeveralPatches | None:
+    def corrective(self) -> SeveralPatches | FullContact | None:
         """p*; None in full sliding."""
         scene, Q, f = self.scene, self.tangential_load, self.scene.friction
         assert scene.normal_load is not None
         if scene.slides:
             return None
+        if self.tau != 0.0 and scene.profile.period < np.inf:
+            raise ContactError(
+                f"bulk_stress = {scene.bulk_stress:g} in one of two bodies that meet periodically has no periodic "
+                "answer: leave it out, or give it to both bodies as a stress afterwards"
+            )
         if Q == 0.0:
             raise ContactError(
                 f"bulk_stress = {scene.bulk_stress:g} without tangential_load makes the patches slip both ways: "
@@ -71,11 +76,11 @@ class PatchSlip(Slip):
         tilt = self.full.edges.tilt - self.sign * self.tau / (f * G)
         problem = problem_of(replace(scene, moment=None, tilt=0.0))
         problem = changed(problem, load=left / G, tilt=tilt, moment=None)
-        reduced = answered(
-            problem,
-            contact(problem),
-            replace(scene, normal_load=left, moment=None, tangential_load=0.0),
-        )
+        lighter = replace(scene, normal_load=left, moment=None, tangential_load=0.0)
+        full = whole(problem, lighter)
+        if full is not None:
+            return full
+        reduced = answered(problem, contact(problem), lighter)
         if self.tau != 0.0:
             self._verify(reduced)
         return reduced
@@ -113,19 +118,18 @@ class PatchSlip(Slip):
 
     def slip(self, x: Array) -> Array:
         """g at x (1-d): 0 in stick and beside the patches."""
-        P = self.full.found.operator.patches
-        at = x
-        if P.chord.periodic:
-            at = x - P.chord.period * np.floor((x - P.a[0]) / P.chord.period)
-        k = np.clip(np.searchsorted(P.a, at, side="right") - 1, 0, P.number - 1)
-        inside = (at >= P.a[k]) & (at <= P.b[k])
+        a, b = np.array(self.full.patches).T
+        period = self.scene.profile.period
+        at = x - period * np.floor((x - a[0]) / period) if period < np.inf else x
+        k = np.clip(np.searchsorted(a, at, side="right") - 1, 0, len(a) - 1)
+        inside = (at >= a[k]) & (at <= b[k])
         out = np.where(np.isnan(x), np.nan, 0.0)
         if self.corrective is None:
             raise ContactError(
                 "all patches slide: how far is not determined; lower tangential_load below f P"
             )
         if inside.any():
-            out[inside] = self.sign * self.friction * gap(self.corrective.found.operator, x[inside])
+            out[inside] = self.sign * self.friction * self.corrective.gap(x[inside])
         return out
 
     @cached_property
@@ -136,6 +140,9 @@ class PatchSlip(Slip):
     @cached_property
     def shift(self) -> float:  # type: ignore[override]
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
+        if isinstance(self.full, FullContact):
+            x, weight = self._rule()
+            return float(weight @ self.slip(x)) / self.scene.profile.period
         o = self.full.found.operator
         P = o.patches
         unit = punch(o)

@@ -397,7 +397,7 @@ class Group:
             xs = x.anchor[rows[same], None], x.offset[rows[same], None]
             exact = o.pieces.divided(own[same][:, None], (t.anchor, t.offset), xs)
             if o.patches.chord.periodic:
-                plain = o.patches.chord.difference(t.anchor - xs[0], t.offset - xs[1])
+                plain = (t.anchor - xs[0]) + (t.offset - xs[1])
                 zero = step[same] == 0.0
                 exact = exact * np.where(zero, 1.0, plain / np.where(zero, 1.0, step[same]))
             sums[same] = (nu[same] * exact).sum(axis=1)
@@ -411,11 +411,10 @@ class Group:
         lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
         real = np.real(xs.x)
         beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(xs.offset)))
-        counts = (
-            (beyond <= o.pieces.reach[own[other]])
-            & (k.patch[q] == owner[rows[other]])
-            & (residue != 0.0)
-        )
+        counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
+        # not beside a repetition of the panel: of one patch per period both sides of a gap are the same patch
+        here = np.abs(xs.anchor - k.points.anchor[q, 0]) <= 0.5 * o.patches.chord.period
+        counts &= here & (k.patch[q] == owner[rows[other]])
         if counts.any():
             q, xs, residue = q[counts], xs[counts], residue[counts]
             gauss = (o.weight[q] / step[counts]).sum(axis=1)

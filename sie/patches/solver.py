@@ -161,7 +161,14 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
     """Raises LoadError where contact reaches an end beyond which the indenter is not known."""
     edges = zip(state.patches.edges[[0, -1]].tolist(), problem.domain, problem.corners, strict=True)
     for edge, end, corner in edges:
-        if edge == end and not corner and not problem.chord.periodic:
+        if edge != end or problem.chord.periodic:
+            continue
+        if not np.isfinite(float(problem.slope(np.array([end]))[0])):
+            raise LoadError(
+                f"the slope is infinite at the end x = {end:.6g} of its domain, which the contact comes near: "
+                "narrow the domain"
+            )
+        if not corner:
             raise LoadError(
                 f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
                 "is like beyond is not known: lower the load or the tilt, or measure further out",

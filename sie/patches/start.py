@@ -129,8 +129,10 @@ def patches_on(grid: Grid) -> list[Patch]:
     turn = 0
     if grid.periodic:
         empty = np.flatnonzero(p == 0.0)
-        if not empty.size:
-            return []
+        if not empty.size:  # the gap is narrower than a cell
+            empty = np.array([int(np.argmin(p))])
+            p = p.copy()
+            p[empty] = 0.0
         runs = np.split(empty, np.flatnonzero(np.diff(empty) > 1) + 1)
         if len(runs) > 1 and runs[0][0] == 0 and runs[-1][-1] == n - 1:
             runs = [*runs[1:-1], np.concatenate((runs[-1], runs[0] + n))]
