@@ -131,7 +131,7 @@ class History(Sequence[Solution]):
             near = self._seen.setdefault(P, Seen())
             step = Step(
                 plain.scene,
-                plain.normal,
+                plain.as_one_patch,
                 plain.slope_density,
                 Q,
                 sigma * self._tau,
@@ -181,7 +181,7 @@ class History(Sequence[Solution]):
         """The contacts under all loads of the path."""
         return Growth(
             self.scene,
-            self.plain(max(P for P, _, _ in self.path.points)).normal,
+            self.plain(max(P for P, _, _ in self.path.points)).as_one_patch,
             self.tol,
             self.economy,
         )
@@ -234,7 +234,7 @@ class Followed(Solution):
 
     @cached_property
     def normal(self) -> Normal:
-        return self.history.plain(self.history.states[self.index].loads[0]).normal
+        return self.history.plain(self.history.states[self.index].loads[0]).as_one_patch
 
     @cached_property
     def pressure(self) -> SlopeDensity:

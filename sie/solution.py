@@ -30,7 +30,7 @@ from .friction.full_stick import Component, bonded_certificate, bonded_contact
 from .friction.partial_slip import refuse_sliding, sheared, slip
 from .friction.states import Slip, Step
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
-from .patches.certificate import worst_of
+from .patches.certificate import PatchCertificate, worst_of
 from .patches.friction import PatchSlip
 from .patches.full import FullContact
 from .problem.material import Elastic
@@ -126,7 +126,7 @@ class Solution:
         try:
             found = several_patches(self.scene)
         except ContactError as error:
-            told = one_patch if isinstance(one_patch, LoadError) else error
+            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
             raise explained(told, self.scene.profile) from None
         self.__dict__["pressure"] = found.pressure
         self.__dict__["inequalities"] = True
@@ -136,6 +136,17 @@ class Solution:
     def _may_be_in_patches(self) -> bool:
         scene = self.scene
         return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+
+    @property
+    def as_one_patch(self) -> Normal:
+        """The contact, for what is known of one patch only. Raises ContactError if there are several."""
+        found = self.normal
+        if isinstance(found, Normal):
+            return found
+        raise ContactError(
+            f"contact in {len(found.patches)} patches: load paths and cycles are covered for one patch only; "
+            "give tangential_load and bulk_stress of one step, or a load under which the patches have merged"
+        )
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
@@ -199,9 +210,9 @@ class Solution:
         """The contact pressure p(x)."""
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
-        normal = self.normal
+        _ = self.normal
         verified: SlopeDensity | None = self.__dict__.get("pressure")
-        return verified or pressure(normal, self.scene, self.tol, self.economy)
+        return verified or pressure(self.as_one_patch, self.scene, self.tol, self.economy)
 
     @property
     def _loads(self) -> tuple[float, float]:
@@ -223,11 +234,18 @@ class Solution:
         if self._several is not None:
             return PatchSlip(self.scene, self._several, *self._loads)
         return slip(
-            Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy)
+            Step(
+                self.scene,
+                self.as_one_patch,
+                self.slope_density,
+                *self._loads,
+                self.tol,
+                self.economy,
+            )
         )
 
     @cached_property
-    def certificate(self) -> Certificate:
+    def certificate(self) -> Certificate | PatchCertificate:
         if self.scene.bonded:
             return bonded_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
@@ -422,7 +440,7 @@ class Solution:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
-    def check(self) -> Certificate:
+    def check(self) -> Certificate | PatchCertificate:
         """The certificate of this answer, measured on points that were not used to find it."""
         return self.certificate
 
@@ -440,7 +458,7 @@ class Solution:
         """
         if self.scene.bonded or self._several is not None:
             return ()
-        return trace_reports(self.scene, cast(Normal, self.normal), self.slope_density)
+        return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""

@@ -20,7 +20,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .newton import gap_values
-from .operator import Operator
+from .operator import Operator, Targets
 from .panels import GapPanels, distance_of, gap_panels
 
 Array = NDArray[np.float64]
@@ -173,7 +173,8 @@ def on_patches(o: Operator, patch: Index, x: Points, piece: Index) -> Array:
                 if len(part) < len(some)
                 else group
             )
-            D[part] = close.D(flat[part], reference[part], which[part], S[part], owner[part])
+            targets = Targets(flat[part], reference[part], which[part], S[part], owner[part])
+            D[part] = close.D(targets)
     return D.reshape(shape)
 
 
@@ -265,7 +266,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     _, _, derivative = distance_of(_nodes(panels), panels.width[:, None])
     integrand = half[:, None] * phi * panels.root * derivative
     c = integrand @ legendre(n)
-    primitive = np.polynomial.legendre.legint(c, lbnd=-1, axis=1)
+    primitive = np.asarray(np.polynomial.legendre.legint(c, lbnd=-1, axis=1), dtype=float)
     whole = primitive.sum(axis=1)
     first = panels.lo == 0.0
     run = np.cumsum(first) - 1

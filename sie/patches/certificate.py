@@ -143,15 +143,17 @@ def certificate(
 
 def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
     """The first, that of the pressure, with the worst numbers of all: what a shear is made of counts as well."""
-    worst = {
-        name: max(getattr(c, name) for c in found)
-        for name in ("residual", "force", "moment", "condition", "measured_to")
-    }
-    lowest = min(c.lowest_pressure for c in found)
-    beside = {
-        name: tuple(v for c in found for v in getattr(c, name)) for name in ("tension", "overlap")
-    }
-    return replace(found[0], lowest_pressure=lowest, **worst, **beside)
+    return replace(
+        found[0],
+        residual=max(c.residual for c in found),
+        force=max(c.force for c in found),
+        moment=max(c.moment for c in found),
+        condition=max(c.condition for c in found),
+        measured_to=max(c.measured_to for c in found),
+        lowest_pressure=min(c.lowest_pressure for c in found),
+        tension=tuple(v for c in found for v in c.tension),
+        overlap=tuple(v for c in found for v in c.overlap),
+    )
 
 
 def _notes(condition: float) -> tuple[str, ...]:
@@ -245,6 +247,7 @@ def _residual(pressure: PatchPressure, rule: Measure, p: Array) -> float:
     for k in range(0, len(at), TOGETHER):
         some = slice(k, k + TOGETHER)
         distance = at[some, None] - rule.x
+        distance[distance == 0.0] = np.inf
         kernel = 1.0 / distance
         if chord.periodic:
             kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)

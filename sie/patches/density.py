@@ -20,7 +20,7 @@ from sie.traction.base import Density, in_order, on_surface, reflected, refuse_s
 
 from .admissible import intensities, on_patches
 from .chord import Points
-from .operator import Operator
+from .operator import Operator, Targets
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -84,10 +84,11 @@ class PatchPressure(Density):
         # p dx = (G/π) W S D  W dν S
         force = (self.half_modulus / np.pi) * D * square * o.weight**2 / (o.omega * 1.0)
         total = np.bincount(k.patch, force.sum(axis=1), P.number)
-        return total, np.bincount(k.patch, (force * x).sum(axis=1), P.number)
+        moments = np.bincount(k.patch, (force * x).sum(axis=1), P.number)
+        return np.asarray(total, dtype=float), np.asarray(moments, dtype=float)
 
     @cached_property
-    def breaks(self) -> tuple[float, ...]:  # type: ignore[override]
+    def breaks(self) -> tuple[float, ...]:
         o = self.operator
         P = o.patches
         inner = [o.pieces.ends[(o.pieces.ends > a) & (o.pieces.ends < b)] for a, b in self.patches]
@@ -119,7 +120,7 @@ class PatchPressure(Density):
         flat = x.ravel()
         out = zero_or_nan(flat)
         finite = np.isfinite(flat)
-        points, k, inside = self.placed(np.where(finite, flat, 0.0))
+        points, _, inside = self.placed(np.where(finite, flat, 0.0))
         inside &= finite
         if inside.any():
             out[inside] = in_order(self._inside, points.x[inside])
@@ -202,7 +203,9 @@ class PatchPressure(Density):
             for part in np.array_split(runs, max(len(runs) // 128, 1)):
                 x = np.real(z.x[part])
                 group = o.group(i, float(x.min()), float(x.max()))
-                D[part] = group.D(z[part], reference[part], followed[part], S[part], k[part])
+                D[part] = group.D(
+                    Targets(z[part], reference[part], followed[part], S[part], k[part])
+                )
         return self.half_modulus * (reference + self.tilt - T * D / np.pi)
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
@@ -254,7 +257,7 @@ class PatchPressure(Density):
         return out
 
     def _derivative_inside(self, x: Array, side: int) -> Complex:
-        points, k, _ = self.placed(x)
+        points, _, _ = self.placed(x)
         o = self.operator
         piece = o.pieces.locate(points.x)
         steep = self.half_modulus * o.pieces.curvature(piece, points.x)
@@ -281,5 +284,5 @@ class PatchPressure(Density):
         return super()._of_force(z)
 
     @cached_property
-    def horizon(self) -> float:  # type: ignore[override]
+    def horizon(self) -> float:
         return np.inf if self.period < np.inf else super().horizon

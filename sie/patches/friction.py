@@ -28,8 +28,8 @@ from sie.traction.combination import superposed
 
 from .answer import SeveralPatches, answered, whole
 from .full import FullContact
-from .of_scene import problem_of
 from .newton import punch
+from .of_scene import problem_of
 from .operator import edge_ratio
 from .solver import changed, contact
 
@@ -111,7 +111,7 @@ class PatchSlip(Slip):
         return () if self.corrective is None else self.corrective.patches
 
     @cached_property
-    def shear(self) -> Density:  # type: ignore[override]
+    def shear(self) -> Density:
         f = self.sign * self.friction
         inner = ZERO if self.corrective is None else self.corrective.pressure
         return superposed((f, self.full.pressure), (-f, inner))
@@ -133,12 +133,12 @@ class PatchSlip(Slip):
         return out
 
     @cached_property
-    def energy(self) -> float:  # type: ignore[override]
+    def energy(self) -> float:
         x, weight = self._rule()
         return float(self.friction * (weight * self.full.pressure(x)) @ np.abs(self.slip(x)))
 
     @cached_property
-    def shift(self) -> float:  # type: ignore[override]
+    def shift(self) -> float:
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
         if isinstance(self.full, FullContact):
             x, weight = self._rule()

@@ -83,7 +83,7 @@ class FullPressure(Density):
         return t, (hi - lo)[:, None] * w, self.pieces.value(piece[:, None], t, 0.0)
 
     @cached_property
-    def breaks(self) -> tuple[float, ...]:  # type: ignore[override]
+    def breaks(self) -> tuple[float, ...]:
         return (*self.panels[0].tolist(), self.start + self.period)
 
     def rule(self, levels: int) -> tuple[Array, Array]:

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chord import Points
-from .operator import Operator, edge_ratio
-from .panels import Patches
+from .operator import Operator, Targets, edge_ratio
+from .panels import GapPanels, Patches
 from .pieces import Pieces
 
 Array = NDArray[np.float64]
@@ -60,7 +60,7 @@ class Event(NamedTuple):
     """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or "smooth" and edge k."""
 
     kind: str
-    index: int
+    number: int
 
 
 class Linear(NamedTuple):
@@ -90,7 +90,9 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
         smooth = np.flatnonzero(~state.sharp[own]) + 2 * i
         if smooth.size:
             x = Points(e[smooth], np.zeros(len(smooth)))
-            intensity[smooth] = group.D(x, value[smooth], edge_piece[smooth], S[smooth], k[smooth])
+            intensity[smooth] = group.D(
+                Targets(x, value[smooth], edge_piece[smooth], S[smooth], k[smooth])
+            )
     ratio = edge_ratio(P, np.arange(N))
     matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
     K, across = closures(o, ratio)
@@ -135,11 +137,14 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     return K, -across * ratio[: N - 1] / np.pi
 
 
-def gap_values(o: Operator, k: object = None) -> tuple[Array, Array, Array, Array]:
-    """On the nodes of gap panels: the reference value of H, S_i, T_i and D_i, i the patch to the left (to the right, outside on the left)."""
-    panels = o.gaps if k is None else k
+def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array, Array]:
+    """The reference value of H, S_i, T_i and D_i on the nodes of gap panels.
+
+    i is the patch to the left; outside on the left the first one.
+    """
+    panels = o.gaps if panels is None else panels
     P, pieces = o.patches, o.pieces
-    shape = panels.dx.shape  # type: ignore[attr-defined]
+    shape = panels.dx.shape
     at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
     continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
     reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
@@ -147,7 +152,7 @@ def gap_values(o: Operator, k: object = None) -> tuple[Array, Array, Array, Arra
     nearer = (panels.gap + panels.right) % P.number
     anchors = np.broadcast_to(panels.points.anchor, shape)
     flat = Points(anchors.ravel(), panels.points.offset.ravel())
-    T, S = (v.reshape(shape) for v in o.root(np.repeat(owner, shape[1]), flat))
+    T, S = (np.asarray(v).reshape(shape) for v in o.root(np.repeat(owner, shape[1]), flat))
     D = np.empty(shape)
     starts = np.append(np.flatnonzero(np.diff(panels.gap, prepend=-2)), len(panels.gap))
     for start, stop in itertools.pairwise(starts):
@@ -160,11 +165,13 @@ def gap_values(o: Operator, k: object = None) -> tuple[Array, Array, Array, Arra
         piece = np.where(panels.follows[some], panels.piece[some], -1)
         group = o.group(i, float(place.min()), float(place.max()))
         values = group.D(
-            x,
-            reference[some].ravel(),
-            np.repeat(piece, shape[1]),
-            S[some].ravel(),
-            np.repeat(nearer[some], shape[1]),
+            Targets(
+                x,
+                reference[some].ravel(),
+                np.repeat(piece, shape[1]),
+                S[some].ravel(),
+                np.repeat(nearer[some], shape[1]),
+            )
         )
         D[some] = values.reshape(stop - start, shape[1])
     return reference, S, T, D

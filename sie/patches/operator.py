@@ -51,6 +51,27 @@ class Cells(NamedTuple):
     charges: Array  # (4, cells, CHARGES)
 
 
+class Targets(NamedTuple):
+    """Where D_i is asked for, all (m,).
+
+    x            places
+    reference    the value of H that is taken out: H_piece(x), or any value where piece < 0
+    piece        index of a piece, or -1
+    S            S_i
+    owner        the patch that x is on, or the nearer one: beyond the middle of a gap no pole is
+                 taken out of the other's panels, whose f is not smooth up to there
+    """
+
+    x: Points
+    reference: Any
+    piece: Any
+    S: Any
+    owner: Any
+
+    def part(self, some: Any) -> Targets:
+        return Targets(self.x[some], *(v[some] for v in self[1:]))
+
+
 @dataclass(frozen=True, eq=False)
 class Operator:
     """The slope H on patches; `charge` (2N,) are the point charges of sharp edges, a_1, b_1, a_2 ..., in units of slope."""
@@ -275,19 +296,14 @@ class Group:
         plain = float(w @ cos_far + nu.sum())
         return float(wH @ cos_far + (nu * o.H[self.near]).sum()), plain
 
-    def D(self, x: Points, reference: Any, piece: Any, S: Any, owner: Any) -> Any:
-        """D_i at points x (m,), with the reference value `reference` of H: H_piece(x), or any value where piece < 0.
-
-        `owner` (m,) is the patch that x is on, or the nearer one: beyond the middle of a gap no pole
-        is taken out of the other's panels, whose f is not smooth up to there.
-        """
-        o = self.operator
-        total = np.empty(x.offset.shape, dtype=np.result_type(x.offset, reference))
+    def D(self, targets: Targets) -> Any:
+        """D_i at targets."""
+        o, x = self.operator, targets.x
+        total = np.empty(x.offset.shape, dtype=np.result_type(x.offset, targets.reference))
+        targets = targets._replace(reference=targets.reference - o.H0)
         width = self.near.size * o.panels.angle.shape[1] + self.far.size * CHARGES
         for some in _parts(len(total), max(width, 1)):
-            total[some] = self._D(
-                x[some], reference[some] - o.H0, piece[some], S[some], owner[some]
-            )
+            total[some] = self._D(targets.part(some))
         return total - self._charged(x)
 
     def _charged(self, x: Points) -> Any:
@@ -301,8 +317,8 @@ class Group:
             o.Y[sharp] * rho
         )
 
-    def _D(self, x: Points, reference: Any, piece: Any, S: Any, owner: Any) -> Any:
-        o = self.operator
+    def _D(self, targets: Targets) -> Any:
+        o, x, reference = self.operator, targets.x, targets.reference
         total = self._by_charges(x, reference)
         if not self.near.size:
             return total
@@ -320,7 +336,7 @@ class Group:
         kernel = np.reciprocal(step, out=step).reshape(len(total), -1)
         total += kernel @ charge.ravel() - (reference - local) * (kernel @ nu.ravel())
         if rows.size:
-            shared = self._shared(rows, panels, x, reference, piece, S, owner, close)
+            shared = self._shared(targets, rows, panels, close)
             if np.iscomplexobj(shared):
                 total += np.bincount(rows, shared.real, len(total)) + 1j * np.bincount(
                     rows, shared.imag, len(total)
@@ -373,20 +389,12 @@ class Group:
         # a square root may have either sign: the nearer image counts
         middle, reach = 0.5 * (lo + hi), NEAR * 0.5 * (hi - lo)
         away = np.minimum(np.abs(angle - middle), np.abs(angle.conj() - middle))
-        return np.nonzero(away < reach)
+        rows, panels = np.nonzero(away < reach)
+        return rows, panels
 
-    def _shared(
-        self,
-        rows: Index,
-        panels: Index,
-        x: Points,
-        reference: Any,
-        piece: Any,
-        S: Any,
-        owner: Any,
-        step: Any,
-    ) -> Any:
+    def _shared(self, targets: Targets, rows: Index, panels: Index, step: Any) -> Any:
         """The integral over each near panel: the exact quotient on the same piece of H, and on others the pole apart."""
+        x, reference, piece, S, owner = targets
         o, k = self.operator, self.operator.panels
         own = k.piece[self.near][panels]
         same = own == piece[rows]
@@ -405,23 +413,25 @@ class Group:
         if not other.size:
             return sums
         step = np.where(step[other] == 0.0, np.inf, step[other])
-        q, xs, ref = self.near[panels[other]], x[rows[other]], reference[rows[other]]
+        q, places, ref = self.near[panels[other]], x[rows[other]], reference[rows[other]]
         sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
-        residue = o.pieces.value(own[other], xs.anchor, xs.offset) - o.H0 - ref
+        residue = o.pieces.value(own[other], places.anchor, places.offset) - o.H0 - ref
         lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
-        real = np.real(xs.x)
-        beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(xs.offset)))
+        real = np.real(places.x)
+        beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(places.offset)))
         counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
         # not beside a repetition of the panel: of one patch per period both sides of a gap are the same patch
-        here = np.abs(xs.anchor - k.points.anchor[q, 0]) <= 0.5 * o.patches.chord.period
+        here = np.abs(places.anchor - k.points.anchor[q, 0]) <= 0.5 * o.patches.chord.period
         counts &= here & (k.patch[q] == owner[rows[other]])
         if counts.any():
-            q, xs, residue = q[counts], xs[counts], residue[counts]
+            q, places, residue = q[counts], places[counts], residue[counts]
             gauss = (o.weight[q] / step[counts]).sum(axis=1)
-            pole = self._pole(q, xs)
+            pole = self._pole(q, places)
             rounding = ~np.isfinite(pole) & (np.abs(residue) < 1e-12)
             pole = np.where(rounding, gauss, pole)
-            sums[other[counts]] += residue * self._f(q, xs, S[rows[other]][counts]) * (pole - gauss)
+            sums[other[counts]] += (
+                residue * self._f(q, places, S[rows[other]][counts]) * (pole - gauss)
+            )
         return sums
 
     def _f(self, panel: Index, x: Points, S: Any) -> Any:

@@ -123,15 +123,18 @@ def patch_panels(patches: Patches, pieces: Pieces) -> PatchPanels:
             highs.append(cuts[1:])
             owner.append(np.full(len(cuts) - 1, i))
             right.append(np.full(len(cuts) - 1, side))
-    lo, hi, patch, side = map(np.concatenate, (lows, highs, owner, right))
+    lo, hi, patch, at_right = (np.concatenate(v) for v in (lows, highs, owner, right))
     g, w = chebyshev.gauss_legendre(rule.nodes)
     phi = lo[:, None] + (hi - lo)[:, None] * g
     inward = 2.0 * r[patch, None] * np.sin(0.5 * phi) ** 2
     points = Points(
-        np.where(side, b[patch], a[patch])[:, None], np.where(side[:, None], -inward, inward)
+        np.where(at_right, b[patch], a[patch])[:, None],
+        np.where(at_right[:, None], -inward, inward),
     )
     middle = points.x[:, rule.nodes // 2]
-    return PatchPanels(patch, pieces.locate(middle), side, lo, hi, points, (hi - lo)[:, None] * w)
+    return PatchPanels(
+        patch, pieces.locate(middle), at_right, lo, hi, points, (hi - lo)[:, None] * w
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +190,7 @@ def gap_panels(
     first = pieces.locate(a)
     last = pieces.locate(b, "left")
     hull = b[-1] - a[0]
-    parts = []
+    parts: list[tuple[Array, ...]] = []
     for i in range(-1, N):
         inner = 0 <= i < N - 1 or (i == N - 1 and patches.chord.periodic)
         if ((not inner or i == N - 1) and not outside) or (i < 0 and patches.chord.periodic):
@@ -229,13 +232,22 @@ def gap_panels(
         parts = [
             tuple(np.zeros(0, dtype=t) for t in (int, bool, int, bool, float, float, float, float))
         ]
-    gap, side, piece, follows, lo, hi, width, edge = (
+    number, at_right, pieces_at, follows, lo, hi, widths, edges = (
         np.concatenate(p) for p in zip(*parts, strict=True)
     )
     g, w = chebyshev.gauss_legendre(rule.nodes)
     parameter = lo[:, None] + (hi - lo)[:, None] * g
-    distance, root, derivative = distance_of(parameter, width[:, None])
-    points = Points(edge[:, None], np.where(side[:, None], -distance, distance))
+    distance, root, derivative = distance_of(parameter, widths[:, None])
+    points = Points(edges[:, None], np.where(at_right[:, None], -distance, distance))
     return GapPanels(
-        gap, side, piece, follows, lo, hi, width, points, root, derivative * (hi - lo)[:, None] * w
+        number,
+        at_right,
+        pieces_at,
+        follows,
+        lo,
+        hi,
+        widths,
+        points,
+        root,
+        derivative * (hi - lo)[:, None] * w,
     )

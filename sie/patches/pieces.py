@@ -306,8 +306,10 @@ def _clenshaw(c: Array, k: Any, s: Any) -> Any:
 
 def _divided_series(c: Array, k: Any, t: Any, x: Any) -> Any:
     """Σ c_n T_n[t, x] by T_{n+1}[t, x] = 2t T_n[t, x] + 2T_n(x) - T_{n-1}[t, x]."""
-    before, now = 0.0, np.ones(np.broadcast(t, x).shape, dtype=np.result_type(t, x))
-    T_before, T_now = 1.0, x
+    before: Any = 0.0
+    now: Any = np.ones(np.broadcast(t, x).shape, dtype=np.result_type(t, x))
+    T_before: Any = 1.0
+    T_now: Any = x
     total = c[1][k] * now
     for row in c[2:]:
         before, now = now, 2.0 * t * now + 2.0 * T_now - before

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,7 +140,7 @@ def _overlap_beyond(
             wider[k] = end + side * 4.0 * (hi - lo)
             continue
         distance = (hi - lo) * np.geomspace(1e-3, FAR, LOOKED_AT)
-        x = np.clip(end + side * distance, *sorted((end, limit)))
+        x = np.clip(end + side * distance, min(end, limit), max(end, limit))
         with np.errstate(all="ignore"):
             H = problem.slope(x) + found.state.tilt
             rise = np.cumsum(side * 0.5 * (H[1:] + H[:-1]) * np.abs(np.diff(x)))
@@ -264,55 +264,55 @@ def _level(problem: Problem, window: tuple[float, float]) -> float:
 def start_of(grid: Grid, pieces: Pieces, problem: Problem, tilt: float) -> State:
     """The patches on a grid, those of a few cells as parabolas under their load."""
     patches = patches_on(grid)
-    loads, centres = np.array([p.load for p in patches]), np.array([p.centre for p in patches])
-    ends = []
-    for n, patch in enumerate(patches):
-        ends.append(
-            _small(n, patch, loads, centres, pieces, problem, tilt, grid.dx) or (patch.a, patch.b)
-        )
-    ends = _apart(ends)
-    a, b = np.array(ends).T
+    rivals = Rivals(
+        np.array([p.load for p in patches]),
+        np.array([p.centre for p in patches]),
+        problem.chord,
+        tilt,
+        grid.dx,
+    )
+    ends = [
+        _small(n, patch, rivals, pieces) or (patch.a, patch.b) for n, patch in enumerate(patches)
+    ]
+    a, b = np.array(_apart(ends)).T
     if problem.chord.periodic:
         a, b = _one_period(a, b, problem.chord.period)
     return bounded(a, b, pieces, problem.chord, tilt)
 
 
-def _small(
-    n: int,
-    patch: Patch,
-    loads: Array,
-    centres: Array,
-    pieces: Pieces,
-    problem: Problem,
-    tilt: float,
-    dx: float,
-) -> tuple[float, float] | None:
+class Rivals(NamedTuple):
+    """Loads and centres of all patches on a grid of cells dx: what presses beside a small one."""
+
+    loads: Array
+    centres: Array
+    chord: Chord
+    tilt: float
+    dx: float
+
+
+def _small(n: int, patch: Patch, all_: Rivals, pieces: Pieces) -> tuple[float, float] | None:
+    """The edges of patch n of a few cells; None if the grid tells them better."""
     if patch.cells >= FEW:
         return None
-    x, half = patch.centre, 0.5 * dx * patch.cells
-    others = np.arange(len(loads)) != n
-    chord = problem.chord
-
-    def missing(x: float) -> tuple[float, float]:
-        d = chord.apart(x - centres[others])
-        pull = (loads[others] * chord.cosine(x - centres[others]) / d).sum() / np.pi
-        k = int(pieces.locate(x))
-        steepness = float(pieces.curvature(k, x)) + float((loads[others] / d**2).sum()) / np.pi
-        return float(pieces.value(k, x, 0.0)) + tilt - float(pull), steepness
-
+    x, half = patch.centre, 0.5 * all_.dx * patch.cells
+    others = np.arange(len(all_.loads)) != n
+    loads, centres, chord = all_.loads[others], all_.centres[others], all_.chord
     for _ in range(8):
-        H, steepness = missing(x)
+        d = chord.apart(x - centres)
+        k = int(pieces.locate(x))
+        pull = float((loads * chord.cosine(x - centres) / d).sum()) / np.pi
+        steepness = float(pieces.curvature(k, x)) + float((loads / d**2).sum()) / np.pi
         if not steepness > 0.0:
             return None
-        step = -H / steepness
-        if abs(x + step - patch.centre) > half + dx:
+        step = (pull - float(pieces.value(k, x, 0.0)) - all_.tilt) / steepness
+        if abs(x + step - patch.centre) > half + all_.dx:
             break
         x += step
     curvature = float(pieces.curvature(int(pieces.locate(x)), x))
     if not curvature > 0.0:
         return None
     r = np.sqrt(2.0 * patch.load / (np.pi * curvature))
-    return (x - r, x + r) if r < half + dx else None
+    return (x - r, x + r) if r < half + all_.dx else None
 
 
 def _apart(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -333,9 +333,7 @@ def _one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
     return np.append(a[k:], a[:k] + period), np.append(b[k:], b[:k] + period)
 
 
-def bounded(
-    a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float, charge: Array | None = None
-) -> State:
+def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> State:
     """Patches whose edges stay on the indenter: sharp where they reach its ends."""
     a, b = _at_walls(a, b, pieces)
     lo, hi = pieces.solid_around(0.5 * (a + b))
@@ -344,8 +342,7 @@ def bounded(
     kept = b > a
     state = Patches(a[kept], b[kept], chord)
     sharp = sharp.reshape(-1, 2)[kept].ravel()
-    zero = np.zeros(len(sharp)) if charge is None else charge
-    return State(state, sharp, zero, tilt)
+    return State(state, sharp, np.zeros(len(sharp)), tilt)
 
 
 def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
@@ -354,10 +351,12 @@ def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
     if not void.size:
         return a, b
     lo, hi = pieces.ends[void], pieces.ends[void + 1]
-    ends = []
+    ends: list[list[float]] = []
     for start, stop in zip(a.tolist(), b.tolist(), strict=True):
         crossed = (lo > start) & (hi < stop)
-        ends += zip([start, *hi[crossed].tolist()], [*lo[crossed].tolist(), stop], strict=True)
+        ends += map(
+            list, zip([start, *hi[crossed].tolist()], [*lo[crossed].tolist(), stop], strict=True)
+        )
     cut = np.array(ends)
     return cut[:, 0], cut[:, 1]
 
@@ -401,19 +400,19 @@ def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State
         found = findings(o)
         if found.tension:  # a cut may leave the end without pull
             return mended(state, found, o)
-        k = event.index // 2
-        sharp[event.index] = False
-        if event.index % 2:
+        k = event.number // 2
+        sharp[event.number] = False
+        if event.number % 2:
             b[k] -= 0.1 * P.r[k]
         else:
             a[k] += 0.1 * P.r[k]
         charge = np.where(sharp, state.charge, 0.0)
         return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
     if event.kind == "vanish":
-        keep = np.arange(P.number) != event.index
+        keep = np.arange(P.number) != event.number
         return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
     if event.kind == "merge" and P.number > 1:
-        k = event.index
+        k = event.number
         if k == P.number - 1:  # across the cut of the period
             a[0] = a[k] - P.chord.period
             a, b = a[:-1], b[:-1]

@@ -30,7 +30,7 @@ class Grid(NamedTuple):
 
     @property
     def x(self) -> Array:
-        return self.lo + self.dx * (np.arange(len(self.p)) + 0.5)
+        return np.asarray(self.lo + self.dx * (np.arange(len(self.p)) + 0.5), dtype=float)
 
 
 def grid_pressure(
@@ -46,8 +46,7 @@ def grid_pressure(
     p = np.ones(0)
     while True:
         dx = (hi - lo) / n
-        x = lo + dx * (np.arange(n) + 0.5)
-        h = height(x)
+        h = height(np.asarray(lo + dx * (np.arange(n) + 0.5), dtype=float))
         p = np.repeat(p, n // len(p)) if p.size else np.isfinite(h).astype(float)
         p = np.where(np.isfinite(h), p, 0.0)
         if not p.any():
@@ -110,6 +109,7 @@ def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Arra
     return p
 
 
+BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
 FEW = 5  # cells: a patch of fewer is taken as a parabola
 
 
@@ -155,7 +155,15 @@ def patches_on(grid: Grid) -> list[Patch]:
             if j - i > 1
             else (x[i], x[i])
         )
-        found.append(Patch(max(a, x[i] - grid.dx), min(b, x[j - 1] + grid.dx), load, centre, j - i))
+        found.append(
+            Patch(
+                max(a, x[i] - BEYOND * grid.dx),
+                min(b, x[j - 1] + BEYOND * grid.dx),
+                load,
+                centre,
+                j - i,
+            )
+        )
     return found
 
 
