@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from . import arguments
 from .contact.normal import ECONOMY, upright_law
 from .friction.partial_slip import sheared
+from .patches.answer import asks_for_patches
 from .problem.scene import Scene, refuse_no_scene
 
 # What can be asked for, and the stages of `Solution` that answer it.
@@ -186,6 +187,8 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
+    if asks_for_patches(scene.profile):
+        return "load given: patches from a grid, their edges by Newton, verified by bounds"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"

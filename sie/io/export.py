@@ -6,6 +6,7 @@
 
     JSON   sie, title, units {length, force, stress, moment}, scene (the code that rebuilds it), modulus E*, dundurs β        always
            edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]                   always
+           patches [[x1, x2], ..], patch_loads [number, ..]                    where there are several
            pressure {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}                                         if wanted
            gap {x: [..], gap: [..]}                                                                                  if wanted
            shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost if known, x: [..], q: [..],
@@ -101,6 +102,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "dundurs": scene.beta,
         "edges": list(solution.edges),
         "sharp": list(solution.sharp),
+        **_patches(solution),
         "half_width": solution.half_width,
         "centre": solution.centre,
         "normal_load": solution.normal_load,
@@ -144,6 +146,14 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
         "x": x.tolist(),
         "p": p(x).tolist(),
     }
+
+
+def _patches(solution: Solution) -> dict[str, Any]:
+    """The patches [[x1, x2], ..] and their loads, where there are several."""
+    if len(solution.patches) < 2:
+        return {}
+    patches = [list(patch) for patch in solution.patches]
+    return {"patches": patches, "patch_loads": list(solution.patch_loads)}
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:

@@ -4,7 +4,8 @@
     indenter = "rigid"                optional; the other way is a table [indenter]
 
     [units]      length = "mm"  force = "N/mm"  stress = "MPa"      labels only: nothing is converted, any consistent set works
-    [profile]    kind and its parameters; mirrored, tilted, shifted, applied in this order
+    [profile]    kind and its parameters; mirrored, tilted, shifted, raised, applied in this order; period repeats it
+                 (a row of indenters: kind = "row", with [[profile.of]] before each)
                  (a trace: kind = "sampled" with path, a file seen from the scene file's folder, or with x and h)
     [[profile.plus]]                  further terms, each like [profile]: the heights add up, modifiers act on their own term
     [body]       young, poisson, plane = "strain" | "stress"; or rigid = true
@@ -41,6 +42,7 @@ from sie.problem.load_path import Path
 from sie.problem.material import RIGID, Body, Elastic
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
+from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 from sie.profiles.shapes import profile_kinds
 
@@ -228,6 +230,7 @@ _MODIFIERS: dict[str, toml_values.Reader] = {
     "mirrored": toml_values.flag,
     "tilted": toml_values.number,
     "shifted": toml_values.number,
+    "raised": toml_values.number,
 }
 # Parameters of each profile kind; the optional ones are those of "function" but for its slope.
 _PARAMETERS: dict[str, dict[str, toml_values.Reader]] = {
@@ -332,6 +335,7 @@ def _required(where: str, values: Mapping[str, Any], names: Iterable[str]) -> No
 def _profile(value: Any, folder: pathlib.Path) -> Profile:
     first = dict(toml_values.table("profile", value))
     plus = first.pop("plus", [])
+    period = first.pop("period", None)
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError(
             "profile.plus is not a list of tables: write the header [[profile.plus]], in double brackets, before each term"
@@ -341,12 +345,17 @@ def _profile(value: Any, folder: pathlib.Path) -> Profile:
         total = total + _term(
             "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder
         )
-    return total
+    if period is None:
+        return total
+    with _Naming("[profile]"):
+        return Periodic(total, toml_values.number("period", period))
 
 
 def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
-    """One term of the profile: its kind, then mirrored, tilted, shifted."""
-    kinds = profile_kinds()
+    """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
+    if table.get("kind") == "row":
+        return _row(where, dict(table), folder)
+    kinds = {**profile_kinds(), "row": Row}
     if "kind" not in table:
         meant = next((key for key in table if toml_values.nearest(key, ["kind"])), "")
         raise ValueError(
@@ -374,8 +383,33 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     given = {name: v for name, v in values.items() if name in readers}
     with _Naming(where):
         profile: Profile = _measured(folder, **given) if measured else kinds[kind](**given)
-        profile = profile.mirrored() if values.get("mirrored") else profile
-        return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+        return _moved(profile, values)
+
+
+def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
+    profile = profile.mirrored() if values.get("mirrored") else profile
+    moved = profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+    return moved.raised(values.get("raised", 0.0))
+
+
+def _row(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+    """Indenters on one holder, each a table under [[profile.of]]."""
+    indenters = table.pop("of", [])
+    if (
+        not isinstance(indenters, list)
+        or not all(isinstance(one, dict) for one in indenters)
+        or not indenters
+    ):
+        raise ValueError(
+            f'{where} of kind "row" lacks its indenters: write the header [[profile.of]], in double brackets, before each'
+        )
+    values = _values(where, table, {"kind": toml_values.text, **_MODIFIERS}, kind=' of kind "row"')
+    profiles = [
+        _term(f"[[profile.of]] number {k}", dict(one), folder)
+        for k, one in enumerate(indenters, start=1)
+    ]
+    with _Naming(where):
+        return _moved(Row(profiles), values)
 
 
 def _measured(folder: pathlib.Path, path: str, **options: Any) -> Sampled:

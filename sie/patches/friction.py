@@ -132,6 +132,18 @@ class PatchSlip(Slip):
             out[inside] = self.sign * self.friction * self.corrective.gap(x[inside])
         return out
 
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        """The parts of the patches beside the stick zones, all slipping one way."""
+        zones = []
+        for a, b in self.full.patches:
+            inner = [zone for zone in self.stick if a <= zone[0] and zone[1] <= b]
+            ends = [a, *(end for zone in inner for end in zone), b]
+            zones += [
+                (lo, hi, self.sign) for lo, hi in zip(ends[::2], ends[1::2], strict=True) if lo < hi
+            ]
+        return tuple(zones)
+
     @cached_property
     def energy(self) -> float:
         x, weight = self._rule()

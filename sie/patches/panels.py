@@ -33,6 +33,7 @@ class Rule(NamedTuple):
 
 
 LONG, SHORT = Rule(16, 1.5, 4.0), Rule(8, 0.5, 2.0)
+FINE = Rule(16, 0.5, 2.0)  # where values between the nodes are asked for as well
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
 FARTHEST = 1e4  # half-widths of the whole contact: how far out the gap is looked at where the indenter does not end
 
@@ -185,7 +186,7 @@ def gap_panels(
     patches: Patches, pieces: Pieces, outside: bool = False, farthest: float = FARTHEST
 ) -> GapPanels:
     """Of all gaps between patches; with those outside, or per period the last one, if asked for."""
-    rule = LONG
+    rule = FINE if outside else LONG
     a, b, r, N = patches.a, patches.b, patches.r, patches.number
     first = pieces.locate(a)
     last = pieces.locate(b, "left")
