@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import arguments
 from sie.contact.edges import Edges
-from sie.errors import ContactError
+from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.profiles.base import Derived, Profile
@@ -66,8 +67,14 @@ def asks_for_patches(profile: Profile) -> bool:
 def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     """Raises ContactError where no patches are certified, or the scene asks for what is not covered."""
     _refuse_uncovered(scene)
-    problem = problem_of(scene)
-    return whole(problem, scene) or answered(problem, contact(problem), scene)
+    try:
+        with np.errstate(all="ignore"):  # what that leaves is no certified contact
+            problem = problem_of(scene)
+            return whole(problem, scene) or answered(problem, contact(problem), scene)
+    except (ArithmeticError, np.linalg.LinAlgError):
+        raise LoadError(
+            f"the search for the patches left the range of doubles: {arguments.REMEDY}"
+        ) from None
 
 
 def whole(problem: Problem, scene: Scene) -> FullContact | None:

@@ -271,6 +271,8 @@ def start_of(grid: Grid, pieces: Pieces, problem: Problem, tilt: float) -> State
         tilt,
         grid.dx,
     )
+    if not patches:
+        raise LoadError("no contact is found on a grid: choose other units, or give a domain")
     ends = [
         _small(n, patch, rivals, pieces) or (patch.a, patch.b) for n, patch in enumerate(patches)
     ]

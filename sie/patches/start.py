@@ -87,6 +87,8 @@ def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Arra
     t, before, conjugate = np.zeros(n), 1.0, 0.0
     for _ in range(ITERATIONS):
         contact = p > 0.0
+        if not contact.any() or not np.isfinite(p).all():
+            raise FloatingPointError("no pressure on the grid")
         gap = displaced(p) + h
         gap -= gap[contact].mean()
         now = float((gap[contact] ** 2).sum())
