@@ -96,7 +96,7 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     parts = np.stack((k.lo, k.hi), axis=1)
     panel = np.arange(len(k.lo))
     scale, lowest = 0.0, np.inf
-    bad: list[tuple[int, float, float, float]] = []
+    bad: list[tuple[int, float, float, float, float]] = []
     g, _ = chebyshev.gauss_legendre(NODES)
     for depth in range(DEEPEST):
         lo, length = parts[:, :1], np.diff(parts, axis=1)
@@ -106,14 +106,11 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         scale = max(scale, float(finite.max(initial=0.0)))
         bound = lower_bound(np.where(np.isfinite(D), D, scale))
         negative = -TENSION * scale > D
-        extent = np.abs(x[:, -1] - x[:, 0])
         for j in np.flatnonzero(negative.any(axis=1)):
-            inside = np.sort(x[j, negative[j]])
-            bad.append(
-                (int(k.patch[panel[j]]), float(inside[0]), float(inside[-1]), float(extent[j]))
-            )
+            bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
         enough = bound >= -TENSION * scale
         lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
+        lowest = min(lowest, float(np.where(negative, D, np.inf).min()))
         open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
         if not open_.any():
             break
@@ -128,16 +125,34 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     return tuple(_joined(bad)), lowest / scale if scale else 0.0
 
 
-def _joined(bad: list[tuple[int, float, float, float]]) -> list[Tension]:
-    """Neighbouring parts of the same patch as one; each comes with the length of the panel that it is on."""
+def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
+    """Runs of neighbouring nodes of a panel where D is negative: (from, first node, last node, up to).
+
+    They reach half-way to the next node, or as far beyond the panel's first or last one.
+    """
+    order = np.argsort(x)
+    x, negative = x[order], negative[order]
+    ends = np.concatenate((x[:1] - (x[1] - x[0]), 0.5 * (x[1:] + x[:-1]), x[-1:] + (x[-1] - x[-2])))
+    padded = np.concatenate(([False], negative, [False]))
+    starts = np.flatnonzero(padded[1:] & ~padded[:-1])
+    stops = np.flatnonzero(padded[:-1] & ~padded[1:])
+    return [
+        (float(ends[i]), float(x[i]), float(x[j - 1]), float(ends[j]))
+        for i, j in zip(starts.tolist(), stops.tolist(), strict=True)
+    ]
+
+
+def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
+    """Runs of the same patch that touch, as one."""
     found: list[Tension] = []
-    before = 0.0
-    for patch, lo, hi, extent in sorted(bad):
-        if found and found[-1].patch == patch and lo - found[-1].hi < 1.5 * (extent + before):
+    until = -np.inf
+    for patch, start, lo, hi, stop in sorted(bad):
+        if found and found[-1].patch == patch and start <= until:
             found[-1] = Tension(patch, found[-1].lo, max(hi, found[-1].hi))
+            until = max(until, stop)
         else:
             found.append(Tension(patch, lo, hi))
-        before = extent
+            until = stop
     return found
 
 

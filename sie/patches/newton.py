@@ -35,6 +35,7 @@ TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
+CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
@@ -61,6 +62,7 @@ class Event(NamedTuple):
 
     kind: str
     number: int
+    others: tuple[int, ...] = ()  # patches that vanish as well
 
 
 class Linear(NamedTuple):
@@ -231,14 +233,14 @@ def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | No
         before = largest
         if insists.max() >= INSISTS:
             worst = int(np.argmax(insists))
-            grows = asked[worst] * outward[worst] > 0.0
-            if grows:
-                return (
-                    state,
-                    Event("merge", worst // 2 if worst % 2 else (worst // 2 - 1) % N),
-                    step + 1,
-                )
-            return state, Event("vanish", worst // 2), step + 1
+            if asked[worst] * outward[worst] <= 0.0:
+                shrinking = (2 * insists >= INSISTS) & (asked * outward <= 0.0)
+                return state, Event("vanish", worst // 2, tuple(k[shrinking].tolist())), step + 1
+            gap = worst // 2 if worst % 2 else (worst // 2 - 1) % N
+            closed = state.patches.gaps[gap] < CLOSED * state.patches.r.min()
+            if closed or gap not in held_open(state.patches, pieces):
+                return state, Event("merge", gap), step + 1
+            insists[:] = 0
     return state, Event("stall", -1), MOST_STEPS
 
 

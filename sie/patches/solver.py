@@ -411,7 +411,9 @@ def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State
         charge = np.where(sharp, state.charge, 0.0)
         return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
     if event.kind == "vanish":
-        keep = np.arange(P.number) != event.number
+        keep = ~np.isin(np.arange(P.number), (event.number, *event.others))
+        if not keep.any():
+            keep[np.argmax(P.r)] = True
         return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
     if event.kind == "merge" and P.number > 1:
         k = event.number
