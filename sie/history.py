@@ -182,7 +182,7 @@ class History(Sequence[Solution]):
             near = self._known.setdefault(P, KnownZones())
             step = Step(
                 plain.scene,
-                plain.normal,
+                plain.as_one_patch,
                 plain.slope_density,
                 Q,
                 sigma * self._tau,
@@ -234,7 +234,7 @@ class History(Sequence[Solution]):
         """The dissipated energy, and the contacts under all loads of the path."""
         return Dissipation(
             self.scene,
-            self.plain(max(P for P, _, _ in self.path.points)).normal,
+            self.plain(max(P for P, _, _ in self.path.points)).as_one_patch,
             self.tol,
             self.economy,
         )
@@ -290,7 +290,7 @@ class PathSolution(Solution):
 
     @cached_property
     def normal(self) -> Normal:
-        return self.history.plain(self.history.turning_points[self.index].loads[0]).normal
+        return self.history.plain(self.history.turning_points[self.index].loads[0]).as_one_patch
 
     @cached_property
     def pressure(self) -> SlopeDensity:

@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from .contact.pressure import upright_law
+from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
@@ -211,6 +212,8 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
+    if asks_for_patches(scene.profile):
+        return "load given: patches from a grid, their edges by Newton, verified by bounds"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"

@@ -65,7 +65,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
     def one_patch(lam: float) -> bool:
         smooth = replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))
         try:
-            _ = solve(smooth, tol).normal
+            _ = solve(smooth, tol).one_patch()
         except ContactError:
             return False
         return True

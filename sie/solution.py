@@ -25,12 +25,16 @@ from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import normal_contact
 from .contact.pressure import Normal, pressure
-from .errors import ContactError
+from .errors import ContactError, InequalityError, LoadError
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
+from .patches.answer import SeveralPatches, asks_for_patches, several_patches
+from .patches.certificate import PatchCertificate, worst_of
+from .patches.friction import PatchSlip
+from .patches.full import FullContact
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene
@@ -113,16 +117,56 @@ class Solution:
     # -- stages ------------------------------------------------------------------------------------
 
     @cached_property
-    def normal(self) -> Normal:
+    def normal(self) -> Normal | SeveralPatches | FullContact:
         """Edges, load, moment and tilt; verified where the profile may not be convex."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        if asks_for_patches(self.scene.profile):
+            return self._in_patches()
         try:
-            if not (self.scene.profile.convex and "convexity" in self.economy):
-                _ = self.inequalities
-            return self.unverified
+            return self.one_patch()
+        except (InequalityError, LoadError) as error:
+            if self._may_be_in_patches:
+                return self._in_patches(error)
+            raise explained(error, self.scene.profile) from None
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
+
+    def one_patch(self) -> Normal:
+        """The contact if it is one patch. Raises ContactError if it is not."""
+        if not (self.scene.profile.convex and "convexity" in self.economy):
+            _ = self.inequalities
+        return self.unverified
+
+    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
+        """Contact in several patches; `one_patch` is why it is not one."""
+        try:
+            return several_patches(self.scene)
+        except ContactError as error:
+            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            raise explained(told, self.scene.profile) from None
+
+    @property
+    def _may_be_in_patches(self) -> bool:
+        scene = self.scene
+        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+
+    @property
+    def as_one_patch(self) -> Normal:
+        """The contact, for what is solved on one patch only. Raises ContactError for several."""
+        found = self.normal
+        if isinstance(found, Normal):
+            return found
+        raise ContactError(
+            f"contact in {len(found.patches)} patches: load paths and cycles are covered for one "
+            "patch only; give tangential_load and bulk_stress of one step, or a load under which "
+            "the patches have merged"
+        )
+
+    @property
+    def _several(self) -> SeveralPatches | FullContact | None:
+        """The contact, if it is in several patches or per period."""
+        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
 
     @cached_property
     def unverified(self) -> Normal:
@@ -175,7 +219,8 @@ class Solution:
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
-        return self.density
+        several = self._several
+        return self.density if several is None else cast(SlopeDensity, several.pressure)
 
     @property
     def _loads(self) -> tuple[float, float]:
@@ -196,21 +241,36 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        if self._several is not None:
+            return PatchSlip(self.scene, self._several, *self._loads)
         return slip(
-            Step(self.scene, self.normal, self.slope_density, *self._loads, self.tol, self.economy)
+            Step(
+                self.scene,
+                self.as_one_patch,
+                self.slope_density,
+                *self._loads,
+                self.tol,
+                self.economy,
+            )
         )
 
+    @cached_property
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
         return dissipated(self.tangential)
 
     @cached_property
-    def certificate(self) -> Certificate:
+    def certificate(self) -> Certificate | PatchCertificate:
         if self.scene.bonded:
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
+        if self._several is not None:
+            stages = [self._several]
+            if self.sheared and isinstance(self.tangential, PatchSlip):
+                stages += [self.tangential.corrective] if self.tangential.corrective else []
+            return worst_of([stage.certificate(self.tol) for stage in stages])
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
@@ -243,6 +303,16 @@ class Solution:
         """
         contact = self.normal.edges.contact
         return contact.x1, contact.x2
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        """The patches of contact as (x1, x2), ascending; per period those of one period."""
+        return (self.edges,) if self._several is None else self._several.patches
+
+    @property
+    def patch_loads(self) -> tuple[float, ...]:
+        """∫p over each patch, force per length."""
+        return (self.normal_load,) if self._several is None else self._several.pressure.loads
 
     @property
     def half_width(self) -> float:
@@ -295,7 +365,7 @@ class Solution:
             return ()
         if self.sheared:
             return self.tangential.stick
-        return (self.edges,) if self.scene.friction else ()
+        return self.patches if self.scene.friction else ()
 
     @property
     def shear(self) -> Density:
@@ -518,6 +588,8 @@ class Solution:
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
+        if self._several is not None:
+            return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     @property
@@ -542,16 +614,16 @@ class Solution:
     @property
     def strain_notes(self) -> tuple[str, ...]:
         """Sentences on strains that are not small: a slope above 0.2, p above E*/4."""
-        if self.scene.bonded or "certificate" in self.__dict__:
+        if self.scene.bonded or "certificate" in self.__dict__ or self._several is not None:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
-    def check(self) -> Certificate:
+    def check(self) -> Certificate | PatchCertificate:
         """The certificate: how well this answer satisfies the equations.
 
         Returns
         -------
-        Certificate
+        Certificate or PatchCertificate
             Measured at points that were not used to find the answer; `.ok` sums it up.
 
         Examples
@@ -576,9 +648,9 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        return (
-            () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
-        )
+        if self.scene.bonded or self._several is not None:
+            return ()
+        return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

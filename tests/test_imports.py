@@ -27,6 +27,7 @@ LAYERS = (
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
     ("friction",),
+    ("patches",),
     ("certificate",),
     ("plan",),
     ("solution",),

@@ -10,6 +10,8 @@ JSON always holds
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
 
+    patches [[x1, x2], ..], patch_loads [number, ..], where there are several
+
 and, where they are wanted,
 
     pressure    {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}
@@ -108,6 +110,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "dundurs": scene.beta,
         "edges": list(solution.edges),
         "sharp": list(solution.sharp),
+        **_patches(solution),
         "half_width": solution.half_width,
         "centre": solution.centre,
         "normal_load": solution.normal_load,
@@ -151,6 +154,14 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
         "x": x.tolist(),
         "p": p(x).tolist(),
     }
+
+
+def _patches(solution: Solution) -> dict[str, Any]:
+    """The patches [[x1, x2], ..] and their loads, where there are several."""
+    if len(solution.patches) < 2:
+        return {}
+    patches = [list(patch) for patch in solution.patches]
+    return {"patches": patches, "patch_loads": list(solution.patch_loads)}
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:

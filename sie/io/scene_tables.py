@@ -85,7 +85,12 @@ TABLES: dict[str, Mapping[str, Reader]] = {
     "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number) | {"path": rows},
 }
 TOP: tuple[str, ...] = ("title", "want", "profile", *TABLES)
-MODIFIERS: dict[str, Reader] = {"mirrored": flag, "tilted": number, "shifted": number}
+MODIFIERS: dict[str, Reader] = {
+    "mirrored": flag,
+    "tilted": number,
+    "shifted": number,
+    "raised": number,
+}
 
 
 def values_of(name: str, value: Any) -> dict[str, Any]:

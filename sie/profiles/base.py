@@ -242,10 +242,30 @@ class Profile(ABC):
         """
         return self if self.parity == "even" else Mirrored(self)
 
+    def raised(self, dz: float) -> Profile:
+        """h(x) + dz: the height counts only among the indenters of a row."""
+        dz = arguments.measure("raised", dz)
+        return self if dz == 0.0 else Raised(self, dz)
+
+    @property
+    def period(self) -> float:
+        """The distance after which the profile repeats itself, inf if it does not."""
+        return float("inf")
+
+    @property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Intervals (lo, hi) inside the domain without indenter; lo = hi where h jumps."""
+        return ()
+
     def __add__(self, other: Profile) -> Profile:
         """The profile h(x) + other.h(x), on the intersection of both domains."""
         if not isinstance(other, Profile):
             return NotImplemented
+        for profile in (self, other):
+            if profile.period < float("inf"):
+                raise ValueError(
+                    f"{profile!r} is repeated: add profiles first, then repeat the sum"
+                )
         return Sum(self, other)
 
 
@@ -342,6 +362,8 @@ class Derived(Profile):
                 todo.append(Placed(node.profile, sign, shift + sign * node.dx, own))
             elif isinstance(node, Mirrored):
                 todo.append(Placed(node.profile, -sign, shift, own))
+            elif isinstance(node, Raised):
+                todo.append(Placed(node.profile, sign, shift, own))
             elif isinstance(node, Sum):
                 tilt += own
                 todo += [Placed(term, sign, shift, 0.0) for term in reversed(node.terms)]
@@ -369,6 +391,8 @@ class Derived(Profile):
         todo: list[tuple[Profile, Array]] = [(self, x)]
         while todo:
             node, u = todo.pop()
+            if isinstance(node, Raised):
+                total = total + node.dz
             if isinstance(node, Tilted):
                 total = total + node.tilt * u
             if isinstance(node, Shifted):
@@ -398,6 +422,17 @@ class Derived(Profile):
         return all(part.profile.convex for part in self._parts[0])
 
     @cached_property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Those of the profiles that add up to this one."""
+        lo, hi = self.domain
+        placed = [
+            sorted((part.sign * one + part.shift, part.sign * other + part.shift))
+            for part in self._parts[0]
+            for one, other in part.profile.walls
+        ]
+        return joined(tuple((max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo))
+
+    @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
         """Whether each end is a corner of the profile whose domain ends there."""
         corners = [True, True]
@@ -408,6 +443,17 @@ class Derived(Profile):
                 for k in (0, 1):
                     corners[k] &= is_corner or here != self.domain[k]
         return corners[0], corners[1]
+
+
+def joined(intervals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    """The union of intervals, ascending."""
+    found: list[tuple[float, float]] = []
+    for lo, hi in sorted(intervals):
+        if found and lo <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], hi)
+        else:
+            found.append((lo, hi))
+    return tuple(found)
 
 
 def _reach(profile: Profile) -> tuple[float, float]:
@@ -501,6 +547,20 @@ class Mirrored(_OfOne):
 
     def mirrored(self) -> Profile:
         return self.profile
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Raised(_OfOne):
+    """h(x) + dz."""
+
+    dz: float
+
+    @property
+    def parity(self) -> Parity:
+        return self.profile.parity
+
+    def raised(self, dz: float) -> Profile:
+        return self.profile.raised(self.dz + arguments.measure("raised", dz))
 
 
 @dataclass(frozen=True, repr=False, eq=False)

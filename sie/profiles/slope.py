@@ -296,7 +296,7 @@ class Slope:
             self.breaks[1:-1],
             self.coefficients.shape[1],
         )
-        return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
+        return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -316,7 +316,7 @@ class Slope:
         """
         level = float(self(x))
         origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
-        c = _recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
+        c = recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
         c[:, 0] -= level
         return level, replace(self, origins=origins, coefficients=c)
 
@@ -390,7 +390,7 @@ class Slope:
             other.origins[theirs],
         )
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
-        c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
+        c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
 
@@ -424,8 +424,10 @@ def _distance(origins: Array, breaks: Array) -> Array:
     )
 
 
-def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins, by synthetic division (Horner)."""
+def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
+    """Coefficients of the pieces k about new origins, by synthetic division (Horner); exact where
+    the origin stays.
+    """
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
     step = origins - slope.origins[k]
