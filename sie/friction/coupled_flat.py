@@ -121,7 +121,7 @@ def _at_ratio(tau: float, beta: float, friction: float, n: int) -> tuple[float, 
     values, vectors = np.linalg.eigh(root[:, None] * kernel * root)
     v = np.abs(vectors[:, -1]) / root
     v /= modulus.k ** (2.0 * theta) * (W @ v)
-    part, rest, dx = _double_exponential()
+    part, rest, dx = double_exponential()
     _, cn, dn = elliptic_functions(modulus, part, rest)
     tested = dx * dn * (_kernel(modulus, cn * cn, remainder) @ (W * v))
     logarithm = np.log(modulus.k * (cn / dn) ** 2)
@@ -131,7 +131,7 @@ def _at_ratio(tau: float, beta: float, friction: float, n: int) -> tuple[float, 
 
 
 @lru_cache(maxsize=1)
-def _double_exponential() -> tuple[Array, Array, Array]:
+def double_exponential() -> tuple[Array, Array, Array]:
     """x, 1 - x and dx on (0, 1), for logarithms at the ends."""
     t = STEP * np.arange(-LAST, LAST + 1)
     e = np.exp(np.pi * np.sinh(t))

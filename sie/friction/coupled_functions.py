@@ -32,7 +32,7 @@ from sie.numerics import chebyshev
 from sie.numerics.elliptic import elliptic_functions
 from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
-from .coupled_flat import NEARER, SPARE, FlatPunch, flat_punch
+from .coupled_flat import NEARER, SPARE, FlatPunch, double_exponential, flat_punch
 
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Array]
@@ -114,6 +114,45 @@ class FlatFunctions:
         """χ."""
         chi: Array = (from_c * (t + self.c) / (e * (1.0 + t))) ** self.h
         return chi
+
+    def pressure(self, t: Array, e: Array, from_c: Array) -> Array:
+        """p."""
+        edge = e < self.beyond
+        p = np.empty(t.shape)
+        p[edge] = self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
+        p[~edge] = self.A(t[~edge], e[~edge])
+        slip = ~edge & (e < self.rest)
+        chi = self.weight(t[slip], e[slip], from_c[slip])
+        p[slip] -= self.sine * chi * self.S(t[slip], e[slip])
+        return p
+
+    def shear_deficit(self, t: Array, e: Array, from_c: Array) -> Array:
+        """f p - q."""
+        deficit, stick = np.zeros(t.shape), e > self.rest
+        chi = self.weight(t[stick], e[stick], from_c[stick])
+        deficit[stick] = chi * self.S(t[stick], e[stick]) / self.beta
+        return deficit
+
+    def slip(self, t: Array, e: Array, from_c: Array) -> Array:
+        """g."""
+        regular, singular = self.slip_near_edge
+        g, edge = np.zeros(t.shape), e < self.beyond
+        g[edge] = regular(t[edge], e[edge]) + singular(t[edge], e[edge]) * e[edge] ** (1.0 - self.h)
+        near_c = ~edge & (e < self.rest)
+        g[near_c] = self.slip_near_c(t[near_c], e[near_c]) * from_c[near_c] ** (1.0 + self.h)
+        return g
+
+    @cached_property
+    def slip_places(self) -> Points:
+        """A rule for the slip zone, whatever the exponents at its ends."""
+        return self._of_slip_zone(*double_exponential())
+
+    @cached_property
+    def dissipation(self) -> float:
+        """∫ f p g dt over the slip zone."""
+        t, e, from_c, dt = self.slip_places
+        both = self.pressure(t, e, from_c) * self.slip(t, e, from_c)
+        return self.friction * float(dt @ both)
 
     # -- tables --------------------------------------------------------------------------------------------------------
 
@@ -305,13 +344,18 @@ class FlatFunctions:
     def _slip_points(self, a: float, b: float, lo: float = 0.0, hi: float = 1.0) -> Points:
         """A part of c < t < 1, in the elliptic coordinate v, for (hi - v)^a (v - lo)^b."""
         x, rest, w = with_weight(self._nodes(2.0 / (self._tau * (hi - lo))), a, b)
+        return self._of_slip_zone(
+            lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest, (hi - lo) * w
+        )
+
+    def _of_slip_zone(self, part: Array, remaining: Array, w: Array) -> Points:
+        """The places at these parts of the elliptic coordinate."""
         swapped = self.punch.modulus.swapped
-        part, remaining = lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest
         sn, cn, dn = elliptic_functions(swapped, part, remaining)
         t = self.c / dn
         from_c = t * (swapped.k * sn) ** 2 / (1.0 + dn)
         e = (swapped.k * cn / dn) ** 2 / (1.0 + t)
-        dt = (hi - lo) * swapped.K * t * swapped.k**2 * sn * cn / dn
+        dt = swapped.K * t * swapped.k**2 * sn * cn / dn
         return Points(t, e, from_c, w * dt)
 
     @property

@@ -42,12 +42,13 @@ NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink
 
 
 class Piece(NamedTuple):
-    """E*/2 h' on lo <= x <= hi as a function of x - lo, and whether it jumps at lo."""
+    """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth there."""
 
     lo: float
     hi: float
     slope: Callable[[Array], Array]
     jumps: bool
+    kinked: bool = True
 
 
 def power_law_moment(flat: FlatFunctions, m: float) -> float:
@@ -140,7 +141,14 @@ def _far(flat: FlatFunctions, panels: list[GrowthPanel], x: Array) -> Array:
 
 def _beside(flat: FlatFunctions, panel: GrowthPanel, x: Array, beyond: Array) -> Array:
     """∫P' ρ D(ρ) ds over a panel that ends before x, by `beyond`."""
-    length = np.full(len(x), panel.hi - panel.lo)
+    return _up_to(flat, panel, panel.hi - panel.lo, x, beyond)
+
+
+def _up_to(
+    flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyond: Array
+) -> Array:
+    """The same over a part of the panel."""
+    length = np.full(len(x), part)
     owner, start, size, left, kind = _graded(length, np.full(len(x), np.inf), beyond)
     z, rest, w = _rules(panel.power, 0.0)
     ahead = start[:, None] + size[:, None] * z[kind]
@@ -148,6 +156,17 @@ def _beside(flat: FlatFunctions, panel: GrowthPanel, x: Array, beyond: Array) ->
     at = panel.origin + x[owner][:, None]
     values = flat.outside((panel.origin + panel.lo + ahead) / at, to_x / at) * panel(ahead)
     return np.bincount(owner, size * (values * w[kind]).sum(axis=1), minlength=len(x))
+
+
+def load_slope(flat: FlatFunctions, growth: tuple[GrowthPanel, ...], b: float, x: Array) -> Array:
+    """∫P' D(x/s) ds/s up to b for each x > b: 1/π ∫p/(x - t) dt beside the contact."""
+    total = np.zeros(len(x))
+    for panel in growth:
+        length = min(panel.hi, b - panel.origin) - panel.lo
+        if length > 0.0:
+            beyond = (x - panel.origin) - (panel.lo + length)
+            total += _up_to(flat, panel, length, x - panel.origin, beyond)
+    return total / x
 
 
 def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Array:
