@@ -8,7 +8,7 @@ holds only on part of the line is confined to that part.
 
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -62,6 +62,16 @@ MEANING = {
 SHALLOW = 1e-290
 
 
+# Of larger parameters, and of smaller ones, products leave the range of doubles. Loads and moments
+# are products themselves, a coefficient is over a power of a length, `inner` enters by a logarithm.
+LARGEST = 1e150
+LARGEST_OF = {name: 1e250 for name in MEANING if name.endswith("_load")}
+LARGEST_OF |= dict.fromkeys(("coefficient", "inner", "moment"), sys.float_info.max)
+OTHER_UNITS = "where products are doubles (choose other units, or an mpmath context as lib)"
+# Positions may be as far away as doubles go.
+POSITIONS = ("x", "y", "z")
+
+
 def bits(lib: Library) -> int:
     """Bits of the significand: the number that decides how many terms of a series are enough."""
     return 53 if lib is np else int(lib.prec)
@@ -73,19 +83,32 @@ def real(name: str, value: Number, lib: Library) -> Number:
         number = _float64(value) if lib is np else lib.mpf(lib.convert(value))
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{name} = {value!r} is not {_kind(lib)}; give {MEANING[name]}.") from None
-    return _accept(name, number, _finite(number, lib), "finite")
+    _accept(name, number, _finite(number, lib), "finite")
+    if lib is np and name not in POSITIONS:
+        largest = LARGEST_OF.get(name, LARGEST)
+        _accept(name, number, abs(number) <= largest, f"at most {largest:g} in size, {OTHER_UNITS}")
+    return number
 
 
 def positive(name: str, value: Number, lib: Library) -> Number:
     """`value` as `real` returns it. ValueError unless it is positive."""
     number = real(name, value, lib)
-    return _accept(name, number, number > 0, "positive")
+    return _not_tiny(name, _accept(name, number, number > 0, "positive"), lib)
 
 
 def not_negative(name: str, value: Number, lib: Library) -> Number:
     """`value` as `real` returns it. ValueError when it is negative."""
     number = real(name, value, lib)
-    return _accept(name, number, number >= 0, "zero or positive")
+    return _not_tiny(name, _accept(name, number, number >= 0, "zero or positive"), lib)
+
+
+def _not_tiny(name: str, number: Number, lib: Library) -> Number:
+    """0, or a number that is not too small for products; a context has no such bound."""
+    if lib is not np or name in POSITIONS:
+        return number
+    least = 1.0 / LARGEST_OF.get(name, LARGEST)
+    good = (number == 0) | (number >= least)
+    return _accept(name, number, good, f"at least {least:g}, {OTHER_UNITS}")
 
 
 def point(value: Number, lib: Library) -> Number:
@@ -113,7 +136,7 @@ def smaller(first: Number, second: Number, lib: Library) -> Number:
 
 def side_of_cut(side: int) -> int:
     """+1 or -1. ValueError otherwise."""
-    if side not in (1, -1):
+    if not isinstance(side, Hashable) or side not in (1, -1):
         raise ValueError(
             f"side = {side!r} is neither +1 nor -1; give +1 for the body y > 0, -1 for its mirror image."
         )

@@ -23,6 +23,8 @@ from analytic._lib import Library, Number, as_result, bits, fraction, pick, posi
 
 # xi² = e² at which the two series meet. Both gain one bit a term there.
 MATCH_SQUARE = 1 / 2
+# Every step of the recurrence takes 2 from the exponent.
+LARGEST_EXPONENT = 1000
 
 
 def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
@@ -105,10 +107,11 @@ def half_width(
 
 def _shape(exponent: Number, coefficient: Number, lib: Library) -> tuple[Number, Number]:
     m = real("exponent", exponent, lib)
-    if np.ndim(m) > 0 or m < 1:
+    if np.ndim(m) > 0 or not 1 <= m <= LARGEST_EXPONENT:
         raise ValueError(
-            f"exponent = {exponent} is not a single number >= 1; below 1 the indenter is a cusp pointing down, whose "
-            "slope is infinite at its tip, and several exponents take a call each."
+            f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 the indenter is a "
+            "cusp pointing down, whose slope is infinite at its tip; each 2 above takes a step of a recurrence, "
+            "and several exponents take a call each."
         )
     return as_result(m), positive("coefficient", coefficient, lib)
 

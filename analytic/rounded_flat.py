@@ -32,6 +32,7 @@ b - a below 1e-15, that of Fp below 2e-14.
 
 import math
 from functools import partial
+from numbers import Integral
 
 import numpy as np
 
@@ -268,7 +269,7 @@ def chebyshev_coefficients(
     >>> chebyshev_coefficients(2, half_flat=0.0, half_width=1.0, radius=1.0, modulus=1.0).round(12) + 0
     array([0.5, 0. ])
     """
-    if count != int(count) or count < 0:
+    if not isinstance(count, Integral) or count < 0:
         raise ValueError(f"count = {count} is not a number of coefficients; give an integer >= 0.")
     contact, R, E = (
         unit.contact_of(half_flat, half_width, rim, lib),

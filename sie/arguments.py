@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Hashable, Iterable
 from typing import Any
 
 import numpy as np
@@ -83,9 +83,22 @@ def tolerance(value: Any) -> float:
     return tol
 
 
+def listed(name: str, values: Any, what: str) -> tuple[Any, ...]:
+    """What a list or another collection holds; ValueError, with what to give, for all else."""
+    single = isinstance(values, (str, bytes)) or getattr(values, "shape", None) == ()
+    if isinstance(values, Iterable) and not single:
+        return tuple(values)
+    raise ValueError(f"{name} = {values!r} is not a list: give {what}")
+
+
+def among(value: Any, choices: Collection[Any]) -> bool:
+    """Whether a value of any type is one of the choices; an array, which is unhashable, is not."""
+    return isinstance(value, Hashable) and value in choices
+
+
 def reals(name: str, values: Any) -> NDArray[np.float64]:
     """`values` as an array of floats, infinite or nan where they are; ValueError unless they are real numbers."""
-    array = np.asarray(values)
+    array = _array(values)
     if array.dtype == np.float64:
         return array
     try:
@@ -100,7 +113,7 @@ def reals(name: str, values: Any) -> NDArray[np.float64]:
 
 def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     """`values` as an array of complex numbers, infinite or nan where they are; ValueError unless they are numbers."""
-    array = np.asarray(values)
+    array = _array(values)
     try:
         if array.dtype.kind in "cfiu":
             return array.astype(complex, copy=False)
@@ -109,6 +122,13 @@ def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     except (TypeError, ValueError, OverflowError):
         pass
     raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
+
+
+def _array(values: Any) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError:  # rows of unequal length
+        return np.asarray(None)
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
@@ -133,10 +153,7 @@ def real_values(
     returned = of_arrays(name, function, x)
     if type(returned) is np.ndarray and returned.dtype == x.dtype and returned.shape == x.shape:
         return returned
-    try:
-        values = np.asarray(returned)
-    except ValueError:
-        values = np.asarray(None)  # rows of unequal length
+    values = _array(returned)
     if values.dtype.kind == "c":
         one = complex(values.flat[np.argmax(np.abs(values.imag))]) if values.size else 0j
         raise ValueError(

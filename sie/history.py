@@ -34,7 +34,7 @@ from .friction.partial_slip import slip
 from .friction.states import OneWay, Slip, Step
 from .numerics.interval import EPS, Interval
 from .problem.load_path import Path, direction, states
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 from .solution import Solution, solve
 from .traction.base import ZERO, Density
 from .traction.combination import superposed
@@ -57,6 +57,7 @@ def follow(
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
     """
+    refuse_no_scene(scene)
     if not isinstance(path, Path):
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
@@ -74,7 +75,6 @@ class History(Sequence[Solution]):
 
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
         first = next(P for P, _, _ in path.points if P > 0.0)
-        self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self.scene = replace(
             scene,
             normal_load=first,
@@ -84,6 +84,7 @@ class History(Sequence[Solution]):
             bulk_stress=0.0,
         )
         solve(self.scene, tol, economy)  # refuses what is not covered
+        self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self.unit = direction(path)
         self.states = states(scene, path)
         self._plain: dict[float, Solution] = {}

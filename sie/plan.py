@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
+from . import arguments
 from .contact.normal import ECONOMY, upright_law
 from .friction.partial_slip import sheared
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 
 # What can be asked for, and the stages of `Solution` that answer it.
 WANTS: dict[str, tuple[str, ...]] = {
@@ -77,6 +78,7 @@ def plan(
 
     A printable Plan. Computes nothing.
     """
+    refuse_no_scene(scene)
     names = wanted(want)
     needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
     stages = {stage for w in names for stage in needed[w]}
@@ -163,13 +165,12 @@ def _certificate(stages: set[str]) -> Step:
 
 
 def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
-    if not isinstance(want, Iterable):
-        raise ValueError(f"want = {want!r} is not a name: ask for {', '.join(WANTS)}")
-    asked = (want,) if isinstance(want, str) else tuple(want)
-    names = tuple(ALSO.get(name, name) for name in asked)
-    for name, own in zip(asked, names, strict=True):
-        if own not in WANTS:
+    remedy = f"a name; ask for {', '.join(WANTS)}"
+    asked = (want,) if isinstance(want, str) else arguments.listed("want", want, remedy)
+    for name in asked:
+        if not arguments.among(name, {*WANTS, *ALSO}):
             raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
+    names = tuple(ALSO.get(name, name) for name in asked)
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from .errors import ContactError
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 from .profiles.base import Derived, Profile
 from .profiles.sampled import Sampled, traces_in
 from .profiles.splines import longest_lambda
@@ -57,6 +57,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
     >>> sie.solve(sie.Scene(profile=smooth, modulus=1.0, normal_load=0.3)).check().ok
     True
     """
+    refuse_no_scene(scene)
     trace = next((placed.trace for placed in traces_in(scene.profile)), None)
     if trace is None:
         raise ValueError(f"{scene.profile!r} is no trace: only a sampled profile is smoothed")

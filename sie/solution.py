@@ -30,7 +30,7 @@ from .friction.full_stick import Component, bonded_certificate, bonded_contact
 from .friction.partial_slip import refuse_sliding, sheared, slip
 from .friction.states import Slip, Step
 from .problem.material import Elastic
-from .problem.scene import Scene
+from .problem.scene import Scene, refuse_no_scene
 from .profiles.sampled import explained, traces_in
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
@@ -433,12 +433,11 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     >>> round(solution.half_width, 6)
     0.282095
     """
-    if not isinstance(scene, Scene):
-        raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
+    refuse_no_scene(scene)
     tol = arguments.tolerance(tol)
-    unknown = set(economy) - ECONOMY
-    if unknown:
-        raise ValueError(f"economy {sorted(unknown)} is not known: choose among {sorted(ECONOMY)}")
+    for name in arguments.listed("economy", economy, "a set of names"):
+        if not arguments.among(name, ECONOMY):
+            raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
     _refuse_uncovered(scene)
     return Solution(scene, tol, economy)
 

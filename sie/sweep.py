@@ -19,11 +19,13 @@ from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import closing, suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import partial
+from numbers import Integral
 from operator import attrgetter
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from . import arguments
 from .errors import ContactError
 from .problem.scene import Scene
 from .solution import Solution, solve
@@ -135,10 +137,10 @@ def sweep(
 def _axes(
     scene: Scene | Callable[..., Scene], over: Mapping[str, Sequence[Any]]
 ) -> dict[str, list[Any]]:
-    if not over:
+    if not isinstance(over, Mapping) or not over:
         raise ValueError('nothing to sweep over: give over = {"normal_load": [...], ...}')
     for name, values in over.items():
-        unsized = isinstance(values, str) or not hasattr(values, "__len__")
+        unsized = isinstance(values, (str, bytes)) or not hasattr(values, "__len__")
         if unsized or getattr(values, "ndim", 1) == 0 or not len(values):
             raise ValueError(f"over {name} = {values!r} holds no values: give a sequence of them")
         if isinstance(scene, Scene):
@@ -174,7 +176,7 @@ def _points(axes: dict[str, list[Any]]) -> Iterator[Point]:
 
 def _chunk_size(chunk: int | None, points: int, executor: Executor | None) -> int:
     if chunk is not None:
-        if int(chunk) != chunk or chunk < 1:
+        if isinstance(chunk, bool) or not isinstance(chunk, Integral) or chunk < 1:
             raise ValueError(
                 f"chunk = {chunk!r} is not a number of points: give a whole number > 0"
             )
@@ -183,10 +185,13 @@ def _chunk_size(chunk: int | None, points: int, executor: Executor | None) -> in
 
 
 def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str | Wanted]:
-    names = (want,) if isinstance(want, str) else want
-    wanted = dict(want) if isinstance(want, Mapping) else {name: name for name in names}
-    for name, quantity in wanted.items():
-        if not callable(quantity) and quantity not in QUANTITIES:
+    remedy = "names, or a dict of functions of a solution"
+    names = (want,) if isinstance(want, str) else arguments.listed("want", want, remedy)
+    pairs = list(want.items() if isinstance(want, Mapping) else zip(names, names, strict=True))
+    if not pairs:
+        raise ValueError(f"nothing is wanted: ask for {', '.join(QUANTITIES)}")
+    for name, quantity in pairs:
+        if not callable(quantity) and not arguments.among(quantity, QUANTITIES):
             raise ValueError(
                 f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution'
             )
@@ -194,7 +199,7 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
             raise ValueError(
                 'want "reason" is what a sweep calls why a point has no answer: give the quantity another name'
             )
-    return wanted
+    return dict(pairs)
 
 
 # -- the work ----------------------------------------------------------------------------------------------------------

@@ -842,6 +842,35 @@ def is_good(name: str, value: Any) -> bool:
     return (name == "z" and value == 1j) or (name in ("half_width", "rim") and value is None)
 
 
+EXTREMES = [1e-300, 1e-200, 1e-151, 1e151, 1e200, 1e300]
+
+
+@every_call
+def test_a_parameter_of_any_size_is_answered_in_numbers_or_refused_with_a_remedy(
+    function: Callable[..., Any], given: dict[str, Any]
+) -> None:
+    for name in given.keys() - {"x", "z"}:
+        for size in EXTREMES:
+            value = value_or_refusal(function, {**given, name: size})
+            assert "; " in value if isinstance(value, str) else not np.isnan(value)
+
+
+def value_or_refusal(function: Callable[..., Any], given: dict[str, Any]) -> Any:
+    try:
+        return positional(function, given)
+    except ValueError as refusal:
+        return str(refusal)
+
+
+@pytest.mark.parametrize("function", [power.load, power.half_width])
+def test_an_exponent_that_asks_for_endless_steps_is_refused(function: Callable[..., Any]) -> None:
+    given = {"half_width": 1.0} if function is power.load else {"normal_load": 1.0}
+    with pytest.raises(
+        ValueError, match=r"exponent = 1000000\.0 is not a single number from 1 to 1000"
+    ):
+        function(**given, exponent=1e6, coefficient=1.0, modulus=1.0)
+
+
 @pytest.mark.parametrize("name", ["half_flat", "rim"])
 def test_lengths_that_may_vanish_are_refused_below_zero(name: str) -> None:
     with pytest.raises(ValueError, match=rf"{name} = -1\.0 is not zero or positive; give "):
@@ -865,7 +894,7 @@ def test_the_first_bad_entry_of_an_array_is_named() -> None:
         hertz.load(half_width=1.0, radius=np.array([1.0, -2.0, -3.0]), modulus=1.0)
 
 
-@pytest.mark.parametrize("side", [0, 2, 0.5, None])
+@pytest.mark.parametrize("side", [0, 2, 0.5, None, np.array([1, -1]), np.array([])])
 def test_a_side_is_plus_or_minus_one(side: Any) -> None:
     for case in POTENTIALS:
         with pytest.raises(ValueError, match="side = "):

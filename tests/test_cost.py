@@ -8,8 +8,13 @@ import pytest
 
 import sie
 from sie import solution
-from sie.contact import normal
+from sie.certificate import quadrature
+from sie.contact import edges, normal, widest
+from sie.friction import dissipation
 from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.profiles import lowest_points, resolution
+from sie.traction.of_slope import SlopeDensity
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
 SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
@@ -124,3 +129,92 @@ def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
     for path in found:
         assert any(path.match(pattern) for pattern in patterns)
     assert "benchmarks" not in pytestconfig.getini("testpaths")
+
+
+# -- what grows in proportion, and no faster ---------------------------------------------------
+
+
+def places_for_a_certificate(turns):
+    """At how many points the certificate after so many turning points asks for tractions."""
+    path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])
+    solved = sie.follow(scene(PUNCH, friction=0.5), path)[-1]
+    _, value, places = solved.shear, SlopeDensity.__call__, []
+
+    def counting(density, x):
+        places.append(np.size(x))
+        return value(density, x)
+
+    with patch.object(SlopeDensity, "__call__", counting):
+        solved.check()
+    return sum(places)
+
+
+def test_the_certificate_of_a_remembered_path_is_linear_in_its_turning_points():
+    assert places_for_a_certificate(80) <= 3 * places_for_a_certificate(40)
+
+
+def test_small_steps_of_an_oblique_path_share_their_panels():
+    steps = np.arange(1, 201) / 200
+    loads = np.stack((0.4 * steps, 0.05 * steps * (-1.0) ** np.arange(200)), axis=1)
+    path = sie.Path(loads.tolist())
+    history = sie.follow(scene(PUNCH, friction=0.5), path)
+    with counted(dissipation.Growth, "_resolved") as panels:
+        assert history[-1].energy_lost > 0.0
+    assert len(panels) <= 20
+
+
+def calls_for(jumps):
+    """How often a slope with so many undeclared jumps, one of them at x = 0, is called."""
+    places, calls = np.linspace(-0.3, 0.3, jumps), []
+
+    def slope(x):
+        calls.append(1)
+        return x + 0.01 * np.sign(x[..., None] - places).sum(axis=-1)
+
+    assert sie.solve(scene(sie.FromFunction(slope))).half_width > 0.0
+    return len(calls)
+
+
+def test_jumps_are_looked_for_all_at_once():
+    assert calls_for(41) <= 2 * calls_for(5)
+
+
+def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double():
+    calls = []
+
+    def slope(x):
+        calls.append(1)
+        return x + np.where(x < 0.0, -0.1, 0.2)
+
+    assert lowest_points.lowest_points(sie.FromFunction(slope, domain=(-1.0, 0.9)).pieces) == (
+        0.0,
+        0.0,
+    )
+    assert len(calls) <= 20
+
+
+def test_the_widest_contact_of_a_long_trace_is_looked_for_on_fewer_pieces():
+    x = np.linspace(-1.0, 1.0, 5001)
+    slope = sie.Sampled(x, 0.5 * x * x + 1e-4 * np.sin(5000.0 * x)).pieces
+    assert len(slope.origins) > widest.MANY
+    search = edges.Search(slope, 0.5)
+    assert widest.widest_contact(search, 0.3) is not None
+    assert search.evaluations <= 60
+
+
+def test_the_rule_over_a_sum_of_powers_grows_with_their_number_alone():
+    def nodes(powers):
+        total = sie.Power(1.5, 0.01)
+        for k in range(1, powers):
+            total = total + sie.Power(1.5, 0.01).shifted(k / powers)
+        return len(quadrature.composite_rule(Interval(-0.5, 1.5), total.pieces).x)
+
+    assert nodes(20) <= 20 * 64 * quadrature.NODES
+
+
+def test_the_gap_under_a_function_is_resolved_from_half_widths_outwards():
+    solved = sie.solve(scene(sie.FromFunction("arctan(x) + x/10")))
+    _ = solved.pressure
+    with counted(resolution, "_degrees") as resolutions:
+        solved.check()
+    assert len(resolutions) <= 30

@@ -1,5 +1,7 @@
 """Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows nothing of superposition."""
 
+from dataclasses import replace
+
 import mpmath
 import numpy as np
 import pytest
@@ -26,6 +28,11 @@ LOPSIDED = sie.Scene(
     tilt=0.02,
 )
 FP = F * P
+# The contact ends at a corner of the indenter on one side.
+CORNERED = [
+    replace(HERTZ, profile=sie.Piecewise(ends, ((0.0, 1.0),)))
+    for ends in ((-0.3, np.inf), (-np.inf, 0.3))
+]
 
 
 def at_constant_load(scene, *fractions):
@@ -80,11 +87,12 @@ def test_a_closed_loop_closes_after_the_first_cycle_and_is_forgotten():
     assert len(again.history.states[4].ladder.layers) == 1
 
 
-def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
+@pytest.mark.parametrize("scene", [PUNCH, *CORNERED], ids=["smooth", "left corner", "right corner"])
+def test_the_loop_of_load_over_shift_encloses_the_energy_lost(scene):
     """∮Q dδ: by Simpson on one branch, which the other mirrors."""
     n = 201
     Q = 0.8 * np.cos(np.linspace(0.0, np.pi, n))  # from the top down, densely at both ends
-    history = at_constant_load(PUNCH, *Q)
+    history = at_constant_load(scene, *Q)
     t, shift = np.linspace(0.0, np.pi, n), np.array([s.shift for s in history])
     weight = np.full(n, 2.0)
     weight[1::2], weight[[0, -1]] = 4.0, 1.0
@@ -471,7 +479,7 @@ def test_a_scene_and_a_path_to_its_loads_give_one_answer_where_zones_retreat(mor
     ("points", "said"),
     [
         ([], "no points"),
-        (None, "None is not a sequence of points"),
+        (None, "points = None is not a list"),
         ([(0.0, 0.0), (0.0, 0.0)], "nothing ever touches"),
         ([(1.0,)], r"\(1\.0,\).*give \(P, Q\)"),
         ([(1.0, np.nan)], "Q of point 0 is nan"),
@@ -632,3 +640,41 @@ def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh():
     (coarse, _), (fine, energy) = errors
     assert fine < 0.5 * coarse < 1e-3
     assert energy < 2e-3
+
+
+@pytest.mark.parametrize("part", [1e-17, 1e-25, 1e-50])
+def test_the_energy_of_the_shortest_slip_zones_is_the_first_term_of_its_series(part):
+    """f² P² (Q/f P)³/(3 π E*): the zones are shorter than the rounding of the load."""
+    lost = at_constant_load(HERTZ, part)[0].energy_lost
+    assert lost == pytest.approx(FP * FP * part**3 / (3.0 * np.pi * E), rel=1e-12)
+
+
+@pytest.mark.parametrize(("length", "modulus"), [(1e60, 1e120), (1e-60, 1e-50), (1e100, 1e50)])
+def test_the_energy_of_loads_whose_squares_are_no_doubles_is_that_in_other_units(length, modulus):
+    points = [(0.375, 0.1), (0.5, -0.05), (0.25, 0.02)]
+
+    def lost(L, Estar):
+        unit = L * Estar
+        profile = sie.RoundedFlat(0.7 * L, L)
+        scene = sie.Scene(profile=profile, modulus=2.0 * Estar, normal_load=unit, friction=F)
+        path = sie.Path([(unit * N, unit * Q) for N, Q in points])
+        return [solution.energy_lost for solution in sie.follow(scene, path)]
+
+    expected = [energy * length * length * modulus for energy in lost(1.0, 1.0)]
+    assert lost(length, modulus) == pytest.approx(expected, rel=1e-11)
+
+
+def test_the_energy_under_a_load_that_is_nothing_next_to_the_largest_is_refused_with_a_remedy():
+    small = (1e-20, 1e-21)
+    history = sie.follow(HERTZ, sie.Path([small, (P, 0.0)]))
+    with pytest.raises(sie.LoadError, match="as a path of their own"):
+        _ = history[0].energy_lost
+    assert sie.follow(HERTZ, sie.Path([small]))[0].energy_lost > 0.0
+
+
+@pytest.mark.parametrize("excess", [2.0**-55, 2.0**-54, 2.0**-53])
+def test_a_load_that_rises_and_sticks_but_for_rounding_does_not_slip(excess):
+    """|dQ| = f dP but for an ulp."""
+    after = sie.follow(HERTZ, sie.Path([(0.75, 0.125 + excess), (1.0, 0.0)]))[1]
+    assert after.tangential.slipped == ()
+    assert after.stick == (after.edges,)

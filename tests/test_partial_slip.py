@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -677,3 +678,13 @@ def test_the_mirror_image_of_a_contact_shears_the_other_way(scene, loads, f):
     for lo, hi in one.stick:
         assert other.stick[0] == pytest.approx((-hi, -lo), abs=1e-9 * far)
         assert turned.stick[0] == pytest.approx((lo, hi), abs=1e-12 * far)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.3])
+def test_the_steepness_of_the_shear_at_a_kink_in_the_stick_zone_is_that_beside_it(part):
+    """Pressure and corrective pressure are both infinitely steep there: their difference is not."""
+    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.5, friction=0.4)
+    shear = sie.solve(replace(scene, tangential_load=part * 0.2)).shear
+    at, *beside = shear.cauchy_derivative(np.array([0.5, 0.5 - 1e-6, 0.5 + 1e-6])).imag
+    assert np.isinf(sie.solve(scene).pressure.cauchy_derivative(0.5).imag)
+    assert at == pytest.approx(np.mean(beside), rel=1e-3)

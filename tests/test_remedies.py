@@ -212,3 +212,114 @@ def test_an_equation_that_follows_its_refusal_s_remedy_is_solved(name):
     found = sie.CauchyEquation((-1.0, 1.0), **({"g": 1.0} | followed)).solve()
     assert np.isfinite(found(0.3))
     assert found.error <= 1e-13
+
+
+# What is asked of a path, words of the remedy, and the path and the scene that follow it.
+SHEARED = scene(PARABOLA, friction=0.4)
+BULK = [(1.0, 0.1, 0.1), (1.2, 0.1, 0.1)]
+MOMENT = [(1.0, 0.1), (1.2, 0.15)]
+PATHS = {
+    "in proportion": (
+        [(1, 0.1, 0.1), (1, -0.1, 0.2)],
+        "in proportion,",
+        [(1, 0.1, 0.1), (1, 0.2, 0.2)],
+    ),
+    "leave σ out": ([(1, 0.1, 0.1), (1, -0.1, 0.2)], "leave σ out", [(1, 0.1), (1, -0.1)]),
+    "reach P before": (BULK, "reach P before Q and σ", [(1.2, 0, 0), (1.2, 0.1, 0.1)]),
+    "P changes, leave σ out": (BULK, "or leave σ out", [point[:2] for point in BULK]),
+    "raise the load": ([(1, 0.1), (1, 0.5)], "raise normal_load", [(1, 0.1), (1.3, 0.5)]),
+    "a later point": ([(0, 0), (1, 0.1)], "ask for a later point", [(1, 0.1)]),
+    "lower Q or σ": (
+        [(1, 0.1, 3.0), (1, 0.05, 1.5)],
+        "lower Q or σ",
+        [(1, 0.1, 0.1), (1, 0.05, 0.05)],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_path_that_follows_its_refusal_s_remedy_is_answered(name):
+    asked, words, followed = PATHS[name]
+    with pytest.raises(sie.ContactError) as refusal:
+        answered(SHEARED, asked)
+    assert words in str(refusal.value)
+    answered(SHEARED, followed)
+
+
+def answered(scene, points):
+    for solution in sie.follow(scene, sie.Path(points)):
+        assert solution.check().ok
+        assert solution.shear.resultant == pytest.approx(solution.tangential_load, abs=1e-12)
+
+
+def test_a_tilt_in_place_of_the_moment_lets_the_normal_load_change():
+    asked = scene(PUNCH, friction=0.4, moment=0.05)
+    with pytest.raises(sie.ContactError, match="give tilt instead"):
+        sie.follow(asked, sie.Path(MOMENT))
+    answered(replace(asked, moment=None, tilt=sie.solve(asked).tilt), MOMENT)
+
+
+def test_a_path_needs_friction_and_a_finite_one():
+    with pytest.raises(ValueError, match="give friction > 0"):
+        sie.follow(scene(PARABOLA), sie.Path([(1.0, 0.1)]))
+    bonded = scene(FLAT, friction=math.inf)
+    with pytest.raises(ValueError, match="give a finite friction, or solve the last point"):
+        sie.follow(bonded, sie.Path([(1.0, 0.1)]))
+    answered(replace(bonded, friction=0.4), [(1.0, 0.1)])
+    solved(replace(bonded, normal_load=1.0, tangential_load=0.1))
+
+
+def test_slip_is_known_at_the_points_that_the_refusal_says_are_in_contact():
+    last = sie.follow(SHEARED, sie.Path([(1.0, 0.1), (1.2, 0.35)]))[-1]
+    with pytest.raises(sie.ContactError, match="within the contact under P = 1") as refusal:
+        last.slip(last.edges[1])
+    within = sie.solve(
+        replace(SHEARED, normal_load=number("under P = ", str(refusal.value)))
+    ).edges[1]
+    assert last.slip(within) != 0.0
+
+
+def half_width(solution):
+    return solution.half_width
+
+
+SWEEPS = {
+    "a field": ({"over": {"load": [1.0]}}, "normal_load", {"over": {"normal_load": [1.0]}}),
+    "of the profile": ({"over": {"profile.R": [1.0]}}, "choose radius", {"over": {"profile.radius": [1.0]}}),
+    "a quantity": ({"want": "width"}, "half_width", {"want": "half_width"}),
+    "a function": ({"want": "width"}, "a dict of functions", {"want": {"width": half_width}}),
+    "a sequence": ({"over": {"normal_load": 1.0}}, "a sequence", {"over": {"normal_load": [1.0]}}),
+    "a chunk": ({"chunk": 0}, "a whole number > 0", {"chunk": 1}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_a_sweep_that_follows_its_refusal_s_remedy_has_no_reason_left(name):
+    asked, words, followed = SWEEPS[name]
+    given = {"over": {"normal_load": [1.0]}, "want": "half_width", "progress": False}
+    with pytest.raises(ValueError, match=re.escape(words)):
+        sie.sweep(SHEARED, **(given | asked))
+    found = sie.sweep(SHEARED, **(given | followed))
+    assert np.asarray(found["reason"]).tolist() == [""]
+
+
+HEIGHTS = [f"{x:.2f} {0.5 * x * x:.6f}" for x in np.linspace(-1.0, 1.0, 41)]
+TRACES = {
+    "mend passes over lines": ([*HEIGHTS, "1.05 nan"], {}, "mend = true passes over them", None, {"mend": True}),
+    "delete such lines": ([*HEIGHTS, "1.05 nan"], {}, "delete such lines", HEIGHTS, {}),
+    "mend the file": ([*HEIGHTS, "1.05 oops"], {}, "mend the file", HEIGHTS, {}),
+    "other columns": ([f"a{k} {row}" for k, row in enumerate(HEIGHTS)], {}, "choose other columns", None, {"columns": (1, 2)}),
+    "a number": (HEIGHTS, {"columns": (0, 2)}, "give numbers from 0 to 1", None, {"columns": (0, 1)}),
+    "skip fewer": (HEIGHTS, {"skip": 41}, "skip fewer lines", None, {"skip": 4}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TRACES)
+def test_a_trace_that_follows_its_refusal_s_remedy_is_read_and_pressed(name, tmp_path):
+    rows, given, words, mended, options = TRACES[name]
+    path = tmp_path / "trace.txt"
+    path.write_text("\n".join(rows))
+    with pytest.raises(ValueError, match=re.escape(words)):
+        sie.Sampled.read(path, **given)
+    path.write_text("\n".join(mended or rows))
+    solved(scene(sie.Sampled.read(path, **options), normal_load=0.05))

@@ -330,3 +330,92 @@ def test_a_corner_that_points_into_the_indenter_is_refused_as_lifting_off(load):
     concave = sie.Piecewise((-0.3, 0.0, 0.3), ((0.0, 1.0), (0.1, 1.0), (-0.1, 1.0), (0.0, 1.0)))
     with pytest.raises(sie.ContactError, match=r"tension at x = 0 .p = -inf.* lifts off"):
         _ = sie.solve(sie.Scene(profile=concave, modulus=1.0, **load)).edges
+
+
+SHEARED = sie.solve(scene(profile=sie.Parabola(1.0), friction=0.4, tangential_load=0.1))
+CYCLE = sie.Cycle(sie.follow(SHEARED.scene, sie.Path([(1.0, 0.2), (1.0, -0.2)])))
+LOADED = sie.Path([(1.0, 0.0)])
+RAGGED = [[0.1], [0.2, 0.3]]
+# Wherever a caller gives a list, a name or an object: (the call, its name in the message).
+GIVEN = {
+    "polynomial": (sie.Polynomial, "coefficients"),
+    "breaks of pieces": (lambda v: sie.Piecewise(v, ((0.0, 1.0),)), "breaks"),
+    "pieces": (lambda v: sie.Piecewise((-1.0, 1.0), v), "pieces"),
+    "breaks of a function": (lambda v: sie.FromFunction("x", breaks=v), "breaks"),
+    "domain": (lambda v: sie.FromFunction("x", domain=v), "domain"),
+    "parity": (lambda v: sie.FromFunction("x", parity=v), "parity"),
+    "columns": (lambda v: sie.Sampled.read("trace.csv", columns=v), "columns"),
+    "smoothing": (lambda v: sie.Sampled(range(5), range(5), smoothing=v), "smoothing"),
+    "friction": (lambda v: scene(friction=v), "friction"),
+    "sliding": (lambda v: scene(sliding=v), "sliding"),
+    "economy": (lambda v: sie.solve(scene(), economy=v), "economy"),
+    "a scene to plan": (sie.plan, "scene"),
+    "a scene to follow": (lambda v: sie.follow(v, sie.Path([(1.0, 0.1)])), "scene"),
+    "a scene to smooth": (sie.least_smoothing, "scene"),
+    "economy of a path": (lambda v: sie.follow(scene(), LOADED, economy=v), "economy"),
+    "points": (sie.Path, "point"),
+    "want of a plan": (lambda v: sie.plan(scene(), want=v), "want"),
+    "want of a sweep": (lambda v: sie.sweep(scene(), over={"normal_load": [1.0]}, want=v), "want"),
+    "over": (lambda v: sie.sweep(scene(), over=v), "over"),
+    "chunk": (lambda v: sie.sweep(scene(), over={"normal_load": [1.0]}, chunk=v), "chunk"),
+    "states": (sie.Cycle, "state|solution"),
+    "term": (sie.superposed, "factor"),
+    "factor": (lambda v: sie.scaled(v, SHEARED.pressure), "factor"),
+    "side": (lambda v: SHEARED.pressure.cauchy(0.1, v), "side"),
+    "criterion": (SHEARED.elastic_limit, "criterion"),
+}
+VALUES = {
+    "a number": 7.5,
+    "a complex number": 1j,
+    "an object": object(),
+    "bytes": b"ab",
+    "an array with nan": np.array([0.3, np.nan]),
+    "an empty array": np.array([]),
+    "rows of unequal length": RAGGED,
+    "a list of lists": [[[0.1]]],
+}
+MEANINGFUL = {
+    "a number": ("friction", "smoothing", "factor"),
+    "an empty array": (
+        "breaks of pieces",
+        "breaks of a function",
+        "economy",
+        "economy of a path",
+    ),
+}
+REFUSED = [(n, v) for n in GIVEN for v in VALUES if n not in MEANINGFUL.get(v, ())]
+
+
+@pytest.mark.parametrize(("name", "value"), REFUSED)
+def test_what_is_neither_the_list_nor_the_name_asked_for_is_refused_by_its_name(name, value):
+    ask, named = GIVEN[name]
+    with pytest.raises(ValueError, match=named) as refusal:
+        ask(VALUES[value])
+    assert "truth value" not in str(refusal.value)
+
+
+QUERIES = {
+    "pressure": SHEARED.pressure,
+    "shear": SHEARED.shear,
+    "slip": SHEARED.slip,
+    "gap": SHEARED.gap,
+    "stress": SHEARED.surface_stress,
+    "potential": SHEARED.pressure.cauchy,
+    "height": SHEARED.scene.profile.height,
+    "slope": SHEARED.scene.profile.slope,
+    "slip range": CYCLE.slip_range,
+    "friction work": CYCLE.friction_work,
+    "a range": lambda x: CYCLE.range(x, 0.5),
+    "shear range": lambda x: CYCLE.shear_range(0.5, x),
+}
+
+
+@pytest.mark.parametrize("name", QUERIES)
+def test_positions_in_rows_of_unequal_length_are_refused_by_their_name(name):
+    with pytest.raises(ValueError, match=r"[xyz] is not an array of"):
+        QUERIES[name](RAGGED)
+
+
+@pytest.mark.parametrize("x", [5e-324, -5e-324, 1e-310])
+def test_the_height_of_a_function_is_taken_at_the_smallest_doubles(x):
+    assert sie.FromFunction("sinh(x)").height(x) == pytest.approx(0.0, abs=1e-300)

@@ -34,6 +34,9 @@ TOWARDS_EDGE = np.array(
 # profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
 # corner of the slope.
 LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
+# Of its distance from the next break: a resolution halves its pieces towards a break, and where
+# they are shorter more happens.
+CLOSING_IN = 0.1
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
 LONGEST = np.pi / 32  # of a panel where there are many
 POINTS = 48  # at which the residual is measured: between the longest panels, where no node is near
@@ -111,6 +114,7 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
         else angles(contact, np.union1d(inner_breaks(contact, slope), also))
     )
     ends = np.concatenate(([0.0], towards, [np.pi]))
+    cut = cut[_shorter_than_graded(cut, ends)]
     cuts = [cut]
     graded = GRADING ** np.arange(levels, 0, -1)
     graded = graded[graded < 0.25]
@@ -123,6 +127,14 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
     edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
     length = np.diff(edges)
     return edges, edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
+
+
+def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
+    """Which cuts bound a piece that is shorter than the grading towards the ends makes it."""
+    k = np.searchsorted(ends, cut, side="right").clip(1, len(ends) - 1)
+    distance = np.minimum(cut - ends[k - 1], ends[k] - cut)
+    beside = np.diff(cut, prepend=-np.inf, append=np.inf)
+    return np.minimum(beside[:-1], beside[1:]) < CLOSING_IN * distance
 
 
 def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:

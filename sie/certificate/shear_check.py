@@ -8,12 +8,16 @@ opposing      smallest slip in the direction of q over the largest
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.states import Slip
 from sie.numerics.interval import EPS, Interval
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
+from sie.traction.base import Density
 from sie.traction.of_slope import SlopeDensity
 
 from .pressure_check import ShearCertificate
@@ -22,43 +26,69 @@ from .quadrature import Rule, composite_rule
 Array = NDArray[np.float64]
 
 POINTS = 24  # in the stick zone
-ENDS = (
-    32.0 * EPS
-)  # of the contact, to which the end of a zone is known: there |q| falls from f p like a square root
+# Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
+# does the cost of a value.
+MANY = 12
+# Of the contact, to which the end of a zone is known: there |q| falls from f p like a square root.
+ENDS = 32.0 * EPS
+
+
+class Term(NamedTuple):
+    """factor × density, a part of the shear, and the rule for its integrals."""
+
+    factor: float
+    density: Density
+    contact: Interval
+    rule: Rule
 
 
 def shear_certificate(
     state: Slip, pressure: SlopeDensity, loads: tuple[float, float], slope: Slope, tol: float
 ) -> ShearCertificate:
     """Measure a state; `loads` are Q and τ."""
-    ends = (
-        [c for zone in state.stick for c in zone]
-        + [c for lo, hi, _ in state.slipped for c in (lo, hi)]
-        + list(state.levels)
-    )
-    x1, x2 = pressure.interval
-    rule = composite_rule(pressure.contact, slope, np.array([c for c in set(ends) if x1 < c < x2]))
+    contact, bases = pressure.contact, state.shear.bases
+    resolution = refined(slope, contact.x1, contact.x2, EPS)
+    if len(bases) > MANY and all(isinstance(density, SlopeDensity) for _, density in bases):
+        rule = composite_rule(contact, slope, resolution=resolution)
+        terms = [
+            Term(factor, d, d.contact, composite_rule(d.contact, slope, resolution=resolution))
+            for factor, d in bases
+            if isinstance(d, SlopeDensity)
+        ]
+    else:
+        zones = (*state.stick, *(zone[:2] for zone in state.slipped))
+        ends = {*state.levels, *(end for zone in zones for end in zone)}
+        x1, x2 = pressure.interval
+        inside = np.array([c for c in ends if x1 < c < x2])
+        rule = composite_rule(contact, slope, inside, resolution=resolution)
+        terms = [Term(1.0, state.shear, contact, rule)]
     with np.errstate(
         divide="ignore", invalid="ignore", over="ignore"
     ):  # what cannot be measured is infinite, and not ok
-        return _measured(state, pressure, loads, rule, tol)
+        return _measured(state, pressure, loads, rule, terms, tol=tol)
 
 
 def _measured(
-    state: Slip, pressure: SlopeDensity, loads: tuple[float, float], rule: Rule, tol: float
+    state: Slip,
+    pressure: SlopeDensity,
+    loads: tuple[float, float],
+    rule: Rule,
+    terms: list[Term],
+    *,
+    tol: float,
 ) -> ShearCertificate:
     x, weight = rule.x, rule.weight
     p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
     if size == 0.0:
         size = peak = state.friction * pressure.resultant
-    of_force, of_equation = _rounding(state, pressure.contact, x, weight, q)
+    force, equation, of_force, of_equation = _integrals(terms, _points(state, terms))
     return ShearCertificate(
-        residual=_residual(state, pressure.contact, rule, q, loads[1]) / peak,
-        equilibrium=abs(float(weight @ q) - loads[0]) / size,
+        residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
+        equilibrium=abs(force - loads[0]) / size,
         excess=_excess(state, pressure.contact, x, p, q) / float(p.max()),
         opposing=_opposing(state, x),
-        abscissae=max(of_force / size, of_equation / peak),
+        abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
         condition=state.condition,
         advancing=state.advancing,
         kind=state.kind,
@@ -66,18 +96,27 @@ def _measured(
     )
 
 
-def _residual(state: Slip, contact: Interval, rule: Rule, q: Array, tau: float) -> float:
-    """1/π PV∫q/(x - t) - τ in the zone that never slipped, by subtracting q there."""
-    at = _points(state, rule.x)
-    if not at.size:
-        return 0.0
-    values = state.shear(at)
-    distance = at[:, None] - rule.x
-    distance[distance == 0.0] = np.inf
-    whole = values * np.log(contact.from_left(at) / contact.from_right(at))
-    return float(
-        np.abs((((q - values[:, None]) / distance) @ rule.weight + whole) / np.pi - tau).max()
-    )
+def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
+    """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
+
+    Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
+    zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    """
+    force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
+    for factor, density, contact, (x, _, weight, *_) in terms:
+        ulp = float(np.spacing(contact.r + abs(contact.m)))
+        inwards, at_inwards = (place + np.where(place < contact.m, ulp, -ulp) for place in (x, at))
+        q, values = _finite(density(x)), density(at)
+        moved = weight * np.abs(_finite(density(inwards)) - q)
+        distance = at[:, None] - x
+        distance[distance == 0.0] = np.inf
+        whole = values * np.log(contact.from_left(at) / contact.from_right(at))
+        force += factor * float(weight @ q)
+        equation += factor / np.pi * (((q - values[:, None]) / distance) @ weight + whole)
+        of_force += abs(factor) * float(moved.sum())
+        here = np.abs(_finite(density(at_inwards)) - values)
+        of_equation += abs(factor) * (here + (1.0 / np.abs(distance)) @ moved / np.pi)
+    return force, equation, of_force, of_equation
 
 
 def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
@@ -105,31 +144,17 @@ def _opposing(state: Slip, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def _rounding(
-    state: Slip, contact: Interval, x: Array, weight: Array, q: Array
-) -> tuple[float, float]:
-    """What one ulp of the nodes, which are counted from the edges, does to ∫q dx and to the equation where that is measured.
+def _points(state: Slip, terms: list[Term]) -> Array:
+    """Where the equation is measured: over the zone that never slipped, half-way between two nodes.
 
-    In a narrow stick zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    Of many terms these are the farthest apart in the neighbourhood.
     """
-    ulp = float(np.spacing(contact.r + abs(contact.m)))
-
-    def inwards(x: Array) -> Array:
-        return x + np.where(x < contact.m, ulp, -ulp)
-
-    at = _points(state, x)
-    moved = np.abs(_finite(state.shear(inwards(x))) - q)
-    here = np.abs(_finite(state.shear(inwards(at))) - state.shear(at))
-    felt = (1.0 / np.abs(at[:, None] - x)) @ (weight * moved) / np.pi
-    return float(weight @ moved), float((here + felt).max(initial=0.0))
-
-
-def _points(state: Slip, nodes: Array) -> Array:
-    """Where the equation is measured: over the zone that never slipped, half-way between two nodes."""
     lo, hi = state.untouched
-    nodes = np.unique(nodes)
+    nodes, near = np.unique(np.concatenate([term.rule.x for term in terms])), len(terms) - 1
     at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
-    k = np.clip(np.searchsorted(nodes, at), 1, len(nodes) - 1)
+    k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
+    widest = np.argmax(nodes[k] - nodes[k - 1], axis=1)
+    k = k[np.arange(POINTS), widest]
     at = np.unique(0.5 * (nodes[k - 1] + nodes[k]))
     inside: Array = at[(at > lo) & (at < hi) & ~np.isin(at, nodes)]
     return inside

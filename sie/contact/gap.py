@@ -24,10 +24,11 @@ Array = NDArray[np.float64]
 More = Callable[[Array, float], Array] | None
 
 NODES = 20
-SHORT, SHORT_NODES = (
-    0.125,
-    6,
-)  # ... and so few of them on a panel this short, relative to its θ (all singularities have Re θ = 0) and to 1
+# ... and so few of them on a panel this short, relative to its θ (all singularities have
+# Re θ = 0) and to 1
+SHORT, SHORT_NODES = 0.125, 6
+# Half-widths from an edge, as far as a gap is looked at: between them a function needs few pieces.
+DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
 LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
 
 
@@ -104,9 +105,11 @@ def _on_one_side(
         values = opening.reshape(t.shape) * (root * (width * np.cosh(0.5 * t)))
         return length * (values @ w)
 
-    until = np.concatenate(([0.0], np.cumsum(integral(cuts[:-1], np.diff(cuts)))))
     k = np.clip(np.searchsorted(cuts, theta, side="right") - 1, 0, len(cuts) - 1)
-    return until[k] + integral(cuts[k], theta - cuts[k])
+    lengths = np.concatenate((np.diff(cuts), theta - cuts[k]))
+    parts = integral(np.concatenate((cuts[:-1], cuts[k])), lengths)
+    until = np.concatenate(([0.0], np.cumsum(parts[: len(cuts) - 1])))
+    return until[k] + parts[len(cuts) - 1 :]
 
 
 def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
@@ -125,7 +128,8 @@ def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slo
     graded = first * 2.0 ** np.arange(int(np.ceil(np.log2(LONGEST / first))) + 1)
     even = np.arange(LONGEST, theta_max, LONGEST)
     edge = contact.x2 if side > 0.0 else contact.x1
-    pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS).breaks
+    doubled = edge + side * contact.r * DOUBLED
+    pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS, doubled).breaks
     outside = -(contact.from_right(pieces) if side > 0.0 else contact.from_left(pieces))
     outside = outside[(outside > 0.0) & np.isfinite(outside)]
     breaks = 2.0 * np.arcsinh(np.sqrt(outside) / np.sqrt(2.0 * contact.r))

@@ -132,12 +132,12 @@ def _within_scale(
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
     """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
-    sizes = {
-        "half-width": (r, SIZE),
-        "mean traction": (0.5 * load / r, SIZE),
-        "E* r²": (Estar * r * r, MOMENT),
-    }
-    for name, (size, largest) in sizes.items():
+    sizes = (
+        ("half-width", r, SIZE),
+        ("mean traction", 0.5 * load / r, SIZE),
+        ("E* r²", Estar * r * r, MOMENT),
+    )
+    for name, size, largest in sizes:
         if not 1.0 / largest <= size <= largest:
             raise LoadError(
                 f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {arguments.REMEDY}"
@@ -231,8 +231,10 @@ def _contact(
 def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
     """The power law of a profile that is pressed upright, where its closed form serves."""
     law = scene.profile.power_law
+    if law is None:
+        return None
     upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
-    return law if law is not None and law.explicit and upright else None
+    return law if law.explicit and upright else None
 
 
 def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:

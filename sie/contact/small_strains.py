@@ -43,7 +43,7 @@ def regular_points(density: SlopeDensity, slope: Slope, x: Array) -> NDArray[np.
         b = slope.breaks
         inner = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
         infinite += inner[np.isinf(density(inner))].tolist()
-    regular = np.ones(len(x), dtype=bool)
-    for place in infinite:
-        regular &= np.abs(x - place) > BESIDE * contact.r
+    places = np.array([-np.inf, *sorted(infinite), np.inf])
+    k = np.searchsorted(places, x, side="right").clip(1, len(places) - 1)
+    regular: NDArray[np.bool_] = np.minimum(x - places[k - 1], places[k] - x) > BESIDE * contact.r
     return regular

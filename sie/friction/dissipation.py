@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 from sie.contact.edge_integrals import Moments
 from sie.contact.edges import Found, Search
 from sie.contact.normal import Normal, pressure
+from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
@@ -57,9 +58,11 @@ NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
 FEW = 8  # so many breaks are cut at without trial
 MANY = 24  # a profile of so many breaks is a trace
+SAME = 16.0 * EPS  # loads that rounding tells apart
 WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
 HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
 LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
+THIN = 8.0 * EPS  # of the load: panels reach at least so far below it, however thin a front is
 NODES = 16  # on each part of a panel whose ends are not further apart than ...
 RATIO = 4.0
 MARGIN = 0.02  # of the widest contact: how far beyond it a function is resolved
@@ -127,30 +130,40 @@ class Growth:
     # -- energy -------------------------------------------------------------------------------------------------------
 
     def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
-        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r. Depths are counted in Q from each load down."""
+        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
+
+        Depths are counted in Q from each load down. LoadError where the load is
+        nothing next to the largest one.
+        """
         rows = [
             (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
             for P, o in zip(loads, fronts, strict=True)
         ]
+        for P, _, _, *surface in rows:
+            if P + max(surface) <= LOWEST * self.top:
+                raise LoadError(
+                    f"energy is lost under P = {P:.6g}, less than {LOWEST:g} of the path's largest "
+                    f"load, {self.top:.6g}: follow the points of small loads as a path of their own"
+                )
         apart = [self._crosses_many_breaks(*row) for row in rows]
         rest = iter(
             self._by_panels(
                 [row for row, many in zip(rows, apart, strict=True) if not many]
             ).tolist()
         )
-        found = np.array(
-            [
-                self._from_potentials(*row) if many else next(rest)
-                for row, many in zip(rows, apart, strict=True)
-            ]
-        )
-        return friction * friction / (math.pi * self._search.half_modulus) * found
+        G = self._search.half_modulus
+        found = [
+            self._from_potentials(*row) / G if many else next(rest)
+            for row, many in zip(rows, apart, strict=True)
+        ]
+        return friction * friction / math.pi * np.array(found)
 
     def _by_panels(self, rows: list[tuple[float, ...]]) -> Array:
-        """∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
+        """2/E* ∫v d ln r for rows of P and, counted from it, L, Y, P(L), P(Y)."""
         ends: list[tuple[float, float, int]] = []
-        for P, L, _, *surface in rows:
-            self._cover(P + L, P + max(surface))
+        spans = [(min(P + L, P * (1.0 - THIN)), P + max(surface)) for P, L, _, *surface in rows]
+        for together in _merged(spans):
+            self._cover(*together)
         cuts = self._cuts()
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
@@ -172,7 +185,7 @@ class Growth:
         return total
 
     def _integrals(self, lo: Array, hi: Array, given: Array) -> Array:
-        """∫v d ln r from lo to hi, counted from P."""
+        """2/E* ∫v d ln r from lo to hi, counted from P."""
         P, L, Y, at_L, at_Y = given
         g, w = chebyshev.gauss_legendre(NODES)
         panels = self._panels
@@ -199,9 +212,11 @@ class Growth:
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)
-        v = np.maximum(upper - lower, 0.0) * (at_Y + rise * (Y - middle) - y)
         level = np.maximum(P + y, panels[0].lo)
-        out: Array = (hi - lo) * (weight * v * self._growth(k, level) / level).sum(axis=1)
+        # v in its two factors: loads of 1e160 have no square
+        first = np.maximum(upper - lower, 0.0) / level
+        second = (at_Y + rise * (Y - middle) - y) / self._search.half_modulus
+        out: Array = (hi - lo) * (weight * first * second * self._growth(k, level)).sum(axis=1)
         return out
 
     def _growth(self, k: NDArray[np.int64], y: Array) -> Array:
@@ -281,19 +296,21 @@ class Growth:
     def _cover(self, lo: float, hi: float) -> None:
         """Panels for every load from lo to hi, where there are none yet."""
         lo, hi = max(lo, LOWEST * self.top), min(hi, self.top)
-        gaps, below = [], 0.0
-        for p in self._panels:
-            if p.hi > lo and p.lo < hi:
-                if p.lo > lo:
-                    gaps.append((lo, p.lo, below))
-                lo = p.hi
-            below = p.hi if p.hi <= lo else below
-        if lo < hi:
-            gaps.append((lo, hi, below))
+        panels, gaps = self._panels, []
+        k = bisect_right(panels, lo, key=lambda p: p.hi)
+        below = panels[k - 1].hi if k else 0.0
+        while lo < hi:
+            until = panels[k].lo if k < len(panels) else hi
+            if lo < until:
+                gaps.append((lo, min(until, hi), below))
+            if until >= hi:
+                break
+            lo = below = panels[k].hi
+            k += 1
         for start, end, limit in gaps:
             at_break = self._break_below(start, end, limit)
-            self._panels += self._resolved(at_break or start, end, at_break > 0.0)
-        self._panels.sort(key=lambda p: p.lo)
+            k = bisect_right(panels, end, key=lambda p: p.hi)
+            panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
 
     def _break_below(self, level: float, top: float, limit: float) -> float:
         """The level at which an edge passed the nearest break, where that is not far below, nor below `limit`; otherwise 0."""
@@ -498,3 +515,17 @@ class Growth:
             if not contact.r > 0.0:
                 return 0.0
         return 0.0
+
+
+def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The union of ranges, as those that do not meet.
+
+    Small steps of a path ask for short ranges, each of which would be a panel.
+    """
+    out: list[tuple[float, float]] = []
+    for lo, hi in sorted(ranges):
+        if out and lo <= out[-1][1] * (1.0 + SAME):
+            out[-1] = out[-1][0], max(hi, out[-1][1])
+        else:
+            out.append((lo, hi))
+    return out

@@ -149,7 +149,7 @@ class Ladder:
             taken = left / jump if jump * thickness > left else thickness
             if 0.0 < thickness - taken <= NOTHING * (depth + taken):
                 taken = thickness
-            if jump:
+            if jump and depth + taken > depth:  # not by rounding alone
                 done.append(Overwritten(depth, depth + taken, jump))
             if taken < thickness and layer:
                 below = _laid(thickness - taken, k, below)

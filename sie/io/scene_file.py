@@ -78,7 +78,7 @@ UNITS = Units()
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
-# Each is solved and listed, within two seconds together.
+# Each is solved and listed, within seconds together.
 MOST_POINTS = 2000
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene needs three.
 DEEPEST = 20

@@ -20,6 +20,7 @@ from sie.numerics.interval import EPS
 from .scene import Scene
 
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
+ROUNDED = 4.0 * EPS  # of f P: by so much a rise in proportion may exceed |dQ| = f dP
 PROPORTIONAL = (
     1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
 )
@@ -36,9 +37,8 @@ class Path:
     points: tuple[tuple[float, float, float], ...]
 
     def __init__(self, points: Iterable[Sequence[float]]) -> None:
-        if not isinstance(points, Iterable):
-            raise ValueError(f"{points!r} is not a sequence of points: give [(P, Q, σ), ...]")
-        found = tuple(_point(k, point) for k, point in enumerate(points))
+        given = arguments.listed("points", points, "[(P, Q, σ), ...]")
+        found = tuple(_point(k, point) for k, point in enumerate(given))
         if not found:
             raise ValueError("the path has no points: give [(P, Q, σ), ...]")
         touching = next((k for k, (P, _, _) in enumerate(found) if P > 0.0), None)
@@ -174,7 +174,7 @@ def _stepped(
         rise = f * (P - P0)
         k = (Q - Q0) / rise
         ladder = replace(before.ladder.thickened(rise, min(max(k, -1.0), 1.0)), size=f * P)
-        if abs(k) <= 1.0:
+        if abs(Q - Q0) <= rise + ROUNDED * f * P:
             return State(loads, ladder)
         pulled = _pulled(loads, ladder, Q)
         return replace(pulled, slips=tuple(slip.while_raised(rise) for slip in pulled.slips))

@@ -13,6 +13,12 @@ from sie.profiles.base import Profile
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
 
+def refuse_no_scene(scene: Any) -> None:
+    """ValueError unless it is a scene."""
+    if not isinstance(scene, Scene):
+        raise ValueError(f"{scene!r} is not a scene: build one with sie.Scene(profile=..., ...)")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Scene:
     """A plane contact problem, per unit length, in any consistent units.
@@ -113,8 +119,9 @@ class Scene:
                 raise ValueError(
                     f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows"
                 )
+        self._set("friction", arguments.real("friction", self.friction))
         if self.friction != math.inf:
-            self._set("friction", arguments.not_negative("friction", self.friction))
+            arguments.not_negative("friction", self.friction)
             if self.friction:
                 arguments.positive("friction", self.friction)
         self._set(
@@ -129,7 +136,7 @@ class Scene:
         self._check_sliding()
 
     def _check_sliding(self) -> None:
-        if self.sliding not in (-1, 0, 1):
+        if not arguments.among(self.sliding, (-1, 0, 1)):
             raise ValueError(
                 f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0"
             )

@@ -187,8 +187,8 @@ class Expression:
             all="ignore"
         ):  # what is not finite is refused by who asked, with the place
             for operands, function in self._program:
-                values = [stack.pop() for _ in range(operands)][::-1]
-                stack.append(x if function is None else function(*values))
+                first = len(stack) - operands
+                stack[first:] = [x if function is None else function(*stack[first:])]
         return np.broadcast_to(np.asarray(stack.pop(), dtype=float), np.shape(x))
 
     def __getstate__(self) -> dict[str, str]:

@@ -23,6 +23,7 @@ MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of t
 HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
+NEXT = float(np.finfo(float).tiny)  # to the origin of a piece
 
 
 def lowest_points(slope: Slope) -> tuple[float, float]:
@@ -140,7 +141,8 @@ def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
     at_a, at_b = H(a), H(b)
     if at_a >= 0.0 or at_b <= 0.0:
         return lo if at_a >= 0.0 else hi
-    if a < 0.0 < b and H(0.0) == 0.0:  # else the bracket would shrink to the smallest doubles
+    # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
+    if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return float(origin[0])
     widths = [np.inf, np.inf]
     for _ in range(MAX_STEPS):

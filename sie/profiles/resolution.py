@@ -35,10 +35,10 @@ FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
-PATIENCE, HALVINGS = (
-    3,
-    8,
-)  # after so many levels what has not settled next to a declared break is singular there: so many halvings at once
+DEEP = 64  # levels, after which x = 0 is such a break
+# After so many levels what has not settled next to a declared break is singular there: so many
+# halvings at once.
+PATIENCE, HALVINGS = 3, 8
 
 
 class Tolerance(NamedTuple):
@@ -61,13 +61,20 @@ class Tolerance(NamedTuple):
 
 
 def resolved(
-    function: Callable[[Array], Array], breaks: Array, tol: float
+    function: Callable[[Array], Array],
+    breaks: Array,
+    tol: float,
+    cuts: Array | None = None,
 ) -> tuple[Array, NDArray[np.int64]]:
     """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
 
+    The function is smooth at the `cuts`, from which the refinement starts.
     `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
     """
-    open_ = np.stack((breaks[:-1], breaks[1:]), axis=1)
+    ends = breaks
+    if cuts is not None:
+        ends = np.union1d(breaks, cuts[(cuts > breaks[0]) & (cuts < breaks[-1])])
+    open_ = np.stack((ends[:-1], ends[1:]), axis=1)
     noise = NOISE * rounding_noise(function, breaks[0], breaks[-1])
     tolerance = Tolerance(tol, noise, breaks[1:-1], SHORTEST * (breaks[-1] - breaks[0]))
     done: list[tuple[float, float, int]] = []
@@ -88,7 +95,13 @@ def resolved(
                 x=middle,
             )
         level += 1
-        open_ = _split(open_, tolerance.breaks if level > PATIENCE else breaks[:0])
+        graded_towards = tolerance.breaks if level > PATIENCE else breaks[:0]
+        if level > DEEP:  # only next to x = 0 are doubles so close
+            inside = (open_[:, 0] < 0.0) & (open_[:, 1] > 0.0)
+            left, right = open_[inside] * [1.0, 0.0], open_[inside] * [0.0, 1.0]
+            open_ = np.concatenate((open_[~inside], left, right))
+            graded_towards = np.append(graded_towards, 0.0)
+        open_ = _split(open_, graded_towards)
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array(
         [p[2] for p in done], dtype=np.int64
@@ -169,12 +182,12 @@ def refuse_non_finite(x: Array, values: Array) -> None:
         )
 
 
-def refined(slope: Slope, lo: float, hi: float, tol: float) -> Slope:
+def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None = None) -> Slope:
     """The slope on [lo, hi], its functions resolved to tol times the largest |H| there; a slope without functions is returned as it is."""
     if not slope.functions:
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
-    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol)
+    breaks, degrees = resolved(slope.inside, np.concatenate(([lo], inner, [hi])), tol, cuts)
     k = np.clip(
         np.searchsorted(slope.breaks, breaks[:-1], side="right") - 1, 0, len(slope.origins) - 1
     )
@@ -215,7 +228,7 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
     at -= at[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
-    s = np.clip((flat - lo[j]) / (0.5 * length[j]) - 1.0, -1.0, 1.0)
+    s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
     values = at[j] + np.array(
         [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
     )

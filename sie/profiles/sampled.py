@@ -111,13 +111,14 @@ class Sampled(Profile):
         """
         factors = _factors(scale)
         if is_text(path):
-            if len(tuple(columns)) != 2:
+            pair = arguments.listed("columns", columns, "those of x and of h")
+            if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):
                 raise ValueError(
                     f"columns = {columns!r} is not a pair: give the columns of x and of h"
                 )
             if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
                 raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
-            x, h = read_columns(path, tuple(columns), int(skip), keep_missing=mend)
+            x, h = read_columns(path, pair, int(skip), keep_missing=mend)
         else:
             x, h = read_topography(path)
         with np.errstate(over="ignore"):
@@ -387,7 +388,7 @@ def _numbers(name: str, values: Any) -> Array:
 
 
 def _smoothing(smoothing: Any, points: Array) -> Smoothing:
-    if smoothing == "gcv":
+    if arguments.among(smoothing, ("gcv",)):
         return "gcv"
     if isinstance(smoothing, str):
         raise ValueError(

@@ -210,7 +210,9 @@ def _decimal_commas(body: list[str]) -> bool:
 
 
 def _bare(line: str) -> str:
-    return re.split(r"[#%]", line, maxsplit=1)[0].strip()
+    if "#" in line or "%" in line:
+        line = re.split(r"[#%]", line, maxsplit=1)[0]
+    return line.strip()
 
 
 def _cells(line: str, separator: str) -> list[str]:

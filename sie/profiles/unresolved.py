@@ -11,7 +11,8 @@ points of a resolution:
 
 The digits of the contact's edges determine where the sequence starts, so no profile can be made to
 agree with it. SAMPLES is a Fibonacci number: the largest gap between so many points is 4.5e-4 of
-the contact (Sós 1957, three gaps). What is narrower may stay unseen.
+the contact (Sós 1957, three gaps). What is narrower may stay unseen. Towards each edge there is a
+point in every octave of the distance, for a kink close to it changes all that is beyond.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ Known = Callable[[Array], Array]
 
 SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+# Of the contact: how near to an edge points lie; there is one in each octave of the distance.
+CLOSEST, HALVINGS = 2.0**-40, 40
 MISSED = 32.0  # times what the resolution may miss of the largest slope: what differs by more was not seen
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
@@ -73,11 +76,17 @@ def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
 
 
 def scattered(contact: Interval, start_at: int = 0) -> Array:
-    """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine."""
+    """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine.
+
+    And others that halve their distance from an edge down to CLOSEST of the contact.
+    """
     start = zlib.crc32(np.array([contact.x1, contact.x2]).tobytes()) / 2.0**32
-    fractions = np.sort((start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0)
-    x = contact.x1 + (contact.x2 - contact.x1) * fractions
-    return x[(x > contact.x1) & (x < contact.x2)]
+    fractions = (start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
+    width = contact.x2 - contact.x1
+    near = width * CLOSEST ** ((fractions[:HALVINGS] + np.arange(HALVINGS)) / HALVINGS)
+    x = np.concatenate((contact.x1 + width * fractions, contact.x1 + near, contact.x2 - near))
+    x = np.sort(x)
+    return x[(x > contact.x1) & (x < contact.x2) & np.append(True, np.diff(x) > 0.0)]
 
 
 def misfit(
@@ -160,10 +169,11 @@ def between_pieces(
         FIRST_POINT * length,
         np.minimum(length, CLOSE * np.spacing(np.maximum(np.abs(lo), np.abs(hi)))),
     )
+    j = np.flatnonzero(apart)[:MOST]
+    brackets = np.stack((hi[j] - near[j], hi[j] + near[j + 1]), axis=1)
     places: list[float] = []
-    for j in np.flatnonzero(apart)[:MOST].tolist():
-        bracket = (float(hi[j] - near[j]), float(hi[j] + near[j + 1]))
-        jump = _jump(slope, *bracket, float(difference[j]))
+    jumps = _jumps(slope, brackets, difference[j])
+    for bracket, jump in zip(brackets.tolist(), jumps, strict=True):
         places += bracket if jump is None else [jump]
     return _new(places, slope, contact)
 
@@ -195,26 +205,27 @@ def _new(places: list[float], slope: Slope, contact: Interval) -> tuple[float, .
     )
 
 
-def _jump(slope: Slope, lo: float, hi: float, size: float) -> float | None:
-    """The double in [lo, hi] where the slope jumps by about `size`; None if it does not.
+def _jumps(slope: Slope, brackets: Array, sizes: Array) -> list[float | None]:
+    """In each bracket (J, 2) the double where the slope jumps by about its size, or None.
 
-    By bisection towards the larger difference.
+    By bisection towards the larger difference, of all at once.
     """
-
-    def H(*x: float) -> Array:
-        return slope.inside(np.array([x]))[0]
-
-    at_lo, at_hi = H(lo, hi).tolist()
+    if not len(brackets):
+        return []
+    (lo, hi), (at_lo, at_hi) = brackets.T.copy(), slope.inside(brackets).T.copy()
     for _ in range(BISECTIONS):
         middle = 0.5 * (lo + hi)
-        if not lo < middle < hi:
+        open_ = (lo < middle) & (middle < hi)
+        if not open_.any():
             break
-        value = float(H(middle)[0])
-        if abs(value - at_lo) > abs(at_hi - value):
-            hi, at_hi = middle, value
-        else:
-            lo, at_lo = middle, value
-    x = [math.nextafter(lo, -math.inf), lo, hi, math.nextafter(hi, math.inf)]
-    values = H(*x)
-    rises = np.abs(values[2:] - values[:-2])
-    return x[1 + int(np.argmax(rises))] if rises.max() > JUMP * size else None
+        value = slope.inside(middle[:, None])[:, 0]
+        below = np.abs(value - at_lo) > np.abs(at_hi - value)
+        left, right = open_ & below, open_ & ~below
+        hi[left], at_hi[left] = middle[left], value[left]
+        lo[right], at_lo[right] = middle[right], value[right]
+    x = np.stack((np.nextafter(lo, -np.inf), lo, hi, np.nextafter(hi, np.inf)), axis=1)
+    values = slope.inside(x)
+    rises = np.abs(values[:, 2:] - values[:, :-2])
+    steepest = x[np.arange(len(x)), 1 + np.argmax(rises, axis=1)].tolist()
+    jumps = (rises.max(axis=1) > JUMP * sizes).tolist()
+    return [at if is_jump else None for at, is_jump in zip(steepest, jumps, strict=True)]

@@ -19,6 +19,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sie import arguments
+
 from .half_plane import Stress
 
 Array = NDArray[np.float64]
@@ -64,10 +66,13 @@ class Cycle:
     states: Sequence[State]
 
     def __post_init__(self) -> None:
-        if len(self.states) < 2:
-            raise ValueError(
-                f"{len(self.states)} states make no cycle: give the solutions at two or more steps of the load"
-            )
+        remedy = "the solutions at two or more steps of the load"
+        states = arguments.listed("states", self.states, remedy)
+        if len(states) < 2:
+            raise ValueError(f"{len(states)} states make no cycle: give {remedy}")
+        for state in states:
+            if not callable(getattr(state, "stress", None)):
+                raise ValueError(f"{state!r} is not a solution: give {remedy}")
 
     @cached_property
     def size(self) -> int:

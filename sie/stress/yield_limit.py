@@ -16,6 +16,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie import arguments
+
 from .half_plane import Stress, Tractions
 from .peak_search import Maximum, Measure, largest, mesh_of, on_surface, surface_values
 
@@ -65,7 +67,7 @@ def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
     """The yield point of a body under these tractions. ValueError for an unknown criterion, or if Poisson's ratio is needed and missing."""
-    if criterion not in CRITERIA:
+    if not arguments.among(criterion, CRITERIA):
         raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
     kappa = tractions.out_of_plane
     found: list[tuple[float, tuple[Maximum, ...]]] = []

@@ -83,7 +83,7 @@ def in_order(function: Callable[[Array], Any], x: Array) -> Any:
 
 
 def refuse_side(side: int) -> None:
-    if side not in (-1, 0, 1):
+    if not arguments.among(side, (-1, 0, 1)):
         raise ValueError(
             f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side"
         )

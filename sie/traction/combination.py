@@ -168,7 +168,12 @@ class Combination(Density):
 
 def superposed(*terms: tuple[float, Density]) -> Density:
     """Σ factor × density: zeros left out, and the density itself where that is all there is."""
-    kept = tuple((float(factor), d) for factor, d in terms if factor != 0.0 and d is not ZERO)
+    pairs = [arguments.listed("a term", term, "(factor, density)") for term in terms]
+    for pair in pairs:
+        if len(pair) != 2 or not isinstance(pair[1], Density):
+            raise ValueError(f"{pair!r} is no factor and density: give (factor, density)")
+    given = [(arguments.finite("factor", factor), d) for factor, d in pairs]
+    kept = tuple((factor, d) for factor, d in given if factor != 0.0 and d is not ZERO)
     if not kept:
         return ZERO
     return kept[0][1] if len(kept) == 1 and kept[0][0] == 1.0 else Combination(kept)

@@ -408,12 +408,23 @@ class OnPanels(SlopeDensity):
 
     def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
         """The pressure next to an axis: that of the powers alone, and a straight line."""
-        y, ends = x - axis, axis + BESIDE_CUSP * b * np.array([-1.0, 1.0])
-        beside = ends - axis  # of the rounded ends
-        left, right = (self._by_pieces(ends) - self._of_powers(laws, beside, b)).tolist()
-        return (
-            self._of_powers(laws, y, b) + left + (right - left) * ((y - beside[0]) / np.ptp(beside))
-        )
+        beside, total = self._at_cusp_ends[axis]  # of the rounded ends
+        left, right = (total - self._of_powers(laws, beside, b)).tolist()
+        y = x - axis
+        along = (y - beside[0]) / np.ptp(beside)
+        return self._of_powers(laws, y, b) + left + (right - left) * along
+
+    @cached_property
+    def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
+        """Where the pieces end beside each axis, counted from it, and the pressure there.
+
+        Asked at once for all.
+        """
+        axes = np.array(list(self._cusps))[:, None]
+        b = np.minimum(self.contact.from_left(axes), self.contact.from_right(axes))
+        ends = axes + BESIDE_CUSP * b * [-1.0, 1.0]
+        p = in_order(self._by_pieces, ends.ravel()).reshape(ends.shape)
+        return dict(zip(self._cusps, zip(ends - axes, p, strict=True), strict=True))
 
     def _pair_beside_cusp(
         self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]
