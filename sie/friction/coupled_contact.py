@@ -8,13 +8,14 @@ turns the sign of the shear and of the slip.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from sie.contact.edges import Edges
@@ -23,18 +24,25 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, interval_about
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
+from sie.traction.base import on_line, zero_or_nan
 
 from .coupled_flat import FULL_STICK
 from .coupled_functions import FlatFunctions, flat_functions
 from .coupled_growth import Piece, load_slope, power_law_growth, solved_growth
 from .coupled_profile import GrowthPanel, Superposition, _graded, _rules
+from .coupled_traction import CoupledTraction, Panels, resolved_panels
 
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
+LOOKS, EVEN = (
+    64,
+    1e-10,
+)  # where the symmetry of a profile is measured, and to what part of its slope
 ENERGY_NODES = 24
 NEAR_EDGE = 0.3  # half-widths beside the edge on which H is smooth but for its power there
 
@@ -69,6 +77,72 @@ class CoupledContact:
         return self.b if self.full_stick else self.flat.c * self.b
 
     @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return ((self.axis - self.c, self.axis + self.c),)
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        if self.full_stick:
+            return ()
+        left = (self.axis - self.b, self.axis - self.c, -self.sign)
+        return left, (self.axis + self.c, self.axis + self.b, self.sign)
+
+    @cached_property
+    def tractions(self) -> tuple[CoupledTraction, CoupledTraction]:
+        """p and q with their potentials, which share their panels."""
+        contact = interval_about(self.axis, self.b).rounded((self.axis,))
+
+        @lru_cache(maxsize=1)
+        def panels() -> tuple[Panels, ...]:
+            return resolved_panels((self.pressure, self.shear), self.marks, self.edge_power)
+
+        return (
+            CoupledTraction(
+                self.pressure, lambda: panels()[0], 1.0, self.load, self.marks, contact
+            ),
+            CoupledTraction(self.shear, lambda: panels()[1], -1.0, 0.0, self.marks, contact),
+        )
+
+    @property
+    def edge_power(self) -> float:
+        """The exponent of the tractions at the edge."""
+        return -self.flat.h if self.corner_load else 1.0 - self.flat.h
+
+    @property
+    def marks(self) -> tuple[float, ...]:
+        """y where p or q is not smooth, up to b: kinks of the profile, and c times them."""
+        places = (*self.kinks, self.b, self.flat_base)
+        inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < self.b}
+        return (*sorted(inside), self.b)
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            y = np.abs(flat - self.axis)
+            inside = y <= self.b
+            g = np.zeros(flat.shape)
+            g[inside] = np.sign(flat[inside] - self.axis) * self.slip(y[inside])
+            return g
+
+        return on_line(value, x)
+
+    def gap(self, x: Array, profile: Profile) -> Array:
+        """The gap between the deformed bodies: 0 in contact."""
+        flat = np.asarray(x, dtype=float).ravel()
+        lo, hi = profile.domain
+        out: Array = zero_or_nan(flat)
+        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
+        y = np.abs(flat - self.axis)
+        beside = (y > self.b) & np.isfinite(flat) & (out == 0.0)
+        if beside.any():
+            edge = self.axis + self.b * np.sign(flat[beside] - self.axis)
+            rise = profile.height(flat[beside]) - profile.height(np.clip(edge, lo, hi))
+            out[beside] = rise - self.raised(y[beside])
+        return out.reshape(np.shape(x))
+
+    @property
     def full_stick(self) -> bool:
         """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
         return self.flat.rest <= FULL_STICK * (1.0 + 1e-6)
@@ -82,20 +156,20 @@ class CoupledContact:
         """Half the width of the profile's flat base, or of the flat punch."""
         return self.growth[0].origin if self.growth else self.b
 
-    def pressure(self, y: Array) -> Array:
-        """p at 0 <= y <= b."""
+    def pressure(self, y: Array, rest: Array | None = None) -> Array:
+        """p at 0 <= y <= b; rest is b - y where that is known better than from y."""
         p = self._of(self.superposition.pressure, y)
         if not self.flat_base:
             p[y == 0.0] = self._pressure_on_axis
-        return p + self._of_corner(self.flat.pressure, y, self.b)
+        return p + self._of_corner(self.flat.pressure, y, self.b, rest)
 
-    def shear(self, y: Array) -> Array:
+    def shear(self, y: Array, rest: Array | None = None) -> Array:
         """q on the right; odd in x."""
         deficit = self._of(self.superposition.shear_deficit, y)
-        deficit += self._of_corner(self.flat.shear_deficit, y, self.b)
-        inside = y < self.flat.c * self.b
-        p = self.pressure(y)
+        deficit += self._of_corner(self.flat.shear_deficit, y, self.b, rest)
+        p = self.pressure(y, rest)
         q = self.flat.friction * p
+        inside = deficit != 0.0
         q[inside] -= deficit[inside]
         q[y == 0.0] = 0.0
         return self.sign * q
@@ -112,13 +186,17 @@ class CoupledContact:
         return values
 
     def _of_corner(
-        self, function: Callable[[Array, Array, Array], Array], y: Array, unit: float
+        self,
+        function: Callable[[Array, Array, Array], Array],
+        y: Array,
+        unit: float,
+        rest: Array | None = None,
     ) -> Array:
         """A function of the flat punch of half-width b under the load of the corner."""
         if not self.corner_load:
             return np.zeros(len(y))
         t, c = y / self.b, self.flat.c
-        e = (self.b - y) / self.b
+        e = (self.b - y if rest is None else rest) / self.b
         from_c = np.abs(self.flat.rest - e) if c > 0.5 else np.abs(t - c)
         return self.corner_load / unit * function(t, e, from_c)
 
@@ -186,10 +264,43 @@ class CoupledContact:
         return rate
 
 
+def refuse_unsolved(scene: Scene, remedy: str) -> None:
+    """Raises ContactError for what is asked of dissimilar bodies with friction beyond a monotone normal load."""
+    pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
+    if scene.tangential_load:
+        raise ContactError(
+            f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is solved for them, "
+            "not how Q then changes stick and slip; set tangential_load = 0, let them slide "
+            f"(sliding = ±1), or {remedy}"
+        )
+    if scene.tilt or scene.moment:
+        name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
+        raise ContactError(
+            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the contact "
+            f"only under a symmetric profile; set {name} = 0, set friction = 0, or {remedy}"
+        )
+
+
+def _axis(scene: Scene, bound: Edges) -> float:
+    """The axis of the profile, or of the frictionless contact if h' is odd about it there."""
+    profile, contact = scene.profile, bound.contact
+    if profile.axis is not None:
+        return profile.axis
+    y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
+    right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
+    uneven = float(np.abs(right + left).max() / np.abs(right).max())
+    if uneven > EVEN:
+        raise ContactError(
+            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by {uneven:.2g} of the "
+            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as others tilt "
+            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to neglect β"
+        )
+    return contact.m
+
+
 def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
     """The edges and the state; ContactError where no contact answers."""
     beta, profile = scene.beta, scene.profile
-    assert profile.axis is not None
     flat = flat_functions(abs(beta), scene.friction)
     half_modulus = 0.5 * scene.Estar
     bound = normal_contact(
@@ -203,6 +314,7 @@ def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
         ECONOMY,
     )
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
+    axis = _axis(scene, bound.edges)
     law = profile.power_law
     kinks: tuple[float, ...] = ()
     if law is not None:
@@ -211,30 +323,32 @@ def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
             power_law_growth(flat, law.exponent, slope, widest * WIDER),
         )
     else:
-        pieces = _pieces(profile.pieces, profile.axis, widest, half_modulus)
+        pieces = _pieces(profile.pieces, axis, widest, half_modulus)
         kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
         growth = solved_growth(flat, pieces) if pieces else ()
     b, load, corner = _width(growth, widest, sharp, scene)
-    _refuse_falling(growth, b, profile.axis)
-    contact = interval_about(profile.axis, b).rounded((profile.axis,))
+    _refuse_falling(growth, b, axis)
+    contact = interval_about(axis, b).rounded((axis,))
     state = CoupledContact(
         flat,
         growth,
         corner,
-        profile.axis,
+        axis,
         b,
         load,
         math.copysign(1.0, beta),
         half_modulus,
         tuple(k for k in kinks if k < b),
     )
-    edges = Edges(contact, load, contact.m * load, 0.0, (corner > 0.0, corner > 0.0), 0.0, 0.0, 0.0, 0)
+    edges = Edges(
+        contact, load, contact.m * load, 0.0, (corner > 0.0, corner > 0.0), 0.0, 0.0, 0.0, 0
+    )
     return edges, state
 
 
 def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> list[Piece]:
     """E*/2 h' on the right of the axis, piece by piece, without a flat base."""
-    lo, hi = slope.domain
+    _lo, hi = slope.domain
     end = min(axis + widest * WIDER, hi)
     resolved = refined(slope, axis, end, EPS)
     inner = resolved.breaks[(resolved.breaks > axis) & (resolved.breaks < end)]
@@ -242,8 +356,12 @@ def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> li
     declared = set(slope.breaks.tolist())
     rises = dict(slope.rises)
     pieces: list[Piece] = []
-    for left, right in zip(ends[:-1], ends[1:], strict=True):
-        k = int(np.clip(np.searchsorted(resolved.breaks, left, "right") - 1, 0, len(resolved.origins) - 1))
+    for left, right in itertools.pairwise(ends):
+        k = int(
+            np.clip(
+                np.searchsorted(resolved.breaks, left, "right") - 1, 0, len(resolved.origins) - 1
+            )
+        )
         if not pieces and resolved.is_zero[k]:
             continue
 

@@ -75,9 +75,9 @@ class Table:
             return self._on(0, t if self._in_t[0] else e)
         k = np.searchsorted(self._keys, _key(t, e), side="right") - 1
         values = np.empty(k.shape)
+        k = np.maximum(k, 0)
         for j in np.unique(k).tolist():
             here = k == j
-            j = max(j, 0)
             values[here] = self._on(j, (t if self._in_t[j] else e)[here])
         return values
 
@@ -111,15 +111,18 @@ class FlatFunctions:
         self._a = strength * punch.weight * punch.pressure
 
     def weight(self, t: Array, e: Array, from_c: Array) -> Array:
-        """χ."""
-        chi: Array = (from_c * (t + self.c) / (e * (1.0 + t))) ** self.h
+        """χ, infinite at the edge."""
+        with np.errstate(divide="ignore"):
+            chi: Array = (from_c * (t + self.c) / (e * (1.0 + t))) ** self.h
         return chi
 
     def pressure(self, t: Array, e: Array, from_c: Array) -> Array:
         """p."""
         edge = e < self.beyond
         p = np.empty(t.shape)
-        p[edge] = self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
+        p[edge] = (
+            self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
+        )
         p[~edge] = self.A(t[~edge], e[~edge])
         slip = ~edge & (e < self.rest)
         chi = self.weight(t[slip], e[slip], from_c[slip])
@@ -289,7 +292,9 @@ class FlatFunctions:
         s, reach = self._reach
         stick = self._stick
         r = stick.weight * self.weight(*stick[:3]) / math.pi
-        back: Array = _between(t, e, s.t, s.rest) @ (reach[:, None] * (_between(s.t, s.rest, stick.t, stick.rest) * r))
+        back: Array = _between(t, e, s.t, s.rest) @ (
+            reach[:, None] * (_between(s.t, s.rest, stick.t, stick.rest) * r)
+        )
         return back
 
     @cached_property
@@ -344,9 +349,7 @@ class FlatFunctions:
     def _slip_points(self, a: float, b: float, lo: float = 0.0, hi: float = 1.0) -> Points:
         """A part of c < t < 1, in the elliptic coordinate v, for (hi - v)^a (v - lo)^b."""
         x, rest, w = with_weight(self._nodes(2.0 / (self._tau * (hi - lo))), a, b)
-        return self._of_slip_zone(
-            lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest, (hi - lo) * w
-        )
+        return self._of_slip_zone(lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest, (hi - lo) * w)
 
     def _of_slip_zone(self, part: Array, remaining: Array, w: Array) -> Points:
         """The places at these parts of the elliptic coordinate."""
@@ -400,7 +403,9 @@ class FlatFunctions:
         J = self._J(acting.t, acting.rest, S)
         return _joined(
             near_c.times(self._A(near_c.t, near_c.rest) / self.weight(*near_c[:3])),
-            edge.times((1.0 + coupled * beta * (1.0 + f * f)) * self.sine * self._Psi(edge.t, edge.rest)),
+            edge.times(
+                (1.0 + coupled * beta * (1.0 + f * f)) * self.sine * self._Psi(edge.t, edge.rest)
+            ),
             acting.times(-coupled * J / self.weight(*acting[:3])),
         )
 

@@ -14,6 +14,7 @@ A power law h = A|x|^m has P' = E* A m s^(m-1)/(2 M), M(m) = ∫_1^∞ D ρ^-m d
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -34,7 +35,9 @@ Array = NDArray[np.float64]
 
 DEGREE = 20
 DECAYED = 2e-13  # of a series, its last coefficients
-NEGLIGIBLE = 256.0 * EPS  # of the load: rounding of the integrals that a short panel has to make up for
+NEGLIGIBLE = (
+    256.0 * EPS
+)  # of the load: rounding of the integrals that a short panel has to make up for
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut
@@ -109,7 +112,7 @@ def _panels(origin: float, lo: float, hi: float) -> list[tuple[float, float]]:
     """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the origin."""
     n = 1 if lo == 0.0 else max(1, math.ceil(math.log2(hi / lo)))
     ends = [lo - origin, *(lo * (hi / lo) ** (k / n) - origin for k in range(1, n)), hi - origin]
-    return list(zip(ends[:-1], ends[1:], strict=True))
+    return list(itertools.pairwise(ends))
 
 
 def _collocated(
@@ -124,7 +127,7 @@ def _collocated(
     for other in near:
         known -= _beside(flat, other, x, (panel.lo - other.hi) + ahead)
     known -= _far(flat, [other for other in solved if other not in near], x)
-    series = np.linalg.solve(_own(flat, panel, x, ahead), known)
+    series: Array = np.linalg.solve(_own(flat, panel, x, ahead), known)
     return replace(panel, series=series)
 
 
@@ -144,9 +147,7 @@ def _beside(flat: FlatFunctions, panel: GrowthPanel, x: Array, beyond: Array) ->
     return _up_to(flat, panel, panel.hi - panel.lo, x, beyond)
 
 
-def _up_to(
-    flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyond: Array
-) -> Array:
+def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyond: Array) -> Array:
     """The same over a part of the panel."""
     length = np.full(len(x), part)
     owner, start, size, left, kind = _graded(length, np.full(len(x), np.inf), beyond)
@@ -155,7 +156,9 @@ def _up_to(
     to_x = beyond[owner][:, None] + (left[:, None] + size[:, None] * rest[kind])
     at = panel.origin + x[owner][:, None]
     values = flat.outside((panel.origin + panel.lo + ahead) / at, to_x / at) * panel(ahead)
-    return np.bincount(owner, size * (values * w[kind]).sum(axis=1), minlength=len(x))
+    integral = size * (values * w[kind]).sum(axis=1)
+    total: Array = np.bincount(owner, integral, minlength=len(x)).astype(float)
+    return total
 
 
 def load_slope(flat: FlatFunctions, growth: tuple[GrowthPanel, ...], b: float, x: Array) -> Array:
@@ -178,11 +181,13 @@ def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Arr
     inside = start[:, None] + size[:, None] * z[kind]
     to_x = left[:, None] + size[:, None] * rest[kind]
     at = panel.origin + x[owner][:, None]
-    values = flat.outside((panel.origin + panel.lo + inside) / at, to_x / at) * (size[:, None] * w[kind])
+    values = flat.outside((panel.origin + panel.lo + inside) / at, to_x / at) * (
+        size[:, None] * w[kind]
+    )
     if panel.power:
         values *= inside**panel.power
     y = 2.0 / (panel.hi - panel.lo) * inside - 1.0
     terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, y), values)
     matrix = np.zeros((len(x), DEGREE))
-    np.add.at(matrix, owner, terms)
+    np.add.at(matrix, (owner,), terms)
     return matrix

@@ -65,10 +65,13 @@ class GrowthPanel:
 
     def load(self, b: float) -> float:
         """∫P' ds from its beginning to b, which may lie on the panel, or beyond it."""
-        length = min(b - self.origin, self.hi) - self.lo
+        length = max(min(b - self.origin, self.hi) - self.lo, 0.0)
         x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
         c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
         return float(length ** (1.0 + self.power) * (w @ (c + 0.0 * x)))
+
+
+Function = Callable[[Array, Array, Array], Array]
 
 
 class Kernel(NamedTuple):
@@ -76,15 +79,17 @@ class Kernel(NamedTuple):
 
     above           (1 - hi)/hi, so that s - x = x above at its end
     behind          (lo - c)/(c lo), so that x/c - s = x behind at its other end
+    span            1/lo - 1/hi, so that the interval is x span long
     pole            where it is singular next, t >= hi
     power, at_c     its exponents at t = hi and, if lo = c, at c; 0 where it is smooth
     """
 
-    value: Callable[[Array, Array, Array], Array]
+    value: Function
     lo: float
     hi: float
     above: float
     behind: float = 0.0
+    span: float = math.inf
     pole: float = 1.0
     power: float = 0.0
     at_c: float = 0.0
@@ -115,72 +120,68 @@ class Superposition:
 
     def pressure(self, x: Array, b: Array) -> Array:
         """p at 0 < x <= b, for each x at the half-width b of its own."""
-        return self._sum(self._pressure_kernels, x, b, 1.0)
+        return self._sum(self._pressure_kernels, x, b, over_s=True)
 
     def shear_deficit(self, x: Array, b: Array) -> Array:
         """f p - q, 0 in slip."""
-        return self._sum(self._deficit_kernels, x, b, 1.0)
+        return self._sum(self._deficit_kernels, x, b, over_s=True)
 
     def slip(self, x: Array, b: Array) -> Array:
         """E*/2 times the slip of x > 0 since it came into contact."""
-        return self._sum(self._slip_kernels, x, b, 0.0)
+        return self._sum(self._slip_kernels, x, b, over_s=False)
 
     # -- kernels -------------------------------------------------------------------------------------------------------
+
+    def _near_edge(self, value: Function, power: float, pole: float = 1.0) -> Kernel:
+        """A function on c^(1/2) <= t <= 1."""
+        f = self.flat
+        behind = (f.rest - f.beyond) / (f.c * f.middle)
+        return Kernel(value, f.middle, 1.0, 0.0, behind, f.beyond / f.middle, pole, power)
+
+    def _beside_c(self, value: Function, at_c: float) -> Kernel:
+        """A function on c <= t <= c^(1/2)."""
+        f = self.flat
+        span = (f.rest - f.beyond) / (f.c * f.middle)
+        return Kernel(value, f.c, f.middle, f.beyond / f.middle, span=span, at_c=at_c)
 
     @cached_property
     def _pressure_kernels(self) -> tuple[Kernel, ...]:
         f = self.flat
-        c, middle, above, sine = f.c, f.middle, f.beyond / f.middle, f.sine
         chi, A, S, Psi = f.weight, f.A, f.S, f.Psi
-        behind = (f.rest - f.beyond) / (c * middle)
         return (
-            Kernel(
-                lambda t, e, d: sine * chi(t, e, d) * Psi(t, e), middle, 1.0, 0.0, behind, power=-f.h
-            ),
-            Kernel(lambda t, e, d: A(t, e), 0.0, middle, above),
-            Kernel(lambda t, e, d: -sine * chi(t, e, d) * S(t, e), c, middle, above, at_c=f.h),
+            self._near_edge(lambda t, e, d: f.sine * chi(t, e, d) * Psi(t, e), -f.h),
+            Kernel(lambda t, e, d: A(t, e), 0.0, f.middle, f.beyond / f.middle),
+            self._beside_c(lambda t, e, d: -f.sine * chi(t, e, d) * S(t, e), f.h),
         )
 
     @cached_property
     def _deficit_kernels(self) -> tuple[Kernel, ...]:
         f = self.flat
-        return (
-            Kernel(
-                lambda t, e, d: f.weight(t, e, d) * f.S(t, e) / f.beta,
-                0.0,
-                f.c,
-                f.rest / f.c,
-                pole=f.c,
-                power=f.h,
-            ),
-        )
+
+        def deficit(t: Array, e: Array, from_c: Array) -> Array:
+            return f.weight(t, e, from_c) * f.S(t, e) / f.beta
+
+        return (Kernel(deficit, 0.0, f.c, f.rest / f.c, pole=f.c, power=f.h),)
 
     @cached_property
     def _slip_kernels(self) -> tuple[Kernel, ...]:
         f, smoother = self.flat, 1.0 - self.flat.h
         near_c, (regular, singular) = f.slip_near_c, f.slip_near_edge
         return (
-            Kernel(lambda t, e, d: regular(t, e), f.middle, 1.0, 0.0, pole=math.inf),
-            Kernel(
-                lambda t, e, d: singular(t, e) * e**smoother, f.middle, 1.0, 0.0, power=smoother
-            ),
-            Kernel(
-                lambda t, e, d: near_c(t, e) * d ** (1.0 + f.h),
-                f.c,
-                f.middle,
-                f.beyond / f.middle,
-                at_c=1.0 + f.h,
-            ),
+            self._near_edge(lambda t, e, d: regular(t, e), 0.0, math.inf),
+            self._near_edge(lambda t, e, d: singular(t, e) * e**smoother, smoother),
+            self._beside_c(lambda t, e, d: near_c(t, e) * d ** (1.0 + f.h), 1.0 + f.h),
         )
 
     # -- integrals -----------------------------------------------------------------------------------------------------
 
-    def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: float) -> Array:
+    def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
         total = np.zeros(len(x))
         for kernel in kernels:
             for panel in self.growth:
                 for part in self._parts(kernel, panel, x, b):
-                    self._add(total, kernel, panel, part, x, over_s)
+                    integral = self._integral(kernel, panel, part, x[part.which], over_s)
+                    total[part.which] += integral
         return total
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
@@ -191,23 +192,27 @@ class Superposition:
         lo, hi = np.maximum(begin, panel.lo), np.minimum(end, top)
         for own_start in (True, False):
             for own_end in (True, False):
-                chosen = (lo < hi) & ((begin >= panel.lo) == own_start) & ((end <= top) == own_end)
+                # Between two places of its own an interval may be shorter than the doubles are apart
+                longer = (lo <= hi) if own_start and own_end else (lo < hi)
+                chosen = longer & ((begin >= panel.lo) == own_start) & ((end <= top) == own_end)
                 if chosen.any():
                     i = np.flatnonzero(chosen)
-                    yield self._part(kernel, panel, i, x[i], (lo[i], hi[i]), own_start, own_end)
+                    at = x[i], lo[i], hi[i]
+                    yield self._part(kernel, panel, i, at, (own_start, own_end))
 
     def _part(
         self,
         kernel: Kernel,
         panel: GrowthPanel,
         which: NDArray[np.intp],
-        x: Array,
-        ends: tuple[Array, Array],
-        own_start: bool,
-        own_end: bool,
+        at: tuple[Array, Array, Array],
+        own: tuple[bool, bool],
     ) -> Part:
-        (lo, hi), c, origin = ends, self.flat.c, panel.origin
+        """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the panel's."""
+        (x, lo, hi), (own_start, own_end) = at, own
+        c, origin = self.flat.c, panel.origin
         from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)
+        length = x * kernel.span if own_start and own_end else hi - lo
         if own_start:
             from_x = x * kernel.above
             before = from_x if kernel.above else x
@@ -222,37 +227,42 @@ class Superposition:
             to_c = x * kernel.behind if own_end else (x / c - origin) - hi
         after = np.full(len(x), np.inf)
         if kernel.at_c:
-            after = hi - lo if own_end else np.maximum(to_c, nearest)
+            after = length if own_end else np.maximum(to_c, nearest)
         powers = kernel.power if own_start else panel.power, kernel.at_c if own_end else 0.0
-        return Part(which, from_x, from_lo, hi - lo, to_c, before, after, powers)
+        return Part(which, from_x, from_lo, length, to_c, before, after, powers)
 
-    def _add(
-        self, total: Array, kernel: Kernel, panel: GrowthPanel, part: Part, x: Array, over_s: float
-    ) -> None:
+    def _integral(
+        self, kernel: Kernel, panel: GrowthPanel, part: Part, x: Array, over_s: bool
+    ) -> Array:
+        """∫ P' kernel ds, or ds/s, for each interval of the part."""
         owner, start, length, left, kind = _graded(part.length, part.before, part.after)
         z, rest, w = _rules(*part.powers)
         ahead = start[:, None] + length[:, None] * z[kind]
         to_c = part.to_c[owner][:, None]
-        if kernel.hi == self.flat.c:
-            to_c = to_c + ahead
-        else:
-            to_c = to_c + (left[:, None] + length[:, None] * rest[kind])
+        to_c = (
+            to_c + ahead
+            if kernel.hi == self.flat.c
+            else to_c + (left[:, None] + length[:, None] * rest[kind])
+        )
         from_x = part.from_x[owner][:, None] + ahead
-        at = x[part.which[owner]][:, None]
+        at = x[owner][:, None]
         s = at + from_x
         values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s))
         values *= panel(part.from_lo[owner][:, None] + ahead)
         if over_s:
             values /= s
         integral = length * (values * w[kind]).sum(axis=1)
-        total[part.which] += np.bincount(owner, integral, minlength=len(part.which))
+        total: Array = np.bincount(owner, integral, minlength=len(x)).astype(float)
+        return total
 
 
 @lru_cache(maxsize=64)
 def _rules(at_start: float, at_end: float) -> tuple[Array, Array, Array]:
     """Rows of nodes, their distances from 1 and weights: at the start, between, at the end."""
     rules = with_weight(NODES, 0.0, at_start), with_weight(NODES, 0.0, 0.0)
-    x, rest, w = (np.array(rows) for rows in zip(*rules, with_weight(NODES, at_end, 0.0), strict=True))
+    x, rest, w = (
+        np.array(rows) for rows in zip(*rules, with_weight(NODES, at_end, 0.0), strict=True)
+    )
     return x, rest, w
 
 

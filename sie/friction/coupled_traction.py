@@ -12,6 +12,7 @@ even and q odd: F(z) = I(z) ∓ I(-z), I that of the right half.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -49,7 +50,7 @@ class CoupledTraction(Density):
     """A traction on axis ± b, even or odd about the axis.
 
     values      its values at 0 <= y <= b
-    panels      of the right half
+    resolved    computes the panels of the right half
     parity      1 or -1
     load        its resultant
     marks       y where it or a derivative is not smooth, ascending up to b
@@ -57,11 +58,15 @@ class CoupledTraction(Density):
     """
 
     values: Callable[[Array], Array] = field(repr=False)
-    panels: Panels = field(repr=False)
+    resolved: Callable[[], Panels] = field(repr=False)
     parity: float
     load: float
     marks: tuple[float, ...]
     contact: Interval
+
+    @cached_property
+    def panels(self) -> Panels:
+        return self.resolved()
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -119,7 +124,9 @@ class CoupledTraction(Density):
             real = flat.imag == 0.0
             raised = flat - self.contact.m
             raised.imag[real] = shallow(self.contact.r)
-            values: Complex = reflected(lambda u: self._potentials(u, derivative)[int(derivative)], raised)
+            values: Complex = reflected(
+                lambda u: self._potentials(u, derivative)[int(derivative)], raised
+            )
             if real.any():
                 if derivative:
                     values.imag[real] *= side
@@ -260,7 +267,7 @@ def resolved_panels(
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
     ends = (0.0, *marks)
-    open_ = [(lo, hi) for lo, hi in zip(ends[:-1], ends[1:], strict=True) if hi > lo]
+    open_ = [(lo, hi) for lo, hi in itertools.pairwise(ends) if hi > lo]
     done: list[tuple[float, float, Array]] = []
     largest = np.zeros(len(values))
     while open_:
@@ -282,4 +289,3 @@ def resolved_panels(
     lo, hi = (np.array([panel[j] for panel in done]) for j in (0, 1))
     series = np.stack([panel[2] for panel in done], axis=1)
     return tuple(Panels(lo, hi, s, power) for s in series)
-

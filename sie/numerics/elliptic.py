@@ -49,9 +49,7 @@ def modulus_of_ratio(tau: float) -> Modulus:
     return Modulus((theta2 / theta3) ** 2, (theta4 / theta3) ** 2, K, tau * K)
 
 
-def elliptic_functions(
-    modulus: Modulus, part: Array, rest: Array
-) -> tuple[Array, Array, Array]:
+def elliptic_functions(modulus: Modulus, part: Array, rest: Array) -> tuple[Array, Array, Array]:
     """sn, cn, dn of K part for 0 < part < 1, each to relative accuracy; rest is 1 - part."""
     far = part > 0.5
     sn, cn, dn = _descended(modulus.K * np.where(far, rest, part), modulus.complement**2)
