@@ -36,7 +36,8 @@ NEAREST, RATIO = (
 )  # panels next to a mark: the first, in parts of the way to the next; growth
 EDGE_LEVELS, LAST = 8, 28  # at the edge: panels towards it, and nodes of the last
 LOOKS = 5  # points of each of the middle panels at which the equations are looked at
-THIN = 1e-8  # half-widths: a slip zone so narrow at a smooth edge is left out
+THIN = 1e-8  # half-widths: a zone so narrow is left out, where no edge is sharp
+P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 LIGHTER = 0.9  # of the growth beyond the flat base
 BESIDE = 0.02  # of the half-width: no point of the residual is nearer to a sharp edge
 OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is looked at
@@ -64,17 +65,18 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
     missed = max(float(np.abs(Hp - beta * q - G * H).max()) for H in slopes) / peak
     gamma = Hq + beta * p
     stuck, of_shear = _drift(state, x, gamma, beta), float(np.abs(q).max())
+    rounding = EPS * state.b / min(state.ahead, state.b)
     f_p = scene.friction * p
     beside = state.b * np.array(OUTSIDE)
     gaps = state.gap(state.axis + beside, scene.profile)
     finite = gaps[np.isfinite(gaps)]
-    flow = sum(panel.load(state.b) for panel in state.growth) + state.corner_load
+    flow = sum(panel.load(state.ahead) for panel in state.growth) + state.corner_load
     shear = ShearCertificate(
         residual=stuck / of_shear,
         equilibrium=abs(flow - state.load) / state.load,
         excess=max(float((np.abs(q) - f_p).max()) / float(f_p.max()), 0.0),
         opposing=min(float((state.sign * state.slip(x)).min()), 0.0),
-        abscissae=0.0,
+        abscissae=rounding + P_ROUNDING * peak / of_shear,
         condition=1.0,
         advancing=True,
         kind="outwards on both sides while the normal load grew; β couples p and q",
@@ -87,7 +89,7 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
         moment=0.0,
         lowest_pressure=min(float(p.min()) / peak, 0.0),
         lowest_gap=float(finite.min(initial=0.0)) / float(np.abs(finite).max(initial=EPS)),
-        abscissae=EPS,
+        abscissae=rounding,
         tol=max(tol, PROMISED),
         shear=shear,
         notes=notes(np.concatenate(slopes), peak / scene.Estar),
@@ -100,11 +102,10 @@ def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
     if not state.growth:
         inside = x < state.flat.c * state.b
         return float(np.abs(gamma[inside]).max(initial=0.0))
-    b = state.b if state.corner_load else base + LIGHTER * (state.b - base)
-    load = sum(panel.load(b) for panel in state.growth if panel.origin + panel.lo < b)
-    lighter = replace(
-        state, b=b, corner_load=0.0, load=load, kinks=tuple(k for k in state.kinks if k < b)
-    )
+    ahead = state.ahead if state.corner_load else LIGHTER * state.ahead
+    load, b = sum(panel.load(ahead) for panel in state.growth), base + ahead
+    kinks = tuple(k for k in state.kinks if k < b)
+    lighter = replace(state, ahead=ahead, corner_load=0.0, load=load, kinks=kinks)
     inside = x < 0.999 * state.flat.c * b
     x = x[inside]
     before = _principal(_values(lighter), b, x, lighter.shear(x), -1.0) + beta * lighter.pressure(x)
@@ -122,7 +123,8 @@ def _values(state: CoupledContact) -> Values:
     nearest = min(NEAREST, 0.1 * state.flat.rest)
     powers = [*(0.0 for _ in marks[1:]), state.edge_power]
     for lo, width, after, power in zip((0.0, *marks), widths, beyond, powers, strict=False):
-        ahead, behind, weight = _panels(float(width), power, nearest)
+        first = min(nearest, 0.1 * lo / float(width)) if lo else nearest
+        ahead, behind, weight = _panels(float(width), power, first)
         parts.append((lo + ahead, after + behind, weight))
     y, rest, weight = (np.concatenate(column) for column in zip(*parts, strict=True))
     y = np.minimum(y, state.b)
@@ -131,10 +133,12 @@ def _values(state: CoupledContact) -> Values:
 
 
 def _marks(state: CoupledContact) -> tuple[float, ...]:
-    """Those of the tractions; none next to a smooth edge, where the pressure is small."""
-    if state.corner_load:
+    """Those of the tractions; without edges of zones of stick or slip that are too narrow to be seen."""
+    flat = state.flat
+    if THIN < flat.rest and THIN < flat.c or not state.growth:
         return state.marks
-    return (*(y for y in state.marks if y < (1.0 - THIN) * state.b), state.b)
+    places = {y for y in (*state.kinks, state.flat_base) if 0.0 < y < state.b}
+    return (*sorted(places), state.b)
 
 
 def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:

@@ -38,6 +38,7 @@ from .coupled_traction import CoupledTraction, Panels, resolved_panels
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
+TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
 LOOKS, EVEN = (
     64,
@@ -54,7 +55,7 @@ class CoupledContact:
     flat            functions of the flat punch; |β| and f
     growth          P' on panels, from the axis outwards
     corner_load     what an indenter whose end is a corner carries beyond ∫P'
-    axis, b         the contact is axis ± b
+    axis, ahead     the contact is axis ± b, b = a + ahead beyond the flat base
     load            P
     sign            of β
     half_modulus    E*/2
@@ -65,11 +66,16 @@ class CoupledContact:
     growth: tuple[GrowthPanel, ...]
     corner_load: float
     axis: float
-    b: float
+    ahead: float
     load: float
     sign: float
     half_modulus: float
     kinks: tuple[float, ...] = field(default=())
+
+    @cached_property
+    def b(self) -> float:
+        """Half the width of the contact."""
+        return (self.growth[0].origin if self.growth else 0.0) + self.ahead
 
     @property
     def c(self) -> float:
@@ -182,7 +188,7 @@ class CoupledContact:
     def _of(self, function: Callable[[Array, Array], Array], y: Array) -> Array:
         values = np.zeros(len(y))
         inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
-        values[inside] = function(y[inside], np.full(int(inside.sum()), self.b))
+        values[inside] = function(y[inside], np.full(int(inside.sum()), self.ahead))
         return values
 
     def _of_corner(
@@ -208,12 +214,12 @@ class CoupledContact:
         start = float(first(np.array([0.0]))[0]) if not first.power else 0.0
         if abs(start) > FALLING * float(np.abs(first.series).max()):
             return math.inf
-        hi = min(first.hi, self.b)
+        hi = min(first.hi, self.ahead)
         x, _, w = with_weight(ENERGY_NODES, 0.0, first.power - 1.0 if first.power else 0.0)
         total = float(w @ (first(hi * x) / x))
         for panel in others:
-            if panel.lo < self.b:
-                length = min(panel.hi, self.b) - panel.lo
+            if panel.lo < self.ahead:
+                length = min(panel.hi, self.ahead) - panel.lo
                 x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
                 total += length * float(w @ (panel(length * x) / (panel.lo + length * x)))
         return A * total
@@ -222,7 +228,7 @@ class CoupledContact:
 
     def hilbert_outside(self, y: Array) -> Array:
         """1/π PV∫p/(y - t) dt at y > b."""
-        H = load_slope(self.flat, self.growth, self.b, y)
+        H = load_slope(self.flat, self.growth, self.ahead, y)
         if self.corner_load:
             H += self.corner_load * self.flat.outside(self.b / y, (y - self.b) / y) / y
         return H
@@ -242,23 +248,26 @@ class CoupledContact:
     def energy(self) -> float:
         """What friction turned into heat: ∫ f p |dg| over both slip zones, while P grew."""
         flat, total = self.flat, 0.0
-        steps = [(p, min(p.hi, self.b - p.origin) - p.lo) for p in self.growth]
+        steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
         for panel, length in steps:
             if length > 0.0:
                 x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
-                s = panel.origin + panel.lo + length * x
-                total += length * float((w * panel(length * x)) @ self._rate(s))
+                ahead = panel.lo + length * x
+                total += length * float((w * panel(length * x)) @ self._rate(ahead))
         if self.corner_load:
             # The flat's own part grows as the square of its load
-            edge = self._rate(np.array([self.b]))[0]
+            edge = self._rate(np.array([self.ahead]))[0]
             total += self.corner_load * float(edge) + 0.5 * self.corner_load**2 * flat.dissipation
         return 2.0 * total / self.half_modulus
 
-    def _rate(self, s: Array) -> Array:
-        """∫ f p ĝ dx over c s < x < s, p the pressure under P(s)."""
+    def _rate(self, ahead: Array) -> Array:
+        """∫ f p ĝ dx over c s < x < s, p the pressure under P(s), s = a + ahead."""
         t, e, from_c, weight = self.flat.slip_places
+        s = (self.b - self.ahead) + ahead
         x = (s[:, None] * t).ravel()
-        p = self.superposition.pressure(x, np.repeat(s, len(t))).reshape(len(s), -1)
+        p = np.zeros((len(s), len(t)))
+        if self.growth:
+            p = self.superposition.pressure(x, np.repeat(ahead, len(t))).reshape(p.shape)
         g = self.flat.slip(t, e, from_c)
         rate: Array = s * self.flat.friction * (p @ (weight * g))
         return rate
@@ -271,7 +280,7 @@ def refuse_unsolved(scene: Scene, remedy: str) -> None:
         raise ContactError(
             f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is solved for them, "
             "not how Q then changes stick and slip; set tangential_load = 0, let them slide "
-            f"(sliding = ±1), or {remedy}"
+            f"(sliding = ±1), set friction = 0, or {remedy}"
         )
     if scene.tilt or scene.moment:
         name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
@@ -326,15 +335,16 @@ def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
         pieces = _pieces(profile.pieces, axis, widest, half_modulus)
         kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
         growth = solved_growth(flat, pieces) if pieces else ()
-    b, load, corner = _width(growth, widest, sharp, scene)
-    _refuse_falling(growth, b, axis)
+    ahead, load, corner = _width(growth, widest, sharp, scene)
+    _refuse_falling(growth, ahead, axis)
+    b = (growth[0].origin if growth else 0.0) + ahead
     contact = interval_about(axis, b).rounded((axis,))
     state = CoupledContact(
         flat,
         growth,
         corner,
         axis,
-        b,
+        ahead,
         load,
         math.copysign(1.0, beta),
         half_modulus,
@@ -378,51 +388,43 @@ def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> li
 def _width(
     growth: tuple[GrowthPanel, ...], widest: float, sharp: bool, scene: Scene
 ) -> tuple[float, float, float]:
-    """b, P and what a corner at the end of the indenter carries of it."""
+    """b beyond the flat base, P and what a corner at the end of the indenter carries of it."""
 
-    def load(b: float) -> float:
-        return sum(panel.load(b) for panel in growth if panel.origin + panel.lo < b)
+    def load(ahead: float) -> float:
+        return sum(panel.load(ahead) for panel in growth)
 
     if not growth:
         assert scene.normal_load is not None
         return widest, scene.normal_load, scene.normal_load
+    farthest = widest - growth[0].origin
     if scene.normal_load is None:
-        return widest, load(widest), 0.0
-    P, most = scene.normal_load, load(widest)
+        return farthest, load(farthest), 0.0
+    P, most = scene.normal_load, load(farthest * WIDER)
     if most >= P:
-        b = _root(growth, load, P, widest)
-        return b, P, 0.0
+        return _root(load, P, farthest * WIDER), P, 0.0
     if sharp:
-        return widest, P, P - most
+        return farthest, P, P - load(farthest)
     raise LoadError(
         f"the coupled contact of half-width {widest:.6g} carries {most:.6g} of {P:.6g}: "
         "friction should not make it softer; give dundurs = 0 to neglect β"
     )
 
 
-def _root(
-    growth: tuple[GrowthPanel, ...], load: Callable[[float], float], P: float, widest: float
-) -> float:
-    """b at which ∫P' = P, to relative accuracy of its distance from the first place of contact."""
-    first = growth[0].origin
-
-    def missed(ahead: float) -> float:
-        return load(first + ahead) / P - 1.0
-
-    lo, hi = 0.0, widest - first
-    while missed(0.5 * hi) > 0.0 and hi > EPS * EPS * widest:
+def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
+    """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
+    hi = farthest
+    while load(0.5 * hi) > P and hi > TINIEST * farthest:
         hi *= 0.5
-    lo = 0.5 * hi
-    if missed(hi) <= 0.0:
-        return first + hi
-    return first + float(brentq(missed, lo, hi, xtol=1e-300, rtol=4.0 * EPS))
+    if load(hi) <= P:
+        return hi
+    return float(brentq(lambda a: load(a) / P - 1.0, 0.5 * hi, hi, xtol=1e-300, rtol=4.0 * EPS))
 
 
-def _refuse_falling(growth: tuple[GrowthPanel, ...], b: float, axis: float) -> None:
+def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
     """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede there."""
     for panel in growth:
         s, mass = panel.places
-        near = panel.origin + s < b
+        near = s < ahead
         if (mass[near] < -FALLING * np.abs(mass).max()).any():
             where = axis + panel.origin + float(s[near][np.argmin(mass[near])])
             raise ContactError(

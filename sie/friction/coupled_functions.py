@@ -269,8 +269,7 @@ class FlatFunctions:
     def _S_in_stick(self) -> Array:
         at = self._stick
         system = np.eye(len(at.t)) - self._acting_back(at.t, at.rest)
-        values: Array = np.linalg.solve(system, self._source(at.t, at.rest))
-        return values
+        return np.asarray(np.linalg.solve(system, self._source(at.t, at.rest)), dtype=float)
 
     def _source(self, t: Array, e: Array) -> Array:
         """What friction alone makes of S."""

@@ -127,7 +127,7 @@ def _collocated(
     for other in near:
         known -= _beside(flat, other, x, (panel.lo - other.hi) + ahead)
     known -= _far(flat, [other for other in solved if other not in near], x)
-    series: Array = np.linalg.solve(_own(flat, panel, x, ahead), known)
+    series = np.asarray(np.linalg.solve(_own(flat, panel, x, ahead), known), dtype=float)
     return replace(panel, series=series)
 
 
@@ -161,11 +161,13 @@ def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyon
     return total
 
 
-def load_slope(flat: FlatFunctions, growth: tuple[GrowthPanel, ...], b: float, x: Array) -> Array:
-    """∫P' D(x/s) ds/s up to b for each x > b: 1/π ∫p/(x - t) dt beside the contact."""
+def load_slope(
+    flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
+) -> Array:
+    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the contact."""
     total = np.zeros(len(x))
     for panel in growth:
-        length = min(panel.hi, b - panel.origin) - panel.lo
+        length = min(panel.hi, ahead) - panel.lo
         if length > 0.0:
             beyond = (x - panel.origin) - (panel.lo + length)
             total += _up_to(flat, panel, length, x - panel.origin, beyond)
@@ -189,5 +191,6 @@ def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Arr
     y = 2.0 / (panel.hi - panel.lo) * inside - 1.0
     terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, y), values)
     matrix = np.zeros((len(x), DEGREE))
-    np.add.at(matrix, (owner,), terms)
+    for row, term in zip(owner.tolist(), terms, strict=True):
+        matrix[row] += term
     return matrix

@@ -63,9 +63,9 @@ class GrowthPanel:
         x, _, w = with_weight(len(self.series), 0.0, self.power)
         return self.lo + length * x, length * w * self(length * x)
 
-    def load(self, b: float) -> float:
-        """∫P' ds from its beginning to b, which may lie on the panel, or beyond it."""
-        length = max(min(b - self.origin, self.hi) - self.lo, 0.0)
+    def load(self, ahead: float) -> float:
+        """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or beyond."""
+        length = max(min(ahead, self.hi) - self.lo, 0.0)
         x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
         c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
         return float(length ** (1.0 + self.power) * (w @ (c + 0.0 * x)))
@@ -113,13 +113,13 @@ class Part(NamedTuple):
 
 
 class Superposition:
-    """The integrals over s up to b, of P' on its panels."""
+    """The integrals over s up to origin + b, of P' on its panels."""
 
     def __init__(self, flat: FlatFunctions, growth: tuple[GrowthPanel, ...]) -> None:
         self.flat, self.growth = flat, growth
 
     def pressure(self, x: Array, b: Array) -> Array:
-        """p at 0 < x <= b, for each x at the half-width b of its own."""
+        """p at 0 < x <= origin + b, for each x with a contact of its own."""
         return self._sum(self._pressure_kernels, x, b, over_s=True)
 
     def shear_deficit(self, x: Array, b: Array) -> Array:
@@ -185,10 +185,10 @@ class Superposition:
         return total
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
-        """The intervals of s that lie on the panel and below b, by what they begin and end at."""
+        """The intervals of s - origin that lie on the panel and below b, by what they begin and end at."""
         begin = (x - panel.origin) + x * kernel.above
         end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
-        top = np.minimum(b - panel.origin, panel.hi)
+        top = np.minimum(b, panel.hi)
         lo, hi = np.maximum(begin, panel.lo), np.minimum(end, top)
         for own_start in (True, False):
             for own_end in (True, False):

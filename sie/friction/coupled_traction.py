@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -103,7 +103,7 @@ class CoupledTraction(Density):
     def hilbert(self, x: ArrayLike) -> Array:
         def principal(flat: Array) -> Array:
             z = (flat - self.contact.m) + 1j * shallow(self.contact.r)
-            values: Array = self._potentials(z, derivative=False)[0].real
+            values: Array = self._potentials(np.asarray(z, dtype=complex), derivative=False)[0].real
             if self.panels.power < 0.0:  # a sharp edge, as for others
                 values[(flat == self.contact.x1) | (flat == self.contact.x2)] = 0.0
             return values
@@ -136,6 +136,12 @@ class CoupledTraction(Density):
             return values
 
         return self._in_plane(potential, z, side, derivative)
+
+    def _potential(self, z: Any) -> Complex:
+        return self._potentials(z, derivative=False)[0]
+
+    def _derivative(self, z: Any) -> Complex:
+        return self._potentials(z, derivative=True)[1]
 
     # -- panels --------------------------------------------------------------------------------------------------------
 
@@ -198,7 +204,8 @@ def _inner_panel(c: Array, z: Complex, lo: float, hi: float) -> tuple[Complex, C
     below, above = z - lo, z - hi
     s = 0.5 * (below + above) / half
     K, dK = np.log(below / above), half * (1.0 / below - 1.0 / above)
-    return _recurred(c, s, K, dK, 4.0 * _moments(0.0), 1.0 / half)
+    value, slope = _recurred(c, s, (K, dK), 4.0 * _moments(0.0))
+    return value, slope / half
 
 
 def _edge_panel(
@@ -212,15 +219,15 @@ def _edge_panel(
     dK = (power * K + length / (z - lo)) / zeta
     # In s = 1 - 2u: 1/(z - t) = -1/(length (u - ζ)·(-1)), and T_n(s) = (-1)^n T_n(2u - 1)
     signs = (-1.0) ** np.arange(DEGREE)
-    value, slope = _recurred(c * signs, 2.0 * zeta - 1.0, K, 0.5 * dK, 4.0 * _moments(power), 2.0)
-    return -value, slope / length
+    value, slope = _recurred(c * signs, 2.0 * zeta - 1.0, (K, 0.5 * dK), 4.0 * _moments(power))
+    return -value, slope / (0.5 * length)
 
 
 def _recurred(
-    c: Array, s: Complex, K: Complex, dK: Complex, moments: Array, scale: float
+    c: Array, s: Complex, start: tuple[Complex, Complex], moments: Array
 ) -> tuple[Complex, Complex]:
-    """Σ c_n K_n and scale times Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 - moments_0/2."""
-    before, dbefore = K, dK
+    """Σ c_n K_n and Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 - moments_0/2."""
+    K, dK = before, dbefore = start
     now, dnow = s * K - 0.5 * moments[0], K + s * dK
     value, slope = c[0] * before + c[1] * now, c[0] * dbefore + c[1] * dnow
     for n in range(2, DEGREE):
@@ -232,7 +239,7 @@ def _recurred(
         )
         value = value + c[n] * now
         slope = slope + c[n] * dnow
-    return value, scale * slope
+    return value, slope
 
 
 @lru_cache(maxsize=64)
