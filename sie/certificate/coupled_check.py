@@ -28,7 +28,7 @@ from .pressure_check import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
 
-PROMISED = 1e-11  # of the peak
+PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
 NODES = 14
 NEAREST, RATIO = (
     1e-12,
@@ -65,7 +65,7 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
     missed = max(float(np.abs(Hp - beta * q - G * H).max()) for H in slopes) / peak
     gamma = Hq + beta * p
     stuck, of_shear = _drift(state, x, gamma, beta), float(np.abs(q).max())
-    rounding = EPS * state.b / min(state.ahead, state.b)
+    rounding = EPS * state.b / float(np.diff((0.0, *_marks(state))).min()) if state.growth else EPS
     f_p = scene.friction * p
     beside = state.b * np.array(OUTSIDE)
     gaps = state.gap(state.axis + beside, scene.profile)
@@ -80,7 +80,7 @@ def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Cert
         condition=1.0,
         advancing=True,
         kind="outwards on both sides while the normal load grew; β couples p and q",
-        tol=max(tol, PROMISED),
+        tol=max(tol, OF_SHEAR),
     )
     return Certificate(
         residual=missed,
@@ -135,7 +135,7 @@ def _values(state: CoupledContact) -> Values:
 def _marks(state: CoupledContact) -> tuple[float, ...]:
     """Those of the tractions; without edges of zones of stick or slip that are too narrow to be seen."""
     flat = state.flat
-    if THIN < flat.rest and THIN < flat.c or not state.growth:
+    if min(flat.rest, flat.c) > THIN or not state.growth:
         return state.marks
     places = {y for y in (*state.kinks, state.flat_base) if 0.0 < y < state.b}
     return (*sorted(places), state.b)

@@ -16,7 +16,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from sie.contact.edges import Edges
 from sie.contact.normal import ECONOMY, normal_contact
@@ -45,7 +44,9 @@ LOOKS, EVEN = (
     1e-10,
 )  # where the symmetry of a profile is measured, and to what part of its slope
 ENERGY_NODES = 24
-NEAR_EDGE = 0.3  # half-widths beside the edge on which H is smooth but for its power there
+NEAR_EDGE = (
+    1e-9  # half-widths: the first panel beside the edge, where H has a power of the distance
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,7 +239,7 @@ class CoupledContact:
         ahead = y - self.b
         none = np.full(len(y), np.inf)
         owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
-        z, _, w = _rules(1.0 - self.flat.h if not self.corner_load else -self.flat.h, 0.0)
+        z, _, w = _rules(0.0, 0.0)
         at = self.b + (start[:, None] + size[:, None] * z[kind])
         H = self.hilbert_outside(at.ravel()).reshape(at.shape)
         integral = size * (H * w[kind]).sum(axis=1)
@@ -412,6 +413,8 @@ def _width(
 
 def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
     """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
+    from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
+
     hi = farthest
     while load(0.5 * hi) > P and hi > TINIEST * farthest:
         hi *= 0.5
