@@ -222,9 +222,9 @@ class Superposition:
             from_x = (origin - x) + lo
             before = np.maximum((origin - x / kernel.pole) + lo, nearest)
         if kernel.hi == c:
-            to_c = np.zeros(len(x)) if own_start else (origin - x / c) + lo
+            to_c = np.zeros(len(x)) if own_start else np.maximum((origin - x / c) + lo, 0.0)
         else:
-            to_c = x * kernel.behind if own_end else (x / c - origin) - hi
+            to_c = x * kernel.behind if own_end else np.maximum((x / c - origin) - hi, 0.0)
         after = np.full(len(x), np.inf)
         if kernel.at_c:
             after = length if own_end else np.maximum(to_c, nearest)

@@ -190,7 +190,7 @@ def examples() -> dict[str, str]:
 
 
 def _examples() -> tuple[str, ...]:
-    return (*profile_kinds(), "partial-slip", "fretting-cycle", "sliding")
+    return (*profile_kinds(), "partial-slip", "fretting-cycle", "sliding", "dissimilar")
 
 
 # -- what each table may hold ------------------------------------------------------------------------------------------
