@@ -303,7 +303,8 @@ class Solution:
         """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
 
         Where dissimilar bodies are pressed together it is counted from when a point came into contact:
-        what slipped first sticks later, and keeps its slip. It has the sign of q. In full sliding: what it is when the last point lets go. ContactError for dissimilar bodies that slide:
+        what slipped first sticks later, and keeps its slip. It has the sign of q. In full sliding: what it
+        is when the last point lets go. ContactError for dissimilar bodies that slide:
         that takes their partial slip before.
         """
         self._refuse_unknown_slip()

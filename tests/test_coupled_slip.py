@@ -9,9 +9,9 @@ from dataclasses import replace
 import mpmath
 import numpy as np
 import pytest
-from scipy.special import ellipkm1
 
 import sie
+from analytic import goodman
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_functions import flat_functions
@@ -88,11 +88,28 @@ def test_stick_ratio_is_the_same_under_every_symmetric_convex_profile(name):
     assert (hi - lo) / (2.0 * solution.half_width) == pytest.approx(0.6457874123866, abs=1e-12)
 
 
-@pytest.mark.parametrize(("beta", "friction"), [(1e-3, 1.5e-3), (1e-6, 1e-6), (1e-4, 3e-4)])
-def test_small_constants_leave_goodmans_ratio_of_complete_elliptic_integrals(beta, friction):
-    c = flat_punch(beta, friction).modulus
-    K, K_other = ellipkm1(c.complement**2), ellipkm1(c.k**2)
-    assert K / K_other == pytest.approx(friction / beta, rel=10.0 * max(beta, friction) ** 2 * 10.0)
+@pytest.mark.parametrize(
+    ("beta", "friction"), [(1e-3, 1.5e-3), (1e-6, 1e-6), (1e-4, 3e-4), (2e-3, 5e-4)]
+)
+def test_small_constants_leave_goodmans_slip_zone(beta, friction):
+    rest = goodman.slip_width(half_width=1.0, friction=friction, dundurs=beta)
+    # The next term is of the order of the squares of both, times the logarithm of the slip zone's width
+    assert flat_punch(beta, friction).rest == pytest.approx(
+        rest, rel=30.0 * max(beta, friction) ** 2 + 1e-14
+    )
+
+
+@pytest.mark.parametrize(("beta", "friction"), [("0.1", "0.1"), ("0.05", "0.2"), ("0.3", "0.1")])
+def test_goodmans_zones_are_those_of_his_ratio_of_elliptic_integrals(beta, friction):
+    context = mpmath.MPContext()
+    context.dps = 40
+    f, mismatch = context.mpf(friction), context.mpf(beta)
+    given = {"half_width": 1, "friction": f, "dundurs": mismatch, "lib": context}
+    c, rest = goodman.stick_half_width(**given), goodman.slip_width(**given)
+    assert abs(c + rest - 1) < 1e-38
+    assert abs(context.ellipk(c * c) / context.ellipk(1 - c * c) * mismatch / f - 1) < 1e-37
+    floats = {"half_width": 1.0, "friction": float(friction), "dundurs": float(beta)}
+    assert float(goodman.slip_width(**floats)) == pytest.approx(float(rest), rel=1e-13)
 
 
 def test_slip_zone_narrows_as_friction_grows_and_widens_with_the_mismatch():

@@ -96,7 +96,7 @@ class CoupledTraction(Density):
             inside = (flat >= self.contact.x1) & (flat <= self.contact.x2)
             out = np.zeros(flat.shape)
             out[inside] = self.values(np.minimum(y[inside], self.marks[-1]))
-            return np.where(flat < self.contact.m, self.parity * out, out)
+            return np.where(flat < self.contact.m, self.parity * out, out) + 0.0
 
         return on_line(value, x)
 
@@ -188,7 +188,7 @@ class CoupledTraction(Density):
         p, (y, mass) = self.panels, self._quadrature
         own = slice(k * DEGREE, (k + 1) * DEGREE)
         inverse = 1.0 / (z[:, None] - y[own])
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             if k == len(p.lo) - 1:
                 value, slope = _edge_panel(p.series[k], p.power, z, p.lo[k], p.hi[k])
             else:
