@@ -19,15 +19,20 @@ pressed by a growing load (Spence 1975).
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, bits, positive
+from analytic._core.documentation import documented
+from analytic._core.numbers import Library, Number, as_result, bits
+from analytic._core.parameters import positive
+
+GOODMAN = "L. E. Goodman, Contact stress analysis of normally loaded rough spheres (1962)"
+SPENCE = "D. A. Spence, The Hertz contact problem with finite friction (1975)"
+SOURCES = (GOODMAN, SPENCE)
 
 
+@documented("c, a length", *SOURCES)
 def stick_half_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """c, half the width of the stick zone. `dundurs` > 0; the parameters broadcast.
-
-    ValueError for input that has no meaning.
+    """The half-width of the stick zone, of dundurs > 0.
 
     >>> round(float(stick_half_width(half_width=1.0, friction=0.01, dundurs=0.01)), 12)
     0.707106781187
@@ -36,10 +41,11 @@ def stick_half_width(
     return as_result(b * k)
 
 
+@documented("b - c, a length", *SOURCES)
 def slip_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """b - c, the width of either slip zone, to relative accuracy.
+    """The width of either slip zone to relative accuracy, of dundurs > 0.
 
     >>> round(float(slip_width(half_width=1.0, friction=1.0, dundurs=0.1)), 15)
     1.81e-13

@@ -24,7 +24,7 @@ from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 
-from .pressure_check import Certificate, ShearCertificate
+from .result import Certificate, ShearCertificate
 
 Array = NDArray[np.float64]
 

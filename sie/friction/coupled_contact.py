@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.edges import Edges
-from sie.contact.normal import ECONOMY, normal_contact
+from sie.contact.normal import normal_contact
 from sie.errors import ContactError, LoadError
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, interval_about
+from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.resolution import refined
