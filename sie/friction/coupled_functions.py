@@ -40,6 +40,7 @@ Function = Callable[[Array, Array], Array]
 DEGREE = 20  # of a panel as far from every singularity as it is long: (3 + sqrt(8))^-20 is rounding
 LEAST = 1e-320
 ROUNDING = 1e-9  # of a panel: no shorter one ends a table
+CHOP = 2e-17  # of the largest coefficient
 ACROSS = 36.0  # -ln of the error of a rule that is not even
 
 
@@ -68,7 +69,8 @@ class Table:
         self._start, self._scale = lo[rows, column], 2.0 / (hi - lo)[rows, column]
         part = 0.5 * (1.0 + chebyshev.points(DEGREE))
         t, e = (lo[:, [k]] + (hi - lo)[:, [k]] * part for k in (0, 1))
-        self.series = chebyshev.transform(function(t.ravel(), e.ravel()).reshape(t.shape))
+        series = chebyshev.transform(function(t.ravel(), e.ravel()).reshape(t.shape))
+        self.series = [chopped(row) for row in series]
 
     def __call__(self, t: Array, e: Array) -> Array:
         if len(self.series) == 1:
@@ -82,9 +84,28 @@ class Table:
         return values
 
     def _on(self, k: int, place: Array) -> Array:
-        y = self._scale[k] * (place - self._start[k]) - 1.0
-        values: Array = chebyshev.evaluate(self.series[k], y)
-        return values
+        return summed(self.series[k], self._scale[k] * (place - self._start[k]) - 1.0)
+
+
+def chopped(c: Array) -> Array:
+    """A series without the last coefficients that are below rounding."""
+    kept = np.flatnonzero(np.abs(c) > CHOP * np.abs(c).max())
+    return c[: kept[-1] + 1] if kept.size else c[:1]
+
+
+def summed(c: Array, y: Array) -> Array:
+    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the time."""
+    twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
+    spare = np.empty_like(y)
+    for a in c[-2:0:-1].tolist():
+        np.multiply(twice, high, out=spare)
+        spare -= higher
+        spare += a
+        higher, high, spare = high, spare, higher
+    high *= y
+    high -= higher
+    high += c[0]
+    return high
 
 
 def _key(t: Array, e: Array) -> Array:

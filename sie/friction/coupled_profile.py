@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
-from .coupled_functions import FlatFunctions
+from .coupled_functions import FlatFunctions, chopped, summed
 
 Array = NDArray[np.float64]
 
@@ -52,9 +52,12 @@ class GrowthPanel:
 
     def __call__(self, ahead: Array) -> Array:
         """P' at s = origin + lo + ahead."""
-        y = 2.0 / (self.hi - self.lo) * ahead - 1.0
-        values: Array = chebyshev.evaluate(self.series, y)
+        values = summed(self._chopped, 2.0 / (self.hi - self.lo) * ahead - 1.0)
         return values * ahead**self.power if self.power else values
+
+    @cached_property
+    def _chopped(self) -> Array:
+        return chopped(self.series)
 
     @cached_property
     def places(self) -> tuple[Array, Array]:
