@@ -2,8 +2,8 @@
 
 A bad question (a negative radius, a load of nan) is a `ValueError`, raised where the value is
 built. A good question without an answer (a load that no single contact can carry) is a
-`ContactError`, raised by the stage that notices it. Messages are sentences: what, how much, what
-to do.
+`ContactError`, raised by the stage that finds this out. Messages are sentences: what, how much,
+what to do.
 """
 
 from __future__ import annotations

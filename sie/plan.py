@@ -24,7 +24,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "tension": ("normal", "pressure", "tangential", "tractions"),
 }
 
-# The same for full stick, whose one equation answers pressure and shear alike.
+# The same for full stick, where one equation gives the pressure and the shear.
 FULL_STICK: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),

@@ -1,6 +1,6 @@
 """The solution of a scene: a lazy view over the stages of the work.
 
-Nothing is computed until it is asked for, and `vars(solution)` shows what was.
+Each result is computed when it is read first, and `vars(solution)` shows the computed ones.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ class Solution:
     -----
     Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
     contact. An attribute computes what it needs when it is read, and keeps it. This class is longer
-    than 200 lines because it holds every question that a user asks; the answers are elsewhere.
+    than 200 lines because it holds every attribute that a user reads; other modules compute them.
     """
 
     def __init__(
@@ -218,7 +218,7 @@ class Solution:
 
     @cached_property
     def dissipated(self) -> float:
-        """The energy that slip turned into heat."""
+        """The energy dissipated by slip."""
         return dissipated(self.tangential)
 
     @cached_property
@@ -553,7 +553,7 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on what the equations leave out for this scene.
+        """Sentences on effects that the equations neglect for this scene.
 
         Returns
         -------
@@ -599,8 +599,8 @@ class Solution:
         implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
-        The certificate is another thing: it says how well the equations are solved for the spline
-        as it is. The cost is a smoothing by cross validation; no contact is solved again.
+        The certificate measures something else: how well the equations are solved for this spline.
+        The cost is a smoothing by cross validation; no contact is solved again.
 
         Returns
         -------

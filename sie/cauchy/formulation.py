@@ -36,7 +36,7 @@ PROBES = np.array([-0.967, -0.871, -0.537, 0.071, 0.467, 0.859, 0.973])
 ROUNDING = 4.0 * EPS  # of the largest term of the equation: coefficients below it have decayed
 SUBNORMAL = (
     64.0 * 5e-324
-)  # what numbers below 2e-308, with fewer digits than others, are rounded to
+)  # the rounding of numbers below 2e-308, which have fewer digits than others
 # A solution so many times larger than its right-hand side belongs to a matrix that is singular to
 # rounding.
 SINGULAR = 1e10
@@ -52,7 +52,7 @@ class Condition(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """A well-posed question: `CauchyEquation` builds it."""
+    """A well-posed equation with maps and weights; `CauchyEquation` builds it."""
 
     maps: tuple[Map, ...]
     weights: tuple[Weight, ...]
@@ -73,8 +73,9 @@ class Problem:
 
     @property
     def functions(self) -> list[tuple[str, Function]]:
-        """(name, function) of g and of everything whose multiple is unknown, last the constants by
-        which g may miss its consistency.
+        """(name, function) of g and of all functions whose multiple is unknown.
+
+        The last are the constants by which g may fail to be consistent.
         """
         excess = max(-sum(weight.kappa for weight in self.weights) - len(self.free), 0)
         bounded = [
@@ -88,12 +89,13 @@ def _indicator(x1: float, x2: float, x: Array) -> Array:
     return np.where((x >= x1) & (x <= x2), 1.0, 0.0)
 
 
-# -- what the equation is made of ------------------------------------------------------------------
+# -- the terms of the equation --------------------------------------------------------------------
 
 
 def constant_of(problem: Problem, weight: Weight) -> Any:
-    """a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}, p̃ as the inverse weight's own
-    recurrence has it.
+    """The constant in a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}.
+
+    p̃ has the sign of the inverse weight's own recurrence.
     """
     return -real_if_real(problem.b) / weight.sine * jacobi.second_sign(weight)
 
@@ -103,7 +105,7 @@ def real_if_real(value: complex) -> Any:
 
 
 def functionals(interval: Map, weight: Weight, n: int) -> tuple[Array, Array]:
-    """(2, n): what ∫ φ dx and ∫ φ x dx are of the coefficients."""
+    """∫ φ dx and ∫ φ x dx as functionals of the coefficients, (2, n)."""
     total = np.zeros(n, dtype=weight.kind)
     total[0] = 1.0 / jacobi.recurrence(weight, 1).first
     if isinstance(interval, Affine):
@@ -134,7 +136,7 @@ def condition_rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> 
 
 
 def positions(interval: Map, right: Array, left: Array) -> tuple[Array, Array, Array, Array, Array]:
-    """x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ."""
+    """(x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ)."""
     to_right, to_left, rho, rest = interval.distances(right, left)
     return (
         np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right),
@@ -175,8 +177,9 @@ def sample(name: str, function: Function, x: Array) -> Array:
 
 
 def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
-    """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape
-    (or one number).
+    """k at all x (rows) and t (columns), in one call.
+
+    Refused unless it is finite and of that shape (or one number).
     """
     shape = (len(x), len(t))
     with np.errstate(all="ignore"):
@@ -222,13 +225,16 @@ def solved(matrix: Array, rhs: Array) -> Array:
     return found
 
 
-# -- how good an attempt is ------------------------------------------------------------------------
+# -- the quality of an attempt ---------------------------------------------------------------------
 
 
 class Attempt(NamedTuple):
-    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to),
-    below what both are rounding; the constant that g lacks: all relative. And what rounding makes
-    of each interval, where that takes another solution."""
+    """A density and its estimated errors, relative.
+
+    For each interval they are the decay of the coefficients, the residual (and the error that it
+    does not show), and the rounding of both. The constant by which g is not consistent follows, and
+    the effect of rounding on each interval where that takes another solution.
+    """
 
     density: JacobiDensity
     tails: Array
@@ -240,7 +246,7 @@ class Attempt(NamedTuple):
 
     @property
     def progress(self) -> float:
-        """What more nodes may lessen: the error but for rounding."""
+        """The error without rounding, which more nodes may reduce."""
         return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
@@ -252,7 +258,7 @@ class Attempt(NamedTuple):
         return unresolved
 
     def answer(self) -> JacobiDensity:
-        """The density, its errors with those of rounding."""
+        """The density; its errors include those of rounding."""
         spreads = self.spreads()
         if not spreads:
             return self.density
@@ -268,9 +274,11 @@ class Attempt(NamedTuple):
 
 
 class Terms(NamedTuple):
-    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it
-    everywhere; times dx/ds. And what its nodes miss of the integrals over it, relative; and how far
-    the terms may be off because positions are rounded."""
+    """The terms of the equation on one interval, times dx/ds.
+
+    They are its nodes, the residual at PROBES, and two terms of it everywhere. The relative error
+    of the integrals at its nodes follows, and the error of the terms by rounded positions.
+    """
 
     n: int
     left_over: Array
@@ -323,7 +331,7 @@ class _Measured(NamedTuple):
 
 
 def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> _Measured:
-    """What is kept of one interval's coefficients, and how well they are known.
+    """The coefficients of one interval that are kept, and their errors.
 
     Residuals are weighted as in the norm in which the singular operator is an isometry: next to a
     singular end of 1/w they mean less.

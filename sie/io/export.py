@@ -55,12 +55,12 @@ Array = NDArray[np.float64]
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
-    """What a scene file asks for: the contact, if it does not say."""
+    """The quantities that a scene file names; without any, those of the contact."""
     return file.want or UNASKED
 
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
-    """x, pressure and gap, whatever is wanted, as the module's docstring describes."""
+    """x, pressure and gap, always, as the module's docstring describes."""
     x = abscissae(solution, points)
     units, (x1, x2) = file.units, solution.edges
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
@@ -82,7 +82,7 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
 
 
 def json_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
-    """Everything that the file wants, as the module's docstring describes."""
+    """All wanted quantities, as the module's docstring describes."""
     return strict_json(as_dict(solution, file, points))
 
 
@@ -131,7 +131,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
 
-    Where nothing but the edges is wanted the pressure is not computed: its mean is looked at.
+    If only the edges are wanted, the pressure is not computed, and its mean stands for it.
     """
     if NEED_SHEAR & set(wanted(file)):
         return solution.notes
@@ -173,7 +173,7 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 def energy_of(solution: Solution) -> dict[str, float]:
     """The dissipated energy; {} for dissimilar bodies in full sliding.
 
-    They slipped in part before, and what they dissipated then is not known.
+    They slipped in part before, and the energy dissipated then is not known.
     """
     return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
 
@@ -189,7 +189,7 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     x1, x2 = solution.edges
     return tuple(
         z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
-    )  # not what the contact has left
+    )  # not the zones that have left the contact
 
 
 def _shear(solution: Solution, points: int) -> dict[str, Any]:

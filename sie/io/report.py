@@ -19,7 +19,7 @@ COLUMNS, ROWS = 60, 8  # of the text picture
 
 
 def summary(solution: Solution, file: SceneFile) -> str:
-    """What the file wants, section by section."""
+    """All wanted quantities, section by section."""
     sections = {
         "edges": edges_summary,
         "pressure": pressure_summary,

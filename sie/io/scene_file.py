@@ -18,9 +18,9 @@
                         path = [[P, Q, σ], ...], turning points, σ may be left out: the scene is
                         that of the last one
 
-`sie example` lists commented files to start from. Whatever does not fit is refused in one sentence,
-a `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not
-known is answered with the nearest that is.
+`sie example` lists commented files to start from. A mistake is refused in one sentence, a
+`SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
+is answered with the nearest that is.
 
 >>> file = parse('''
 ... profile = { kind = "parabola", radius = 100.0 }
@@ -100,12 +100,12 @@ EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
-# Each is solved and listed, within seconds together.
+# Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
 # needs three.
 DEEPEST = 20
-# What is not closed ends with the line, or with the file: so each character is looked at once.
+# An unclosed string ends with the line, or with the file: so each character is scanned once.
 _STRING_OR_COMMENT = re.compile(
     r'"{3}(?:\\.|[^\\])*?(?:"{3,5}|\Z)' "|" r"'{3}.*?(?:'{3,5}|\Z)" "|"
     r'"(?:\\.|[^"\\\n])*+"?' "|" r"'[^'\n]*+'?" "|" r"#[^\n]*+", re.DOTALL,
@@ -115,12 +115,12 @@ _DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file holds.
+    """The content of a scene file.
 
     scene    the contact problem; of a path that of its last point
     title    one line of text
     units    labels
-    want     what is to be answered, empty if the file does not say
+    want     the quantities to be answered, empty if the file names none
     path     turning points (P, Q, σ)
     reads    the files that it names
     """

@@ -31,8 +31,8 @@ Parity = Literal["even", "none"]
 def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
     """Extend a height from finite x to all x.
 
-    It is nan at nan, inf where it overflows, and infinite far away, with the sign that the slope
-    has there.
+    The result is nan at nan, inf where it overflows, and infinite at infinite x, with the sign that
+    the slope has there.
     """
 
     @wraps(height)
@@ -119,7 +119,7 @@ class Profile(ABC):
 
     @property
     def power_law(self) -> PowerLaw | None:
-        """h = A |x - c|^m, where the profile is known to be nothing else."""
+        """The law h = A |x - c|^m of the profile, None if it is not known to have one."""
         return None
 
     def slope(self, x: ArrayLike) -> Array:
@@ -165,7 +165,7 @@ class Profile(ABC):
     def ends_are_corners(self) -> tuple[bool, bool]:
         """Whether an end of the domain is the indenter's own corner, where contact is sharp.
 
-        Otherwise it is where the knowledge of the profile ends, as at the ends of a trace.
+        The ends of a trace are no corners: the profile is not known beyond them.
         """
         return True, True
 
@@ -262,9 +262,10 @@ class Placed(NamedTuple):
 
 
 class Derived(Profile):
-    """A profile made of others, to any depth. Nothing here recurses, so that no depth is too large.
+    """A profile made of others, to any depth.
 
-    Each level takes `reach` and `axis` from the level below when it is built: O(n) for n levels.
+    No method is recursive, so that Python's stack does not limit the depth. Each level takes
+    `reach` and `axis` from the level below when it is built: O(n) for n levels.
     """
 
     def __post_init__(self) -> None:
@@ -278,12 +279,12 @@ class Derived(Profile):
     @property
     @abstractmethod
     def operands(self) -> tuple[Profile, ...]:
-        """The profiles that it is made of; of a sum the terms, none of which is a sum."""
+        """The profiles that it is made of; for a sum its terms, none of which is a sum."""
 
     @property
     @abstractmethod
     def step(self) -> tuple[Any, ...]:
-        """(kind, how many operands, further arguments): how it is made of them."""
+        """(kind, number of operands, further arguments): the way it is made of them."""
 
     @cached_property
     def steps(self) -> tuple[Any, ...]:
@@ -329,7 +330,7 @@ class Derived(Profile):
 
     @cached_property
     def _parts(self) -> tuple[tuple[Placed, ...], float]:
-        """(profiles that add up to this one, placed, each with its own tilt; the tilt of sums)."""
+        """The placed profiles that add up to this one, each with its own tilt; the tilt of sums."""
         parts, tilt = [], 0.0
         todo: list[Placed] = [Placed(self, 1.0, 0.0, 0.0)]
         while todo:
@@ -357,7 +358,7 @@ class Derived(Profile):
             .shifted(part.shift)
             for part in parts
         ]
-        while len(slopes) > 1:  # in pairs: of n slopes no break is merged more than log2 n times
+        while len(slopes) > 1:  # in pairs, so that no break is merged more than log2 n times
             pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
             slopes = pairs + slopes[2 * len(pairs) :]
         return slopes[0].tilted(tilt)
@@ -398,7 +399,7 @@ class Derived(Profile):
 
     @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
-        """Whether the ends are corners, for the profile whose end comes first."""
+        """Whether each end is a corner of the profile whose domain ends there."""
         corners = [True, True]
         for profile, sign, shift, _ in self._parts[0]:
             ends = zip(profile.domain, profile.ends_are_corners, strict=True)

@@ -182,7 +182,11 @@ class OnPanels(SlopeDensity):
 
     @property
     def singular(self) -> tuple[float, ...]:
-        """Among many pieces a kink is not told from what resolves a function, but a jump is."""
+        """Breaks at which the slope of p is infinite.
+
+        Among many pieces a kink is not distinguished from a break that resolves a function, but a
+        jump is.
+        """
         inner = self.panels.jumps if self.panels.many else self._kinks
         return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
 
@@ -239,7 +243,7 @@ class PowerDensity(OnPanels):
         return -self.slope_scale, self.slope_scale
 
     def moved(self, contact: Interval, dx: float, tail: float) -> PowerDensity:
-        """The same with its contact, and what it knows of the slope, moved by dx + tail."""
+        """The same with its contact and its resolution of the slope moved by dx + tail."""
         law = replace(self.law, axis=self.law.axis + dx + tail)
         declared = self.declared.shifted(dx).shifted(tail)
         return replace(self, contact=contact, law=law, declared=declared)

@@ -637,3 +637,9 @@ def test_noise_is_no_suspicion(mesh):
     x = np.linspace(*solution.edges, 101)
     noise = np.random.default_rng(0).normal(size=x.shape)
     assert "factor" not in run({"x": x, "p": noise})[1]
+
+
+@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
+def test_what_is_no_name_of_a_file_is_refused(path):
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        sie.Sampled.read(path)
