@@ -1,20 +1,24 @@
-"""Dissimilar bodies pressed with friction, as Goodman (1962) approximated them: beta q is left out of the normal equation.
+"""Dissimilar bodies pressed with friction, as Goodman (1962) approximated them: beta q is left out
+of the normal equation.
 
-The pressure is that without friction, and the shear q, with q = ± f p where the bodies slip outwards, obeys
+The pressure is that without friction, and the shear q, with q = ± f p where the bodies slip
+outwards, obeys
 
     (1/pi) PV∫ q(t)/(x-t) dt + beta p(x) = 0          |x| < c
 
-under a flat punch of half-width b. For P = pi, b = 1 and K(k) the complete elliptic integral of modulus k that is
+under a flat punch of half-width b. For P = pi, b = 1 and K(k) the complete elliptic integral of
+modulus k that is
 
     f/beta = K(c/b)/K(sqrt(1 - c²/b²)),
 
-the limit of Spence's problem for small beta and f. The ratio of the integrals is the logarithm of the nome, -pi/ln q, so
-that c/b is explicit in theta functions (Whittaker & Watson 1927, §§ 21.1, 22.3), with q = exp(-pi beta/f):
+the limit of Spence's problem for small beta and f. The ratio of the integrals is the logarithm of
+the nome, -pi/ln q, so that c/b is explicit in theta functions (Whittaker & Watson 1927, §§ 21.1,
+22.3), with q = exp(-pi beta/f):
 
     c/b = (theta2(q)/theta3(q))²,      sqrt(1 - c²/b²) = (theta4(q)/theta3(q))²;
 
-for f > beta the two change places and q = exp(-pi f/beta). c/b is the same under every symmetric convex indenter that is
-pressed by a growing load (Spence 1975).
+for f > beta the two change places and q = exp(-pi f/beta). c/b is the same under every symmetric
+convex indenter that is pressed by a growing load (Spence 1975).
 """
 
 import numpy as np

@@ -1,11 +1,13 @@
-"""The certificate of coupled partial slip: equations (1) and (12), measured on values of p and q alone.
+"""The certificate of coupled partial slip: equations (1) and (12), measured on values of p and q
+alone.
 
-    residual      max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak                  in the whole contact
+    residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)       max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p       in stick
 
-γ' is the same under a lighter load under which x already stuck (0 under a flat punch): in stick the
-slip gradient stays. The integrals are Gauss rules on panels that shrink towards every place where a
-traction is not smooth, with the value at x subtracted; nothing of how p and q were found is used.
+γ' is the same under a lighter load under which x already stuck (0 under a flat punch): in stick
+the slip gradient stays. The integrals are Gauss rules on panels that shrink towards every place
+where a traction is not smooth, with the value at x subtracted; nothing of how p and q were found
+is used.
 """
 
 from __future__ import annotations
@@ -133,7 +135,8 @@ def _values(state: CoupledContact) -> Values:
 
 
 def _marks(state: CoupledContact) -> tuple[float, ...]:
-    """Those of the tractions; without edges of zones of stick or slip that are too narrow to be seen."""
+    """Those of the tractions; without edges of zones of stick or slip that are too narrow to be
+    seen."""
     flat = state.flat
     if min(flat.rest, flat.c) > THIN or not state.growth:
         return state.marks
@@ -142,7 +145,8 @@ def _marks(state: CoupledContact) -> tuple[float, ...]:
 
 
 def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
-    """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end with a power."""
+    """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end
+    with a power."""
     half, at_edge = 0.5 * width, power != 0.0
     levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
     near = half * np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))

@@ -1,9 +1,10 @@
-"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: edges, P', tractions.
+"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: edges,
+P', tractions.
 
-The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction stiffens
-the contact: the frictionless contact bounds the search, and refuses what no contact can carry. Where
-b reaches a corner at the indenter's end, what is left of the load is that of a flat punch. β < 0 only
-turns the sign of the shear and of the slip.
+The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
+stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
+carry. Where b reaches a corner at the indenter's end, what is left of the load is that of a flat
+punch. β < 0 only turns the sign of the shear and of the slip.
 """
 
 from __future__ import annotations
@@ -226,7 +227,7 @@ class CoupledContact:
                 total += length * float(w @ (panel(length * x) / (panel.lo + length * x)))
         return A * total
 
-    # -- beside the contact --------------------------------------------------------------------------------------------
+    # -- beside the contact ------------------------------------------------------------------------
 
     def hilbert_outside(self, y: Array) -> Array:
         """1/π PV∫p/(y - t) dt at y > b."""
@@ -236,7 +237,8 @@ class CoupledContact:
         return H
 
     def raised(self, y: Array) -> Array:
-        """2/E* times the integral of that from b to each y >= b: how far the surfaces part less than the profile rises."""
+        """2/E* times the integral of that from b to each y >= b: how far the surfaces part less
+        than the profile rises."""
         ahead = y - self.b
         none = np.full(len(y), np.inf)
         owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
@@ -276,18 +278,21 @@ class CoupledContact:
 
 
 def refuse_unsolved(scene: Scene, remedy: str) -> None:
-    """Raises ContactError for what is asked of dissimilar bodies with friction beyond a monotone normal load."""
+    """Raises ContactError for what is asked of dissimilar bodies with friction beyond a monotone
+    normal load."""
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
     if scene.tangential_load:
         raise ContactError(
-            f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is solved for them, "
+            f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is "
+            "solved for them, "
             "not how Q then changes stick and slip; set tangential_load = 0, let them slide "
             f"(sliding = ±1), set friction = 0, or {remedy}"
         )
     if scene.tilt or scene.moment:
         name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
         raise ContactError(
-            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the contact "
+            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
+            "contact "
             f"only under a symmetric profile; set {name} = 0, set friction = 0, or {remedy}"
         )
 
@@ -302,9 +307,12 @@ def _axis(scene: Scene, bound: Edges) -> float:
     uneven = float(np.abs(right + left).max() / np.abs(right).max())
     if uneven > EVEN:
         raise ContactError(
-            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by {uneven:.2g} of the "
-            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as others tilt "
-            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to neglect β"
+            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
+            f"{uneven:.2g} of the "
+            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as "
+            "others tilt "
+            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to "
+            "neglect β"
         )
     return contact.m
 
@@ -425,13 +433,16 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
 
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
-    """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede there."""
+    """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
+    there."""
     for panel in growth:
         s, mass = panel.places
         near = s < ahead
         if (mass[near] < -FALLING * np.abs(mass).max()).any():
             where = axis + panel.origin + float(s[near][np.argmin(mass[near])])
             raise ContactError(
-                f"the contact of dissimilar bodies with friction would not grow steadily at x = {where:.6g}: "
-                "coupled slip is solved for convex profiles; smooth the profile, or give dundurs = 0 to neglect β"
+                "the contact of dissimilar bodies with friction would not grow steadily at x = "
+                f"{where:.6g}: "
+                "coupled slip is solved for convex profiles; smooth the profile, or give dundurs "
+                "= 0 to neglect β"
             )

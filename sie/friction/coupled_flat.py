@@ -1,19 +1,19 @@
 """Partial slip of a flat punch on a dissimilar body: the stick zone of Spence's problem.
 
-A flat of half-width 1 under P = 1, pressed without tangential load; β > 0, friction f. It sticks on
-|x| < c, and in c < |x| < 1 the body slips outwards, q = f p sgn x. With θ = atan(β f)/π, h = 1/2 - θ,
-F = 1/π ∫p/(z - t) dt and D = F on the surface beside the contact,
+A flat of half-width 1 under P = 1, pressed without tangential load; β > 0, friction f. It sticks
+on |x| < c, and in c < |x| < 1 the body slips outwards, q = f p sgn x. With θ = atan(β f)/π, h =
+1/2 - θ, F = 1/π ∫p/(z - t) dt and D = F on the surface beside the contact,
 
-    (1 - β²) p(x) = 2/π ∫_1^∞ η D(η)/(η² - x²) dη                 |x| < c, from (12) and (1) by H² = -1
+    (1 - β²) p(x) = 2/π ∫_1^∞ η D(η)/(η² - x²) dη   |x| < c, from (12) and (1) by H² = -1
     F = χ Ψ,   χ = |(c² - x²)/(1 - x²)|^h,   Ψ = 1/π ∫_-c^c (p/χ)/(z - ξ) dξ     from (1) in slip
 
 In ξ = c sn u and η = 1/sn u, with the modulus c, both steps are one symmetric positive kernel
 
     K v(u') = ∫_0^K 2 cn^2θ dn^(2-2θ) v(u)/(1 - c² sn²u sn²u') du,      sqrt(1 - β²) = c^θ λ/π,
 
-λ its largest eigenvalue, v(u) = p(c sn u). The singularities of all functions are one quarter period
-off the interval: a Gauss-Jacobi rule converges geometrically for every c. At θ = 0 λ is π with
-v0 = 1/dn; tested with v0 the condition needs no difference of numbers of order one,
+λ its largest eigenvalue, v(u) = p(c sn u). The singularities of all functions are one quarter
+period off the interval: a Gauss-Jacobi rule converges geometrically for every c. At θ = 0 λ is π
+with v0 = 1/dn; tested with v0 the condition needs no difference of numbers of order one,
 
     ε = c^θ λ/π - 1 = ∫ dn v expm1(θ ln(c cn²/dn²)) du / ∫ dn v du,     -ε (2 + ε) = β²,
 
@@ -44,7 +44,8 @@ SPARE = 4
 STEP, LAST = 0.09, 42
 # Where 1 - c is less than this the punch sticks all over, as far as doubles can tell.
 FULL_STICK = 1e-15
-# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot tell
+# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
+# tell
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.3
 WIDEST_RATIO = (
     250.0  # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
@@ -99,7 +100,8 @@ class FlatPunch:
 
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
-    """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i ratio."""
+    """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i
+    ratio."""
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 
@@ -148,7 +150,8 @@ def flat_punch(beta: float, friction: float) -> FlatPunch:
     Where the slip zone would be narrower than FULL_STICK, friction is that which makes it so wide:
     under a larger one the tractions differ only within such a distance of the edges.
     """
-    # Goodman's β/f, corrected for large ones: the oscillation of a bonded edge spans the phase atan f
+    # Goodman's β/f, corrected for large ones: the oscillation of a bonded edge spans the phase
+    # atan f
     guess = min(math.atanh(beta) / math.atan(friction), WIDEST_RATIO)
     n = nodes_for(NEARER * min(guess, 1.5))
     if guess == WIDEST_RATIO:

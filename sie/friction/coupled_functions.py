@@ -1,6 +1,8 @@
-"""Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t = x/b.
+"""Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t =
+x/b.
 
-Two functions say all (notation of `coupled_flat`; S is derived in docs/derivations/coupled_slip.md):
+Two functions say all (notation of `coupled_flat`; S is derived in
+docs/derivations/coupled_slip.md):
 
     stick, t < c        p = A                  q = f A - χ S/β
     slip, c < t < 1     p = A - cos(πθ) χ S    q = f p         γ = Hq + β p = (1 - β²) cos(πθ) χ S/β
@@ -57,7 +59,8 @@ class Points(NamedTuple):
 
 
 class Table:
-    """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both ends."""
+    """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both
+    ends."""
 
     def __init__(self, cuts: list[tuple[float, float]], function: Function) -> None:
         ends = np.array(cuts)
@@ -94,7 +97,8 @@ def chopped(c: Array) -> Array:
 
 
 def summed(c: Array, y: Array) -> Array:
-    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the time."""
+    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the
+    time."""
     twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
     spare = np.empty_like(y)
     for a in c[-2:0:-1].tolist():
@@ -178,7 +182,7 @@ class FlatFunctions:
         both = self.pressure(t, e, from_c) * self.slip(t, e, from_c)
         return self.friction * float(dt @ both)
 
-    # -- tables --------------------------------------------------------------------------------------------------------
+    # -- tables ------------------------------------------------------------------------------------
 
     @cached_property
     def A(self) -> Table:
@@ -251,7 +255,7 @@ class FlatFunctions:
     def _beyond_c(self, t: Any, e: Any) -> Any:
         return self.rest - e if self.c > 0.5 else t - self.c
 
-    # -- A and Ψ, from the eigenvector ---------------------------------------------------------------------------------
+    # -- A and Ψ, from the eigenvector -------------------------------------------------------------
 
     def _A(self, t: Array, e: Array) -> Array:
         return _poles(t, e, self.punch.remainder, self._a)
@@ -281,7 +285,7 @@ class FlatFunctions:
         gap: Array = e * (1.0 + s) + (s * self.punch.modulus.complement) ** 2
         return gap
 
-    # -- S -------------------------------------------------------------------------------------------------------------
+    # -- S -----------------------------------------------------------------------------------------
 
     def _S(self, t: Array, e: Array) -> Array:
         return self._source(t, e) + self._acting_back(t, e) @ self._S_in_stick
@@ -331,7 +335,8 @@ class FlatFunctions:
 
     @cached_property
     def _difference(self) -> Function:
-        """S as N - A n, whose error is rounding of numbers of order one: it serves where p needs S."""
+        """S as N - A n, whose error is rounding of numbers of order one: it serves where p needs
+        S."""
         punch, theta = self.punch, self.theta
         aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
         slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)
@@ -348,7 +353,7 @@ class FlatFunctions:
 
         return difference
 
-    # -- places of quadrature ------------------------------------------------------------------------------------------
+    # -- places of quadrature ----------------------------------------------------------------------
 
     def _stick_points(self, a: float) -> Points:
         """0 < t < c, for (c - t)^((a - 1)/2) times a smooth function."""
@@ -390,7 +395,7 @@ class FlatFunctions:
         """For an interval whose nearest singularities are at half its length times ratio."""
         return math.ceil(ACROSS / (2.0 * math.asinh(NEARER * min(ratio, 1.5)))) + SPARE
 
-    # -- p, r and A/χ there --------------------------------------------------------------------------------------------
+    # -- p, r and A/χ there ------------------------------------------------------------------------
 
     @cached_property
     def _stick(self) -> Points:
@@ -469,7 +474,8 @@ def _cuts(
     end: tuple[float, float],
     longest: Callable[[float, float], float],
 ) -> list[tuple[float, float]]:
-    """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest` at their start."""
+    """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest`
+    at their start."""
     cuts = [start]
     while cuts[-1] != end:
         t, e = cuts[-1]

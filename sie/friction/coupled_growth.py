@@ -1,13 +1,15 @@
-"""How the load of a symmetric convex profile grows with its contact, where pressure and shear are coupled.
+"""How the load of a symmetric convex profile grows with its contact, where pressure and shear are
+coupled.
 
 Beside the contact of half-width x, at its edge, equation (1) says for P'(s) = dP/ds
 
     ∫_a^x P'(s) D(x/s) ds/s = E*/2 h'(x),        D = χ Ψ of the flat outside (`coupled_functions`),
 
-a Volterra equation with D(ρ) ~ (ρ - 1)^-h; a is the half-width of a flat base, else 0. It is solved
-panel by panel from a outwards, P' = (s - a)^h times a polynomial on the first (a jump of h' there
-makes that h - 1) and a polynomial on the others, by collocation. A panel whose series does not
-decay is cut towards its beginning, where kinks of the profile leave powers of the distance.
+a Volterra equation with D(ρ) ~ (ρ - 1)^-h; a is the half-width of a flat base, else 0. It is
+solved panel by panel from a outwards, P' = (s - a)^h times a polynomial on the first (a jump of
+h' there makes that h - 1) and a polynomial on the others, by collocation. A panel whose series
+does not decay is cut towards its beginning, where kinks of the profile leave powers of the
+distance.
 
 A power law h = A|x|^m has P' = E* A m s^(m-1)/(2 M), M(m) = ∫_1^∞ D ρ^-m dρ, in closed form.
 """
@@ -45,7 +47,8 @@ NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink
 
 
 class Piece(NamedTuple):
-    """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth there."""
+    """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth
+    there."""
 
     lo: float
     hi: float
@@ -95,7 +98,8 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
 
 
 def _missed(panel: GrowthPanel) -> float:
-    """The load that the last coefficients of a series carry, 0 where they are small beside the others."""
+    """The load that the last coefficients of a series carry, 0 where they are small beside the
+    others."""
     size, length = np.abs(panel.series), panel.hi - panel.lo
     tail = float(size[-3:].max())
     return tail * length ** (1.0 + panel.power) if tail > DECAYED * float(size.max()) else 0.0
@@ -109,7 +113,8 @@ def _first_power(h: float, piece: Piece, first: bool) -> float:
 
 
 def _panels(origin: float, lo: float, hi: float) -> list[tuple[float, float]]:
-    """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the origin."""
+    """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the
+    origin."""
     n = 1 if lo == 0.0 else max(1, math.ceil(math.log2(hi / lo)))
     ends = [lo - origin, *(lo * (hi / lo) ** (k / n) - origin for k in range(1, n)), hi - origin]
     return list(itertools.pairwise(ends))
@@ -164,7 +169,8 @@ def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyon
 def load_slope(
     flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
 ) -> Array:
-    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the contact."""
+    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the
+    contact."""
     total = np.zeros(len(x))
     for panel in growth:
         length = min(panel.hi, ahead) - panel.lo

@@ -3,12 +3,12 @@
 Under monotone normal load the rate of every state is that of a flat punch of the contact's width
 (its slope does not change, nor does the slip in stick), so that with P'(s) = dP/ds
 
-    p(x) = ∫ P'(s) φ(x/s) ds/s,    q alike,    g(x) = 2/E* ∫ P'(s) ĝ(x/s) ds,     max(|x|, a) < s < b
+    p(x) = ∫ P'(s) φ(x/s) ds/s,   q alike,   g(x) = 2/E* ∫ P'(s) ĝ(x/s) ds,   max(|x|, a) < s < b
 
-with φ, ψ, ĝ those of the flat under P = 1 on |t| < 1 (`coupled_functions`), and c/b is the flat's.
-Each function of t = x/s is smooth between its singular places times known powers at these; P' is
-(s - lo)^e times a polynomial on each of its panels. The integrals are Gauss-Jacobi and
-Gauss-Legendre on panels that shrink towards the next singularity, all x at once.
+with φ, ψ, ĝ those of the flat under P = 1 on |t| < 1 (`coupled_functions`), and c/b is the
+flat's. Each function of t = x/s is smooth between its singular places times known powers at
+these; P' is (s - lo)^e times a polynomial on each of its panels. The integrals are Gauss-Jacobi
+and Gauss-Legendre on panels that shrink towards the next singularity, all x at once.
 
 Spence (1975), J. Elasticity 5, 297, for the stick zone that no profile changes.
 """
@@ -67,7 +67,8 @@ class GrowthPanel:
         return self.lo + length * x, length * w * self(length * x)
 
     def load(self, ahead: float) -> float:
-        """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or beyond."""
+        """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
+        beyond."""
         length = max(min(ahead, self.hi) - self.lo, 0.0)
         x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
         c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
@@ -99,7 +100,8 @@ class Kernel(NamedTuple):
 
 
 class Part(NamedTuple):
-    """Intervals of s for some of the x: where they begin, beyond x and beyond lo of the panel; lengths; and scales.
+    """Intervals of s for some of the x: where they begin, beyond x and beyond lo of the panel;
+    lengths; and scales.
 
     before, after   distances from either end to the next singularity, inf if there is none
     powers          exponents at both ends
@@ -133,7 +135,7 @@ class Superposition:
         """E*/2 times the slip of x > 0 since it came into contact."""
         return self._sum(self._slip_kernels, x, b, over_s=False)
 
-    # -- kernels -------------------------------------------------------------------------------------------------------
+    # -- kernels -----------------------------------------------------------------------------------
 
     def _near_edge(self, value: Function, power: float, pole: float = 1.0) -> Kernel:
         """A function on c^(1/2) <= t <= 1."""
@@ -176,7 +178,7 @@ class Superposition:
             self._beside_c(lambda t, e, d: near_c(t, e) * d ** (1.0 + f.h), 1.0 + f.h),
         )
 
-    # -- integrals -----------------------------------------------------------------------------------------------------
+    # -- integrals ---------------------------------------------------------------------------------
 
     def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
         total = np.zeros(len(x))
@@ -188,14 +190,16 @@ class Superposition:
         return total
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
-        """The intervals of s - origin that lie on the panel and below b, by what they begin and end at."""
+        """The intervals of s - origin that lie on the panel and below b, by what they begin and
+        end at."""
         begin = (x - panel.origin) + x * kernel.above
         end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
         top = np.minimum(b, panel.hi)
         lo, hi = np.maximum(begin, panel.lo), np.minimum(end, top)
         for own_start in (True, False):
             for own_end in (True, False):
-                # Between two places of its own an interval may be shorter than the doubles are apart
+                # Between two places of its own an interval may be shorter than the doubles are
+                # apart
                 longer = (lo <= hi) if own_start and own_end else (lo < hi)
                 chosen = longer & ((begin >= panel.lo) == own_start) & ((end <= top) == own_end)
                 if chosen.any():
@@ -211,7 +215,8 @@ class Superposition:
         at: tuple[Array, Array, Array],
         own: tuple[bool, bool],
     ) -> Part:
-        """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the panel's."""
+        """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the
+        panel's."""
         (x, lo, hi), (own_start, own_end) = at, own
         c, origin = self.flat.c, panel.origin
         from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)
@@ -270,7 +275,8 @@ def _rules(at_start: float, at_end: float) -> tuple[Array, Array, Array]:
 
 
 def _graded(length: Array, before: Array, after: Array) -> tuple[Array, ...]:
-    """Panels of intervals: whose, beginning, length, what is left behind them, and which of `_rules`.
+    """Panels of intervals: whose, beginning, length, what is left behind them, and which of
+    `_rules`.
 
     From either end they grow in proportion to the distance from the singularity beyond it.
     """

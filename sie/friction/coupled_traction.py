@@ -1,10 +1,11 @@
 """The tractions of coupled partial slip, with their potentials.
 
-Values come from the state itself; the potential from Chebyshev series on panels of half the contact,
-cut in two until they resolve the traction, the last one times (1 - x/b)^α with the exponent α of the
-edge. With T_n on a panel and s = 2 (t - lo)/(hi - lo) - 1
+Values come from the state itself; the potential from Chebyshev series on panels of half the
+contact, cut in two until they resolve the traction, the last one times (1 - x/b)^α with the
+exponent α of the edge. With T_n on a panel and s = 2 (t - lo)/(hi - lo) - 1
 
-    K_n(z) = ∫_-1^1 T_n(s)/(z - s) ds:   K_0 = ln((z+1)/(z-1)),   K_{n+1} = 2 z K_n - K_{n-1} - 2 ∫T_n ds
+    K_n(z) = ∫_-1^1 T_n(s)/(z - s) ds:  K_0 = ln((z+1)/(z-1)),
+    K_{n+1} = 2 z K_n - K_{n-1} - 2 ∫T_n ds
 
 near the panel and Gauss-Legendre far from it; at the edge K_0 is Lerch's function (`lerch`). p is
 even and q odd: F(z) = I(z) ∓ I(-z), I that of the right half.
@@ -37,7 +38,8 @@ TOGETHER = 2**18  # entries of a matrix that are computed at once
 
 
 class Panels(NamedTuple):
-    """Panels of 0 <= y <= b, ascending: ends, series (n, DEGREE), and the exponent at b of the last."""
+    """Panels of 0 <= y <= b, ascending: ends, series (n, DEGREE), and the exponent at b of the
+    last."""
 
     lo: Array
     hi: Array
@@ -143,7 +145,7 @@ class CoupledTraction(Density):
     def _derivative(self, z: Any) -> Complex:
         return self._potentials(z, derivative=True)[1]
 
-    # -- panels --------------------------------------------------------------------------------------------------------
+    # -- panels ------------------------------------------------------------------------------------
 
     @cached_property
     def _quadrature(self) -> tuple[Array, Array]:
@@ -211,7 +213,8 @@ def _inner_panel(c: Array, z: Complex, lo: float, hi: float) -> tuple[Complex, C
 def _edge_panel(
     c: Array, power: float, z: Complex, lo: float, hi: float
 ) -> tuple[Complex, Complex]:
-    """The same for ((hi - t)/(hi - lo))^power Σ c_n T_n; with u = (hi - t)/(hi - lo), ζ that of z."""
+    """The same for ((hi - t)/(hi - lo))^power Σ c_n T_n; with u = (hi - t)/(hi - lo), ζ that of
+    z."""
     length = hi - lo
     zeta = (hi - z) / length
     K = _lerch_integral(power, zeta, (z - lo) / length)
@@ -226,7 +229,8 @@ def _edge_panel(
 def _recurred(
     c: Array, s: Complex, start: tuple[Complex, Complex], moments: Array
 ) -> tuple[Complex, Complex]:
-    """Σ c_n K_n and Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 - moments_0/2."""
+    """Σ c_n K_n and Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 -
+    moments_0/2."""
     K, dK = before, dbefore = start
     now, dnow = s * K - 0.5 * moments[0], K + s * dK
     value, slope = c[0] * before + c[1] * now, c[0] * dbefore + c[1] * dnow

@@ -17,7 +17,8 @@ from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_growth import power_law_moment
 
-# Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32 digits of
+# Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
+# digits of
 # another formulation (mpmath) and by collocation of the printed equations on graded panels.
 REFERENCES = {
     (0.1, 0.1): (0.70061786631, 0.32027597518, 0.31651145915),
@@ -54,7 +55,7 @@ def solved(*args, **kwargs):
     return sie.solve(scene(*args, **kwargs))
 
 
-# -- the stick zone ----------------------------------------------------------------------------------------------------
+# -- the stick zone --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("pair", REFERENCES)
@@ -93,7 +94,8 @@ def test_stick_ratio_is_the_same_under_every_symmetric_convex_profile(name):
 )
 def test_small_constants_leave_goodmans_slip_zone(beta, friction):
     rest = goodman.slip_width(half_width=1.0, friction=friction, dundurs=beta)
-    # The next term is of the order of the squares of both, times the logarithm of the slip zone's width
+    # The next term is of the order of the squares of both, times the logarithm of the slip zone's
+    # width
     assert flat_punch(beta, friction).rest == pytest.approx(
         rest, rel=30.0 * max(beta, friction) ** 2 + 1e-14
     )
@@ -130,7 +132,7 @@ def test_full_stick_is_said_where_the_slip_zone_is_narrower_than_rounding(beta, 
     assert solution.check().ok
 
 
-# -- the two equations -------------------------------------------------------------------------------------------------
+# -- the two equations -----------------------------------------------------------------------------
 
 
 def tractions_of_a_flat(beta, friction):
@@ -247,7 +249,7 @@ def test_surface_stress_is_in_balance_with_the_tractions():
     assert below.xx == pytest.approx(surface.xx, abs=1e-6)
 
 
-# -- slip, gap, energy -------------------------------------------------------------------------------------------------
+# -- slip, gap, energy -----------------------------------------------------------------------------
 
 
 def test_slip_grows_with_the_load_in_slip_and_stays_in_stick():
@@ -304,7 +306,7 @@ def test_gap_opens_beside_the_contact_as_its_slope_says(name):
     assert slope == pytest.approx(equation, rel=1e-7)
 
 
-# -- symmetry, scale, limits -------------------------------------------------------------------------------------------
+# -- symmetry, scale, limits -----------------------------------------------------------------------
 
 
 def test_the_other_sign_of_beta_turns_shear_and_slip_alone():
@@ -369,11 +371,12 @@ def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
         assert 2.0 * m * W * power_law_moment(flat, m) == pytest.approx(1.0, abs=1e-12)
 
 
-# -- an independent program --------------------------------------------------------------------------------------------
+# -- an independent program ------------------------------------------------------------------------
 
 
 def flat_on_a_grid(beta, friction, n=120):
-    """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and pressures."""
+    """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and
+    pressures."""
     edges = np.linspace(-1.0, 1.0, n + 1)
     x = 0.5 * (edges[1:] + edges[:-1])
     # ∫ ln|x - t| dt over the cells: both equations integrated once are displacements
@@ -407,7 +410,7 @@ def test_flat_agrees_with_an_active_set_on_a_grid():
     assert q[inner] == pytest.approx(solution.shear(x[inner]), abs=cell * float(p.min()))
 
 
-# -- values and refusals -----------------------------------------------------------------------------------------------
+# -- values and refusals ---------------------------------------------------------------------------
 
 
 def test_solution_of_two_bodies_answers_as_one_of_their_constants():
