@@ -98,6 +98,12 @@ def follow(
             "a bonded contact never slips, so its path does not matter: give a finite friction, "
             "or solve the last point as a scene"
         )
+    if scene.beta and scene.friction and not scene.sliding:
+        raise ContactError(
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: pressure and shear "
+            "are coupled, and only a normal load that grows is solved then; solve its points as scenes, "
+            "or give dundurs = 0 to neglect β"
+        )
     return History(scene, path, tol, economy)
 
 

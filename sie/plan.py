@@ -36,6 +36,17 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
     "yield": ("normal", "pressure", "tractions"),
     "tension": ("normal", "pressure", "tractions"),
 }
+# And for dissimilar bodies in partial slip.
+COUPLED: dict[str, tuple[str, ...]] = {
+    "edges": ("coupled", "normal"),
+    "pressure": ("coupled", "normal", "pressure"),
+    "gap": ("coupled", "normal"),
+    "shear": ("coupled", "normal"),
+    "check": ("coupled", "normal", "certificate"),
+    "stress": ("coupled", "normal", "pressure", "tractions"),
+    "yield": ("coupled", "normal", "pressure", "tractions"),
+    "tension": ("coupled", "normal", "pressure", "tractions"),
+}
 
 
 @dataclass(frozen=True)
@@ -122,6 +133,8 @@ def plan(
     stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
         return _of_bonded(scene, names)
+    if scene.coupled:
+        return _of_coupled(scene, names)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     steps = [
@@ -163,6 +176,24 @@ def plan(
     ]
     steps += [_stress(stages), _maxima(names), _certificate(stages)]
     return Plan(tuple(steps))
+
+
+def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
+    stages = {stage for name in names for stage in COUPLED[name]}
+    asked = "pressure" in stages
+    how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
+    growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
+    steps = (
+        Step("coupling", True, how, "coupled"),
+        Step("edges", True, growth, "normal"),
+        Step("pressure", asked, "flats superposed" if asked else "not asked for", "pressure"),
+        Step("inequalities", False, "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"),
+        Step("slip", False, "the shear and the slip come with the pressure"),
+        _stress(stages),
+        _maxima(names),
+        _certificate(stages),
+    )
+    return Plan(steps)
 
 
 def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .cauchy.density import JacobiDensity
+from .certificate.coupled_check import coupled_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
@@ -26,6 +27,8 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
+from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
+from .friction.coupled_traction import CoupledTraction
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
@@ -62,6 +65,7 @@ _NORMAL_FIELDS = frozenset(
         "moment",
         "epsilon",
         "bonded",
+        "coupled",
     }
 )
 _SHEAR_FIELDS = _NORMAL_FIELDS | {
@@ -80,7 +84,9 @@ NEGLECTED = (
 _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
 )
-_STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS)
+_STAGES |= dict.fromkeys(
+    ("bonded", "coupled", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS
+)
 
 
 class Solution:
@@ -121,6 +127,8 @@ class Solution:
         """Edges, load, moment and tilt; verified where the profile may not be convex."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        if self.scene.coupled:
+            return Normal(self.coupled[0], True)
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
@@ -193,6 +201,11 @@ class Solution:
         """The edges of a flat punch in full stick, and p + i q."""
         return full_stick_contact(self.scene, self.tol)
 
+    @cached_property
+    def coupled(self) -> tuple[Edges, CoupledContact]:
+        """The edges and the state of dissimilar bodies in partial slip."""
+        return coupled_contact(self.scene, self.tol)
+
     @property
     def normal_and_shear(self) -> JacobiDensity:
         """The traction p + i q in full stick."""
@@ -200,7 +213,7 @@ class Solution:
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component:
+    def pressure(self) -> SlopeDensity | Component | CoupledTraction:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns
@@ -219,6 +232,8 @@ class Solution:
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
+        if self.scene.coupled:
+            return self.coupled[1].tractions[0]
         several = self._several
         return self.density if several is None else cast(SlopeDensity, several.pressure)
 
@@ -236,7 +251,8 @@ class Solution:
     @property
     def carries_shear(self) -> bool:
         """Whether there is a shear traction, of partial slip, sliding or full stick."""
-        return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
+        scene = self.scene
+        return self.sheared or bool(scene.epsilon) or scene.bonded or scene.coupled
 
     @cached_property
     def tangential(self) -> Slip:
@@ -266,6 +282,8 @@ class Solution:
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
+        if self.scene.coupled:
+            return coupled_certificate(self.coupled[1], self.scene, self.tol)
         if self._several is not None:
             stages = [self._several]
             if self.sheared and isinstance(self.tangential, PatchSlip):
@@ -365,6 +383,8 @@ class Solution:
             return ()
         if self.sheared:
             return self.tangential.stick
+        if self.scene.coupled:
+            return self.coupled[1].stick
         return self.patches if self.scene.friction else ()
 
     @property
@@ -380,6 +400,9 @@ class Solution:
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
             return scaled(self.scene.slides * self.scene.friction, self.pressure)
+        if self.scene.coupled:
+            _ = self.normal
+            return self.coupled[1].tractions[1]
         return self.tangential.shear if self.sheared else ZERO
 
     @property
@@ -414,6 +437,8 @@ class Solution:
         Notes
         -----
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
+        Where dissimilar bodies are pressed together it is counted from when a point came into
+        contact: what slipped first sticks later, and keeps its slip.
 
         Examples
         --------
@@ -424,6 +449,8 @@ class Solution:
         [0.0, 0.0]
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled:
+            return self.coupled[1].relative_slip(x)
         slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
         return slipped
 
@@ -442,6 +469,8 @@ class Solution:
             As for `slip`.
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled:
+            return self.coupled[1].energy
         return self.dissipated if self.sheared else 0.0
 
     @property
@@ -588,6 +617,8 @@ class Solution:
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
+        if self.scene.coupled:
+            return self.coupled[1].gap(x, self.scene.profile)
         if self._several is not None:
             return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
@@ -614,7 +645,8 @@ class Solution:
     @property
     def strain_notes(self) -> tuple[str, ...]:
         """Sentences on strains that are not small: a slope above 0.2, p above E*/4."""
-        if self.scene.bonded or "certificate" in self.__dict__ or self._several is not None:
+        measured = self.scene.bonded or self.scene.coupled or self._several is not None
+        if measured or "certificate" in self.__dict__:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
@@ -648,7 +680,7 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        if self.scene.bonded or self._several is not None:
+        if self.scene.bonded or self.scene.coupled or self._several is not None:
             return ()
         return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 
@@ -693,11 +725,13 @@ class Solution:
         _refuse_uncovered(new.scene)
         changed = {
             name
-            for name in (*changes, "epsilon", "bonded")
+            for name in (*changes, "epsilon", "bonded", "coupled")
             if getattr(new.scene, name) != getattr(self.scene, name)
         }
         if self.scene.bonded and changed & _SHEAR_FIELDS:
             changed.add("bonded")
+        if self.scene.coupled and changed & _SHEAR_FIELDS:
+            changed.add("coupled")
         kept = [
             stage
             for stage, needs in _STAGES.items()
@@ -758,15 +792,8 @@ def _refuse_uncovered(scene: Scene) -> None:
     if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
             f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
-            "with friction is not covered yet: "
+            "with friction: how it shifts their zones of stick is not solved; "
             f"{NEGLECTED}; or set friction = 0"
         )
-    if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
-        raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick "
-            "and slip in part at "
-            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is "
-            "not covered yet; "
-            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the "
-            "frictionless contact"
-        )
+    if scene.coupled:
+        refuse_unsolved(scene, NEGLECTED)

@@ -193,6 +193,8 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)
+    if solution.scene.coupled:
+        return solution.coupled[1].slip_zones
     if not solution.sheared:
         return ()
     x1, x2 = solution.edges

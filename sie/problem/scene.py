@@ -224,6 +224,11 @@ class Scene:
         return self.friction == math.inf
 
     @property
+    def coupled(self) -> bool:
+        """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in part."""
+        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
+
+    @property
     def epsilon(self) -> float:
         """ε of the edge exponents in full sliding, 1/2 + ε on the left and 1/2 - ε on the right.
 
