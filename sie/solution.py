@@ -271,7 +271,6 @@ class Solution:
         )
 
     @cached_property
-    @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
         return dissipated(self.tangential)
