@@ -1,7 +1,7 @@
 """Closed forms of plane elastic contact, as plain functions of floats, arrays or mpmath numbers.
 
-A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0. Each module is one
-indenter under one kind of load:
+A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0.
+Each module is one indenter under one kind of load:
 
     hertz, flat, rounded_flat, wedge, power               pressed without friction, or bodies alike
     two_flats, two_parabolas                              two patches, one load
@@ -30,17 +30,17 @@ All speak one notation:
     tilt              h'          rotation of a flat
     pressure          p >= 0      sigma_yy = -p on the surface
     height, slope     h, h'       gap between the undeformed surfaces, growing away from the contact
-    potential         Fp          (1/pi) ∫ p(t)/(z-t) dt; on the contact, side = +1, it is E*/2 h' - i p
-    coupling          beta f      of dissimilar bodies that slide, < 0 for shear on the half-plane towards -x
+    potential         Fp          (1/pi) ∫ p(t)/(z-t) dt; on the contact, side = +1, E*/2 h' - i p
+    coupling          beta f      of dissimilar bodies that slide, < 0 for shear towards -x
     dundurs           beta        Dundurs' second constant
     friction          f           Coulomb's coefficient
-    shear             q           sigma_xy = -q on the surface; q > 0 pushes the half-plane towards +x
+    shear             q           sigma_xy = -q on the surface; q > 0 pushes the body to +x
     shear_load        Q           ∫ q dx
-    tangential_load   Q           the same, in partial slip; largest_load, least_load are where it turned
+    tangential_load   Q           the same, in partial slip; it turned at largest_load, least_load
     stick_half_width  c           of the stick zone; stick_rim = c - a, slip_width = b - c
     slip              s           of the indenter over the half-plane towards +x
     bulk_stress       sigma       tension along the surface of the half-plane
-    inner, outer      a, b        ends of the patch on x > 0; those on x < 0 mirror them (c1, c2 if they move)
+    inner, outer      a, b        ends of the patch on x > 0 (c1, c2 if they move), and its mirror
     distance          d           of the apexes from x = 0
     wavelength        lambda      of a wave of `amplitude` D, h = D (1 - cos(2 pi x/lambda))
     period            L, W        of a row
@@ -48,7 +48,7 @@ All speak one notation:
     tension, K_I                  across cracks, and their stress intensity factor
     xx, yy, xy        s_ij        stress, tension positive: s_yy = -p, s_xy = -q on the surface
     side              ±           +1: the limit from y > 0; -1: from y < 0
-    lib                           numpy (arrays broadcast) or an mpmath context (scalars at its own precision)
+    lib                           numpy (arrays broadcast) or an mpmath context (scalars)
 
 Any consistent set of units will do: nothing depends on scale.
 

@@ -1,7 +1,9 @@
-"""Stress intensity factors of cracks in a row, which are to contacts what a tension is to a pressure.
+"""Stress intensity factors of cracks in a row, which are to contacts what a tension is to a
+pressure.
 
-Two collinear cracks a < |x| < b under a remote tension sigma (Willmore 1949; Tada, Paris & Irwin, The Stress Analysis of Cracks
-Handbook), with complete elliptic integrals of modulus k, k² = 1 - (a/b)², and D = (K - E)/k²:
+Two collinear cracks a < |x| < b under a remote tension sigma (Willmore 1949; Tada, Paris & Irwin,
+The Stress Analysis of Cracks Handbook), with complete elliptic integrals of modulus k, k² = 1 -
+(a/b)², and D = (K - E)/k²:
 
     K_I(b) = sigma sqrt(pi b) k D/K,      K_I(a) = sigma sqrt(pi b) sqrt(b/a) k (1 - D/K)
 
@@ -14,53 +16,44 @@ K_I = lim sqrt(2 pi r) sigma_yy(r), r the distance ahead of the tip.
 
 import numpy as np
 
-from analytic._agm import ratio_D
-from analytic._lib import Library, Number, as_result, everywhere, first_where, positive, real
+from analytic._core.documentation import TADA, documented
+from analytic._core.elliptic import ratio_D
+from analytic._core.numbers import Library, Number, as_result
+from analytic._core.parameters import patch_ends, positives, real, refuse
+
+SOURCES = (TADA,)
 
 
+@documented("the two stress intensity factors, stress times root of length", *SOURCES)
 def pair(
     *, inner: Number, outer: Number, tension: Number, lib: Library = np
 ) -> tuple[Number, Number]:
     """The factors (K_I at |x| = a, K_I at |x| = b) of the two collinear cracks a < |x| < b.
 
-    ValueError for input that has no meaning.
-
-    >>> tuple(round(float(K), 9) for K in pair(inner=1e9, outer=1e9 + 2.0, tension=1.0) / np.sqrt(np.pi))
+    >>> found = pair(inner=1e9, outer=1e9 + 2.0, tension=1.0) / np.sqrt(np.pi)
+    >>> tuple(round(float(K), 9) for K in found)
     (1.0, 1.0)
     """
-    a, b, sigma = (
-        positive("inner", inner, lib),
-        positive("outer", outer, lib),
-        real("tension", tension, lib),
-    )
-    if not everywhere(a < b):
-        near, far = first_where(np.logical_not(a < b) if lib is np else True, a, b)
-        raise ValueError(
-            f"outer = {far} is not more than inner = {near}; give inner < outer, the tips of one crack."
-        )
+    (a, b), sigma = patch_ends(inner, outer, lib), real("tension", tension, lib)
     k = lib.sqrt((b - a) / b) * lib.sqrt((b + a) / b)
     D_K, scale = ratio_D(lib, k, a / b), sigma * lib.sqrt(lib.pi * b) * k
     return as_result(scale * lib.sqrt(b / a) * (1 - D_K)), as_result(scale * D_K)
 
 
+@documented("the stress intensity factor, stress times root of length", *SOURCES)
 def row(*, half_length: Number, period: Number, tension: Number, lib: Library = np) -> Number:
-    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a, one in each period W > 2a.
-
-    ValueError for input that has no meaning.
+    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a, one in each
+    period W > 2a.
 
     >>> round(float(row(half_length=1.0, period=4.0, tension=1.0)), 12)
     2.0
     """
-    a, W, sigma = (
-        positive("half_length", half_length, lib),
-        positive("period", period, lib),
-        real("tension", tension, lib),
+    a, W = positives(lib, half_length=half_length, period=period)
+    sigma = real("tension", tension, lib)
+    message = (
+        "half_length = {} is not less than period/2 = {}; give cracks with bridges between them."
     )
-    if not everywhere(2 * a < W):
-        half, whole = first_where(np.logical_not(2 * a < W) if lib is np else True, a, W)
-        raise ValueError(
-            f"half_length = {half} is not less than period/2 = {whole / 2}; give cracks with bridges between them."
-        )
+    refuse(2 * a >= W, message, a, W / 2)
     angle = lib.pi * (a / W)
     return as_result(sigma * lib.sqrt(W) * lib.sqrt(lib.sin(angle) / _cosine(lib, a, W)))
 

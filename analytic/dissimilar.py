@@ -1,7 +1,10 @@
-"""Dissimilar bodies (beta != 0), where pressure and shear traction act on each other: one name for a family of modules.
+"""Dissimilar bodies (beta != 0), where pressure and shear traction act on each other: one name for
+a family of modules.
 
-    dissimilar.sliding_hertz, .sliding_flat, .sliding_rounded_flat     full sliding, q = f p; `coupling` = beta f, signed as the sliding
-    dissimilar.bonded_flat                                             full stick under P, Q and M; `dundurs` = beta
+    full sliding, q = f p, `coupling` = beta f, signed as the sliding:
+        dissimilar.sliding_hertz, .sliding_flat, .sliding_rounded_flat
+    full stick under P, Q and M, `dundurs` = beta:
+        dissimilar.bonded_flat
 
 >>> from analytic import dissimilar
 >>> x1, x2 = dissimilar.sliding_hertz.edges(half_width=1.0, coupling=0.0)

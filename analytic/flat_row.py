@@ -1,42 +1,33 @@
-"""A row of equal rigid flats, of half-width a, one in each period L, pressed on a half-plane at one height, without friction.
+"""A row of equal rigid flats, of half-width a, one in each period L, pressed on a half-plane at one
+height, without friction.
 
-With w = pi z/L and S = sin(pi a/L) (Westergaard 1939, whose row of cracks this is with the sign changed)
+With w = pi z/L and S = sin(pi a/L) (Westergaard 1939, whose row of cracks this is with the sign
+changed)
 
     p  = mean pressure cos(pi x/L)/sqrt(S² - sin²(pi x/L))
     Fp = mean pressure cot(w)/sqrt(1 - S²/sin²(w))
 
-Fp(z) = (1/L) ∫ p(t) cot(pi (z-t)/L) dt over one period is the potential: it sums 1/(pi (z-t)) over all flats. The load on
-each is L times the mean pressure. For L >> a this is a single flat.
+Fp(z) = (1/L) ∫ p(t) cot(pi (z-t)/L) dt over one period is the potential: it sums 1/(pi (z-t)) over
+all flats. The load on each is L times the mean pressure. For L >> a this is a single flat.
 """
-
-from functools import partial
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    first_where,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    scaled,
-    seen_from,
-    side_of_cut,
-)
-from analytic._period import cotangent, in_period, one_minus_square, sine
+from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import WESTERGAARD, documented
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled
+from analytic._core.parameters import point, positive, positives, real, refuse
+from analytic._core.periodic_sines import cotangent, in_period, one_minus_square, sine
+from analytic._core.piecewise import infinite, nothing, pick
+
+SOURCES = (WESTERGAARD,)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, period: Number, mean_pressure: Number, lib: Library = np
 ) -> Number:
     """The pressure p(x) under the flats, inf at their corners, and 0 between them.
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> round(float(pressure(8.0, half_width=1.0, period=4.0, mean_pressure=1.0)), 12)
     1.414213562373
@@ -45,43 +36,32 @@ def pressure(
     return as_result(p * _pressure(lib, abs(in_period(lib, real("x", x, lib), L)), a, L))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    period: Number,
-    mean_pressure: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
-    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the surface.
+) -> Number:  # fmt: skip
+    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the
+    surface.
 
-    Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i p, and -1 its conjugate.
-    Between the flats it is real, E*/2 times the slope of the surface. ValueError for input that has no meaning.
+    Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i
+    p, and -1 its conjugate. Between the flats it is real, E*/2 times the slope of the surface.
 
     >>> round(complex(potential(0.0, half_width=1.0, period=4.0, mean_pressure=1.0)).imag, 12)
     -1.414213562373
     """
-    z, side, (a, L, p) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, period, mean_pressure, lib),
-    )
+    z, (a, L, p) = point(z, lib), _contact(half_width, period, mean_pressure, lib)
     z = cartesian(in_period(lib, z.real, L), z.imag, lib)
-    value = pick(lib, on_cut(lib, z, a), partial(_potential_on_cut, side=side), _potential, z, a, L)
+    value = in_plane(lib, on_cut(lib, z, a), side, _potential_on_cut, _potential, z, a, L)
     return as_result(scaled(p, value, lib))
 
 
 def _contact(
     half_width: Number, period: Number, mean_pressure: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    a, L = positive("half_width", half_width, lib), positive("period", period, lib)
-    wide = 2 * a >= L
-    if np.any(wide):
-        half, whole = first_where(wide, a, L)
-        raise ValueError(
-            f"half_width = {half} is not less than period/2 = {whole / 2}; give flats with gaps between them."
-        )
+    a, L = positives(lib, half_width=half_width, period=period)
+    message = "half_width = {} is not less than period/2 = {}; give flats with gaps between them."
+    refuse(2 * a >= L, message, a, L / 2)
     return a, L, positive("mean_pressure", mean_pressure, lib)
 
 
@@ -97,15 +77,7 @@ def _pressure_inside(lib: Library, r: Number, a: Number, L: Number) -> Number:
 
 
 def _pressure_not_inside(lib: Library, r: Number, a: Number, L: Number) -> Number:
-    return pick(lib, r == a, _infinite, _nothing, r)
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
-
-
-def _nothing(lib: Library, r: Number) -> Number:
-    return 0 * r
+    return pick(lib, r == a, infinite, nothing, r)
 
 
 def _potential(lib: Library, z: Number, a: Number, L: Number) -> Number:

@@ -2,31 +2,22 @@
 
     p = E*/(2R) sqrt(b² - x²),      P = pi E* b²/(4R),      Fp = E*/(2R) (z - sqrt(z² - b²))
 
-(Johnson, Contact Mechanics, 1985, section 4.2(c)). Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure.
+(Johnson, Contact Mechanics, 1985, section 4.2(c)). Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential
+of the pressure.
 """
-
-from functools import partial
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    root,
-    scaled,
-    seen_from,
-    side_of_cut,
-    sign,
-)
+from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import JOHNSON, documented
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
+from analytic._core.parameters import point, positive, positives, real
+from analytic._core.piecewise import pick
+
+SOURCES = (f"{JOHNSON}, section 4.2(c)",)
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     """The undeformed gap h = x²/(2R).
 
@@ -37,6 +28,7 @@ def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     return as_result(x * (x / (2 * R)))
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:
     """The slope h' = x/R.
 
@@ -46,12 +38,11 @@ def slope(x: Number, *, radius: Number, lib: Library = np) -> Number:
     return as_result(real("x", x, lib) / positive("radius", radius, lib))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The contact pressure p = E*/(2R) sqrt(b² - x²), and 0 outside (Johnson 1985, eq. 4.44).
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
 
     >>> float(pressure(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     0.8
@@ -60,6 +51,7 @@ def pressure(
     return as_result(E / (2 * R) * _ellipse(lib, x, b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(*, half_width: Number, radius: Number, modulus: Number, lib: Library = np) -> Number:
     """The normal load P = pi E* b²/(4R) per unit length (Johnson 1985, eq. 4.43).
 
@@ -70,6 +62,7 @@ def load(*, half_width: Number, radius: Number, modulus: Number, lib: Library = 
     return as_result(lib.pi / 4 * E * (b / R) * b)
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
     *, normal_load: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -78,10 +71,11 @@ def half_width(
     >>> float(half_width(normal_load=np.pi, radius=1.0, modulus=1.0))
     2.0
     """
-    P, R, E = positive("normal_load", normal_load, lib), *_stiffness(radius, modulus, lib)
+    P, R, E = positives(lib, normal_load=normal_load, radius=radius, modulus=modulus)
     return as_result(2 * (lib.sqrt(P / E) * lib.sqrt(R)) / lib.sqrt(lib.pi))
 
 
+@documented("the largest pressure, a stress", *SOURCES)
 def peak_pressure(
     *, half_width: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -94,69 +88,52 @@ def peak_pressure(
     return as_result(E * (b / (2 * R)))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp = E* b/(2R) rho, rho = b/(z + sqrt(z² - b²)), complex; ~ P/(pi z) far away.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
-    -1 its conjugate. ValueError for input that has no meaning.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' - i p, and -1 its conjugate.
 
     >>> complex(potential(0.6, half_width=1.0, radius=1.0, modulus=2.0))
     (0.6-0.8j)
     """
-    z, side, (b, R, E) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, radius, modulus, lib),
-    )
-    value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b)
+    z, (b, R, E) = point(z, lib), _contact(half_width, radius, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _potential_on_cut, _potential, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
+@documented("the derivative Fp', a complex stress per length", *SOURCES)
 def potential_derivative(
-    z: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
-    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side +1.
+) -> Number:  # fmt: skip
+    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side
+    +1.
 
-    At |x| = b, where p' is infinite, so is the imaginary part. ValueError for input that has no meaning.
+    At |x| = b, where p' is infinite, so is the imaginary part.
 
     >>> complex(potential_derivative(0.8, half_width=1.0, radius=1.0, modulus=1.5).round(12))
     (0.75+1j)
     """
-    z, side, (b, R, E) = (
-        point(z, lib),
-        side_of_cut(side),
-        _contact(half_width, radius, modulus, lib),
-    )
-    value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b)
+    z, (b, R, E) = point(z, lib), _contact(half_width, radius, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _derivative_on_cut, _derivative, z, b)
     return as_result(scaled(E / (2 * R), value, lib))
 
 
 def _contact(
     half_width: Number, radius: Number, modulus: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    return positive("half_width", half_width, lib), *_stiffness(radius, modulus, lib)
-
-
-def _stiffness(radius: Number, modulus: Number, lib: Library) -> tuple[Number, Number]:
-    return positive("radius", radius, lib), positive("modulus", modulus, lib)
+    return positives(lib, half_width=half_width, radius=radius, modulus=modulus)
 
 
 def _ellipse(lib: Library, x: Number, b: Number) -> Number:
-    """sqrt(b² - x²), and 0 outside; the roots are taken one by one, lest the product of lengths overflow."""
+    """sqrt(b² - x²), and 0 outside; the roots are taken one by one, lest the product of lengths
+    overflow.
+    """
     inside = abs(x) < b
     return lib.sqrt((b - x) * inside) * lib.sqrt((b + x) * inside)
 

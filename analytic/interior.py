@@ -1,15 +1,19 @@
-"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear traction q = f p: closed forms.
+"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear traction q
+= f p: closed forms.
 
-With the potential F(z) = (1/pi) ∫ p(t)/(z-t) dt of the pressure, z = x + iy, all follows from F and F' (Muskhelishvili 1953, § 93;
-Hills, Nowell & Sackfield 1993, ch. 3; Ciavarella, Hills & Monno 1998, eq. (21), with the bar read as conj(Phi(conj z))):
+With the potential F(z) = (1/pi) ∫ p(t)/(z-t) dt of the pressure, z = x + iy, all follows from F and
+F' (Muskhelishvili 1953, § 93; Hills, Nowell & Sackfield 1993, ch. 3; Ciavarella, Hills & Monno
+1998, eq. (21), with the bar read as conj(Phi(conj z))):
 
     pressure     s_xx = Im F + y Re F'        s_yy = Im F - y Re F'      s_xy = -y Im F'
     shear q = p  s_xx = -2 Re F + y Im F'     s_yy = -y Im F'            s_xy = Im F + y Re F'
 
-The shear's s_xy is the pressure's s_xx, and its s_yy the pressure's s_xy, whatever the profile. On the surface s_yy = -p, s_xy = -q. The
-potentials are free of cancellation at every depth, far away too, and so are the stresses.
+The shear's s_xy is the pressure's s_xx, and its s_yy the pressure's s_xy, whatever the profile. On
+the surface s_yy = -p, s_xy = -q. The potentials are free of cancellation at every depth, far away
+too, and so are the stresses.
 
-McEwen's form (1949; Johnson 1985, eq. 4.49) of the line contact is there as printed, with its auxiliary lengths m and n.
+McEwen's form (1949; Johnson 1985, eq. 4.49) of the line contact is there as printed, with its
+auxiliary lengths m and n.
 """
 
 from typing import Any, NamedTuple
@@ -18,17 +22,14 @@ import numpy as np
 
 from analytic import hertz as _hertz
 from analytic import rounded_flat as _rounded_flat
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    everywhere,
-    first_where,
-    not_negative,
-    positive,
-    real,
-    root,
+from analytic._core.cut import root
+from analytic._core.documentation import HILLS, MUSKHELISHVILI, documented
+from analytic._core.numbers import Library, Number, as_result, cartesian
+from analytic._core.parameters import not_negative, positive, positives, real, refuse
+
+SOURCES = (
+    f"{MUSKHELISHVILI}, section 93",
+    f"{HILLS}, chapter 3",
 )
 
 
@@ -40,19 +41,15 @@ class Stresses(NamedTuple):
     xy: Number
 
 
+@documented("the components xx, yy and xy of the stress", *SOURCES)
 def hertz(
-    x: Number,
-    y: Number,
-    *,
-    half_width: Number,
-    radius: Number,
-    modulus: Number,
-    friction: Number = 0,
-    lib: Library = np,
-) -> Stresses:
-    """The stresses under a parabola, normal (friction = 0) or sliding, q = f p (Hills, Nowell & Sackfield 1993, § 3.4).
+    x: Number, y: Number, *, half_width: Number, radius: Number, modulus: Number,
+    friction: Number = 0, lib: Library = np,
+) -> Stresses:  # fmt: skip
+    """The stresses under a parabola, normal (friction = 0) or sliding, q = f p (Hills, Nowell &
+    Sackfield 1993, § 3.4).
 
-    `x`, `y` and the parameters broadcast. ValueError for y < 0 and input that has no meaning.
+    ValueError for y < 0.
 
     >>> [round(float(s), 12) + 0 for s in hertz(0.0, 1.0, half_width=1.0, radius=1.0, modulus=2.0)]
     [-0.12132034356, -0.707106781187, 0.0]
@@ -61,21 +58,16 @@ def hertz(
     return _stresses(_hertz, parameters, x, y, friction)
 
 
+@documented("the components xx, yy and xy of the stress", *SOURCES)
 def rounded_flat(
-    x: Number,
-    y: Number,
-    *,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    half_width: Number = None,
-    rim: Number = None,
-    friction: Number = 0,
-    lib: Library = np,
-) -> Stresses:
-    """The stresses under a flat with rounded edges, normal or sliding, from Fp and Fp' in closed form (see `rounded_flat`).
+    x: Number, y: Number, *, half_flat: Number, radius: Number, modulus: Number,
+    half_width: Number = None, rim: Number = None, friction: Number = 0, lib: Library = np,
+) -> Stresses:  # fmt: skip
+    """The stresses under a flat with rounded edges, normal or sliding, from Fp and Fp' in closed
+    form (see `rounded_flat`).
 
-    >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)]
+    >>> given = dict(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)
+    >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, **given)]
     [-0.339463081416, -0.139463081416, -0.069731540708]
     """
     parameters = {
@@ -89,20 +81,25 @@ def rounded_flat(
     return _stresses(_rounded_flat, parameters, x, y, friction)
 
 
+@documented("the components xx, yy and xy of the stress", *SOURCES)
 def mcewen(
     x: Number, y: Number, *, half_width: Number, peak_pressure: Number, lib: Library = np
 ) -> Stresses:
-    """The stresses under the frictionless line contact, as McEwen wrote them (1949; Johnson 1985, eq. 4.49):
+    """The stresses under the frictionless line contact, as McEwen wrote them (1949; Johnson 1985,
+    eq. 4.49):
 
-        s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ],   s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²)),   s_xy = -(p0/b) n (m²-y²)/(m²+n²)
+        s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ]
+        s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²))
+        s_xy = -(p0/b) n (m²-y²)/(m²+n²)
 
-    with n + im = sqrt(z² - b²), m > 0. At depth the terms of s_xx cancel like (y/b)²: for numbers use `hertz`. y > 0.
+    with n + im = sqrt(z² - b²), m > 0. At depth the terms of s_xx cancel like (y/b)²: for numbers
+    use `hertz`. y > 0.
 
     >>> [round(float(s), 12) + 0 for s in mcewen(0.0, 1.0, half_width=1.0, peak_pressure=1.0)]
     [-0.12132034356, -0.707106781187, 0.0]
     """
     x, y = real("x", x, lib), positive("y", y, lib)
-    b, p0 = positive("half_width", half_width, lib), positive("peak_pressure", peak_pressure, lib)
+    b, p0 = positives(lib, half_width=half_width, peak_pressure=peak_pressure)
     w = root(lib, cartesian(x, y, lib), b)
     n, m = w.real, w.imag
     share = (y * y + n * n) / (m * m + n * n)
@@ -115,20 +112,19 @@ def mcewen(
     )
 
 
+@documented("the components xx, yy and xy of the stress", *SOURCES)
 def chebyshev(
-    x: Number,
-    y: Number,
-    *,
-    coefficients: Number,
-    half_width: Number,
-    friction: Number = 0,
+    x: Number, y: Number, *, coefficients: Number, half_width: Number, friction: Number = 0,
     lib: Library = np,
-) -> Stresses:
-    """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs 22 and 23), y > 0:
+) -> Stresses:  # fmt: skip
+    """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs
+    22 and 23), y > 0:
 
-        F = sum_n b_n rho^(2n+1),      F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²),      rho = b/(z + sqrt(z² - b²))
+        F = sum_n b_n rho^(2n+1),      rho = b/(z + sqrt(z² - b²))
+        F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²)
 
-    exact for a finite sum. For the rounded flat b_n ~ n^-2: what is cut off falls like |rho|^(2N), fast at depth only.
+    exact for a finite sum. For the rounded flat b_n ~ n^-2: what is cut off falls like |rho|^(2N),
+    fast at depth only.
 
     >>> [round(float(s), 12) + 0 for s in chebyshev(0.0, 1.0, coefficients=[1.0], half_width=1.0)]
     [-0.12132034356, -0.707106781187, 0.0]
@@ -145,8 +141,10 @@ def chebyshev(
     return _combined(F * rho, -steep * rho / w, y, f)
 
 
+@documented("J2, a stress squared", *SOURCES)
 def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) -> Number:
-    """J2 of the deviator in plane strain, ((s_xx - s_yy)/2)² + s_xy² + (1-2nu)²/3 ((s_xx + s_yy)/2)².
+    """J2 of the deviator in plane strain, ((s_xx - s_yy)/2)² + s_xy² + (1-2nu)²/3 ((s_xx +
+    s_yy)/2)².
 
     >>> round(float(second_invariant(Stresses(-1.0, -1.0, 0.0), poisson=0.0)), 12)
     0.333333333333
@@ -156,10 +154,13 @@ def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) ->
     return as_result(half_difference**2 + stress.xy**2 + (1 - 2 * nu) ** 2 * half_sum**2 / 3)
 
 
+@documented("the load P/(bk), a number", *SOURCES)
 def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = np) -> Number:
-    """P/(bk) at which a sliding line contact yields on its surface, (pi/2)/sqrt(f² + (1-2nu)²(1+f²)/3), at x = b f/sqrt(1+f²).
+    """P/(bk) at which a sliding line contact yields on its surface, (pi/2)/sqrt(f² +
+    (1-2nu)²(1+f²)/3), at x = b f/sqrt(1+f²).
 
-    There J2 = p0² [f² + (1-2nu)²/3 (1+f²)] is the largest of the surface; for nu = 0.3 it is the largest of all from f = 0.27 or so.
+    There J2 = p0² [f² + (1-2nu)²/3 (1+f²)] is the largest of the surface; for nu = 0.3 it is the
+    largest of all from f = 0.27 or so.
 
     >>> round(float(hertz_limit_on_surface(friction=0.3, poisson=0.3)), 6)
     4.081253
@@ -171,7 +172,9 @@ def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = 
 def _stresses(
     indenter: Any, parameters: dict[str, Number], x: Number, y: Number, f: Number
 ) -> Stresses:
-    """From the potentials of a module of this package; on the surface without F', which is infinite at the edges."""
+    """From the potentials of a module of this package; on the surface without F', which is infinite
+    at the edges.
+    """
     lib = parameters["lib"]
     x, y, f = real("x", x, lib), _depth(y, lib), real("friction", f, lib)
 
@@ -209,8 +212,5 @@ def _combined(F: Number, dF: Number, y: Number, f: Number) -> Stresses:
 
 def _depth(y: Number, lib: Library) -> Number:
     number = real("y", y, lib)
-    if everywhere(number >= 0):
-        return number
-    raise ValueError(
-        f"y = {first_where(number < 0, number)[0]} is above the surface; give depths y >= 0."
-    )
+    refuse(number < 0, "y = {} is above the surface; give depths y >= 0.", number)
+    return number

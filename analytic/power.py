@@ -1,17 +1,21 @@
 """An indenter of power form pressed on a half-plane: h = C |x|^m, m >= 1.
 
-With W_m = ∫_0^(pi/2) sin^m and xi = |x|/b (Shtaerman 1949; Johnson, Contact Mechanics, 1985, section 5.3)
+With W_m = ∫_0^(pi/2) sin^m and xi = |x|/b (Shtaerman 1949; Johnson, Contact Mechanics, 1985,
+section 5.3)
 
-    P = E* C m b^m W_m,      p = (m P/(pi b)) J_m(xi),      J_m(xi) = ∫_xi^1 s^(m-1) / sqrt(s² - xi²) ds,
+    P = E* C m b^m W_m,      p = (m P/(pi b)) J_m(xi)
+    J_m(xi) = ∫_xi^1 s^(m-1) / sqrt(s² - xi²) ds,
 
-which superposes the pressures of rigid flats of half-width b s, 0 < s < 1. J is hypergeometric; three positive
-formulas give it to full relative accuracy for every m, from the centre to the edge:
+which superposes the pressures of rigid flats of half-width b s, 0 < s < 1. J is hypergeometric;
+three positive formulas give it to full relative accuracy for every m, from the centre to the edge:
 
     m > 3           (m-1) J_m = sqrt(1 - xi²) + (m-2) xi² J_(m-2), by parts
     xi² >= 1/2      J_m = k 2F1(1 - m/2, 1; 3/2; k²), k² = 1 - xi²
-    xi² < 1/2       J_m = (xi/e)^(m-1) J_m(e) + sum_k c_k xi^(2k) ∫_(xi/e)^1 s^(m-2-2k) ds, e² = 1/2, c_k = C(2k,k)/4^k
+    xi² < 1/2       J_m = (xi/e)^(m-1) J_m(e) + sum_k c_k xi^(2k) ∫_(xi/e)^1 s^(m-2-2k) ds,
+                    e² = 1/2, c_k = C(2k,k)/4^k
 
-(the last by the binomial series of (1 - xi²/s²)^(-1/2) where s > xi/e). m = 1 is the wedge, m = 2 the parabola.
+(the last by the binomial series of (1 - xi²/s²)^(-1/2) where s > xi/e). m = 1 is the wedge, m = 2
+the parabola.
 """
 
 import math
@@ -19,7 +23,15 @@ from functools import partial
 
 import numpy as np
 
-from analytic._lib import Library, Number, as_result, bits, fraction, pick, positive, real, sign
+from analytic._core.documentation import JOHNSON, documented
+from analytic._core.numbers import Library, Number, as_result, bits, fraction, sign
+from analytic._core.parameters import positive, positives, real
+from analytic._core.piecewise import nothing, pick
+
+SOURCES = (
+    "I. Ya. Shtaerman, Contact Problem of the Theory of Elasticity (1949)",
+    f"{JOHNSON}, section 5.3",
+)
 
 # xi² = e² at which the two series meet. Both gain one bit a term there.
 MATCH_SQUARE = 1 / 2
@@ -27,6 +39,7 @@ MATCH_SQUARE = 1 / 2
 LARGEST_EXPONENT = 1000
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
     """The undeformed gap h = C |x|^m.
 
@@ -37,6 +50,7 @@ def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = n
     return as_result(C * abs(real("x", x, lib)) ** m)
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np) -> Number:
     """The slope h' = m C sign(x) |x|^(m-1).
 
@@ -48,32 +62,24 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
     return as_result(sign(x) * m * C * abs(x) ** (m - 1))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
-    x: Number,
-    *,
-    half_width: Number,
-    exponent: Number,
-    coefficient: Number,
-    modulus: Number,
+    x: Number, *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
-    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x = 0.
-
-    `x` and the parameters broadcast, but the exponent is one number. ValueError for input that has no meaning.
+) -> Number:  # fmt: skip
+    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x
+    = 0.
 
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8
     """
-    x, b, E = (
-        abs(real("x", x, lib)),
-        positive("half_width", half_width, lib),
-        positive("modulus", modulus, lib),
-    )
+    x, (b, E) = abs(real("x", x, lib)), positives(lib, half_width=half_width, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     scale = E * m * m * (C * b ** (m - 1)) * _wallis(lib, m) / lib.pi
-    return as_result(scale * pick(lib, x < b, partial(_superposed, m), _nothing, x, b))
+    return as_result(scale * pick(lib, x < b, partial(_superposed, m), nothing, x, b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(
     *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number, lib: Library = np
 ) -> Number:
@@ -82,25 +88,22 @@ def load(
     >>> round(float(load(half_width=1.0, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)
     0.785398163397
     """
-    b, E = positive("half_width", half_width, lib), positive("modulus", modulus, lib)
+    b, E = positives(lib, half_width=half_width, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     return as_result(E * m * (C * b ** (m - 1)) * b * _wallis(lib, m))
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(
-    *,
-    normal_load: Number,
-    exponent: Number,
-    coefficient: Number,
-    modulus: Number,
+    *, normal_load: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The half-width b: the inverse of `load`.
 
     >>> round(float(half_width(normal_load=np.pi, exponent=2.0, coefficient=0.5, modulus=1.0)), 12)
     2.0
     """
-    P, E = positive("normal_load", normal_load, lib), positive("modulus", modulus, lib)
+    P, E = positives(lib, normal_load=normal_load, modulus=modulus)
     m, C = _shape(exponent, coefficient, lib)
     return as_result((P / E / C / (m * _wallis(lib, m))) ** (1 / m))
 
@@ -109,15 +112,18 @@ def _shape(exponent: Number, coefficient: Number, lib: Library) -> tuple[Number,
     m = real("exponent", exponent, lib)
     if np.ndim(m) > 0 or not 1 <= m <= LARGEST_EXPONENT:
         raise ValueError(
-            f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 the indenter is a "
-            "cusp pointing down, whose slope is infinite at its tip; each 2 above takes a step of a recurrence, "
-            "and several exponents take a call each."
+            f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 "
+            "the indenter is a cusp pointing down, whose slope is infinite at its tip; each 2 "
+            "above "
+            "takes a step of a recurrence, and several exponents take a call each."
         )
     return as_result(m), positive("coefficient", coefficient, lib)
 
 
 def _wallis(lib: Library, m: Number) -> Number:
-    """W_m = ∫_0^(pi/2) sin^m = (sqrt(pi)/2) Gamma((m+1)/2)/Gamma(m/2+1), by W_m = (m-1)/m W_(m-2) from 1 <= m <= 3."""
+    """W_m = ∫_0^(pi/2) sin^m = (sqrt(pi)/2) Gamma((m+1)/2)/Gamma(m/2+1), by W_m = (m-1)/m W_(m-2)
+    from 1 <= m <= 3.
+    """
     gamma = math.gamma if lib is np else lib.gamma
     steps = _steps(m)
     least = m - 2 * steps
@@ -131,10 +137,6 @@ def _steps(m: Number) -> int:
     """How many times 2 is taken from m to reach 1 <= m <= 3, where the formulas start."""
     steps: int = max(0, math.ceil((m - 3) / 2))
     return steps
-
-
-def _nothing(lib: Library, x: Number, b: Number) -> Number:
-    return 0 * x
 
 
 def _superposed(m: Number, lib: Library, x: Number, b: Number) -> Number:

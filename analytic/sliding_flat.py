@@ -1,4 +1,5 @@
-"""A rigid flat with sharp corners at x = ±b that slides over a dissimilar half-plane, upright or tilted: q = f p.
+"""A rigid flat with sharp corners at x = ±b that slides over a dissimilar half-plane, upright or
+tilted: q = f p.
 
 With tan(pi eps) = -beta f, Y = (z-b)^(-1/2-eps) (z+b)^(-1/2+eps) and a tilt h',
 
@@ -6,37 +7,35 @@ With tan(pi eps) = -beta f, Y = (z-b)^(-1/2-eps) (z+b)^(-1/2+eps) and a tilt h',
     Fp = E*/2 h' + (P/pi + A (z - 2 eps b)) Y(z)
     M  = 2 eps b P - pi E* b² (1 - 4 eps²) h'/4
 
-solve E*/2 h' = (1/pi) PV∫ p(t)/(x-t) dt - beta f p, M = ∫ p x dx (for h' = 0 Hills, Nowell & Sackfield, Mechanics of
-Elastic Contacts, 1993; Johnson 1985, section 2.8). Upright, the flat needs the moment 2 eps b P: friction
-moves the pressure. `coupling` is beta f, positive when the shear on the half-plane points to +x.
+solve E*/2 h' = (1/pi) PV∫ p(t)/(x-t) dt - beta f p, M = ∫ p x dx (for h' = 0 Hills, Nowell &
+Sackfield, Mechanics of Elastic Contacts, 1993; Johnson 1985, section 2.8). Upright, the flat needs
+the moment 2 eps b P: friction moves the pressure. `coupling` is beta f, positive when the shear on
+the half-plane points to +x.
 """
 
 import sys
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    first_where,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    seen_from,
-    side_of_cut,
-)
-from analytic._slant import cosine, singular, singular_remainder, sliding_exponent
+from analytic._core.cut import in_plane, on_cut, seen_from
+from analytic._core.documentation import HILLS, JOHNSON, documented
+from analytic._core.edge_exponents import cosine, singular, singular_remainder, sliding_exponent
+from analytic._core.numbers import Library, Number, as_result, cartesian, not_below_zero
+from analytic._core.parameters import point, positive, positives, real, refuse
+from analytic._core.piecewise import infinite, nothing, pick
 
-# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the limit.
+SOURCES = (
+    HILLS,
+    f"{JOHNSON}, section 2.8",
+)
+
+# A moment that passes the limit of lift-off by no more than its own rounding is taken to be at the
+# limit.
 ROUNDING = 8 * sys.float_info.epsilon
 
 
+@documented("the moment M, a force", *SOURCES)
 def upright_moment(
     *, half_width: Number, normal_load: Number, coupling: Number, lib: Library = np
 ) -> Number:
@@ -45,23 +44,19 @@ def upright_moment(
     >>> round(float(upright_moment(half_width=1.0, normal_load=2.0, coupling=-1.0)), 12)
     1.0
     """
-    b, P = positive("half_width", half_width, lib), positive("normal_load", normal_load, lib)
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
     return as_result(2 * sliding_exponent(lib, real("coupling", coupling, lib)) * b * P)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    coupling: Number,
-    moment: Number = None,
+    x: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
     lib: Library = np,
-) -> Number:
-    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f times this.
+) -> Number:  # fmt: skip
+    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f
+    times this.
 
-    Without a `moment` the flat is upright. `x` and the parameters broadcast. ValueError for input that has no meaning and
-    for moments that lift a corner off.
+    Without a `moment` the flat is upright. ValueError for moments that lift a corner off.
 
     >>> round(float(pressure(0.6, half_width=1.0, normal_load=np.pi, coupling=0.0)), 12)
     1.25
@@ -70,56 +65,42 @@ def pressure(
     return as_result(_pressure(lib, x, contact))
 
 
+@documented("the rotation h', in radians", *SOURCES)
 def tilt(
-    *,
-    half_width: Number,
-    normal_load: Number,
-    coupling: Number,
-    moment: Number,
-    modulus: Number,
+    *, half_width: Number, normal_load: Number, coupling: Number, moment: Number, modulus: Number,
     lib: Library = np,
-) -> Number:
-    """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the moment M.
+) -> Number:  # fmt: skip
+    """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the
+    moment M.
 
-    ValueError for input that has no meaning and for moments that lift a corner off.
+    ValueError for moments that lift a corner off.
 
-    >>> round(float(tilt(half_width=1.0, normal_load=np.pi, coupling=0.0, moment=np.pi / 4, modulus=1.0)), 12)
+    >>> found = tilt(half_width=1.0, normal_load=np.pi, coupling=0.0, moment=np.pi / 4, modulus=1.0)
+    >>> round(float(found), 12)
     -1.0
     """
     contact = _contact_of(half_width, normal_load, coupling, moment, lib)
     return as_result(-2 * contact.A / positive("modulus", modulus, lib))
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    coupling: Number,
-    moment: Number = None,
-    side: int = +1,
-    lib: Library = np,
-) -> Number:
-    """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away. That of the shear is f times this.
+    z: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
+    side: int = +1, lib: Library = np,
+) -> Number:  # fmt: skip
+    """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away. That of the shear is f
+    times this.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' + (beta f - i) p,
-    and -1 its conjugate. ValueError for input that has no meaning and for moments that lift a corner off.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' + (beta f - i) p, and -1 its conjugate. ValueError for moments that lift a corner off.
 
     >>> complex(potential(0.6, half_width=1.0, normal_load=np.pi, coupling=0.0)).imag
     -1.25
     """
-    z, side = point(z, lib), side_of_cut(side)
+    z = point(z, lib)
     contact = _contact_of(half_width, normal_load, coupling, moment, lib)
-    return as_result(
-        pick(
-            lib,
-            on_cut(lib, z, contact.b),
-            partial(_potential_on_cut, side=side),
-            _potential,
-            z,
-            contact,
-        )
-    )
+    cut = on_cut(lib, z, contact.b)
+    return as_result(in_plane(lib, cut, side, _potential_on_cut, _potential, z, contact))
 
 
 class _Contact(NamedTuple):
@@ -127,20 +108,15 @@ class _Contact(NamedTuple):
     k: Number  # beta f
     P: Number
     A: Number  # -E* h'/2
-    right: (
-        Number  # the shares of the corners: P/pi + A (x - 2 eps b) = right (b+x)/b + left (b-x)/b
-    )
-    left: Number
+    right: Number  # the shares of the corners: P/pi + A (x - 2 eps b)
+    left: Number  # = right (b+x)/b + left (b-x)/b
 
 
 def _contact_of(
     half_width: Number, normal_load: Number, coupling: Number, moment: Number, lib: Library
 ) -> _Contact:
-    b, P, k = (
-        positive("half_width", half_width, lib),
-        positive("normal_load", normal_load, lib),
-        real("coupling", coupling, lib),
-    )
+    b, P = positives(lib, half_width=half_width, normal_load=normal_load)
+    k = real("coupling", coupling, lib)
     eps = sliding_exponent(lib, k)
     tilting = (
         0 * eps
@@ -150,20 +126,14 @@ def _contact_of(
     right = (P / lib.pi + tilting * (1 - 2 * eps)) / 2
     left = (P / lib.pi - tilting * (1 + 2 * eps)) / 2
     _refuse_lifted(right, left, moment, P / lib.pi)
-    return _Contact(b, k, P, tilting / b, _not_below_zero(right), _not_below_zero(left))
+    return _Contact(b, k, P, tilting / b, not_below_zero(right), not_below_zero(left))
 
 
 def _refuse_lifted(right: Number, left: Number, moment: Number, scale: Number) -> None:
     lifted = (right < -ROUNDING * scale) | (left < -ROUNDING * scale)
-    if np.any(lifted):
-        (M,) = first_where(lifted, moment)
-        raise ValueError(
-            f"moment = {M} lifts one corner off; give one nearer to upright_moment(...)."
-        )
-
-
-def _not_below_zero(number: Number) -> Number:
-    return (number + abs(number)) / 2
+    refuse(
+        lifted, "moment = {} lifts one corner off; give one nearer to upright_moment(...).", moment
+    )
 
 
 def _pressure(lib: Library, x: Number, contact: _Contact) -> Number:
@@ -178,15 +148,7 @@ def _pressure_inside(lib: Library, x: Number, contact: _Contact) -> Number:
 
 def _pressure_not_inside(lib: Library, x: Number, contact: _Contact) -> Number:
     pressed = ((x == contact.b) & (contact.right > 0)) | ((x == -contact.b) & (contact.left > 0))
-    return pick(lib, pressed, _infinite, _nothing, x)
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
-
-
-def _nothing(lib: Library, x: Number) -> Number:
-    return 0 * x
+    return pick(lib, pressed, infinite, nothing, x)
 
 
 def _potential(lib: Library, z: Number, contact: _Contact) -> Number:

@@ -1,23 +1,27 @@
 """A flat with rounded edges that slides, upright, over a dissimilar half-plane: q = f p.
 
-h = 0 for |x| <= a and (|x| - a)²/(2R) beyond. With tan(pi eps) = -beta f the contact is [-a - d1, a + d2], of length
-L = 2a + d1 + d2, and with w(t) = (x2-t)^(1/2-eps) (t-x1)^(1/2+eps) the bounded solution of the equation of sliding,
+h = 0 for |x| <= a and (|x| - a)²/(2R) beyond. With tan(pi eps) = -beta f the contact is [-a - d1, a
++ d2], of length L = 2a + d1 + d2, and with w(t) = (x2-t)^(1/2-eps) (t-x1)^(1/2+eps) the bounded
+solution of the equation of sliding,
 
     E*/2 h'(x) = (1/pi) PV∫ p(t)/(x-t) dt - beta f p(x),
 
     p = cos²(pi eps) E*/(2 pi) w(x) PV∫ h'/(w(t) (t-x)) dt + sin(pi eps) cos(pi eps) E*/2 h'(x)
-    0 = ∫ h'/w dt,      P = cos(pi eps) E*/2 ∫ t h'/w dt,      M = cos(pi eps) E*/2 ∫ t² h'/w dt - P ((1/2-eps) x2 + (1/2+eps) x1)
+    0 = ∫ h'/w dt,      P = cos(pi eps) E*/2 ∫ t h'/w dt
+    M = cos(pi eps) E*/2 ∫ t² h'/w dt - P ((1/2-eps) x2 + (1/2+eps) x1)
 
-(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993, for the inversion.) The condition says how
-the load divides the rims. All the integrals are incomplete beta functions; with V = (x2-x)/(x-x1), V2 = (x2-a)/(a-x1),
-alpha = 1/2 + eps, and phi, A, B of `_betas` the rim on the right contributes to 2 pi R p/(E* cos²(pi eps))
+(Hills, Nowell & Sackfield, Mechanics of Elastic Contacts, 1993, for the inversion.) The condition
+says how the load divides the rims. All the integrals are incomplete beta functions; with V =
+(x2-x)/(x-x1), V2 = (x2-a)/(a-x1), alpha = 1/2 + eps, and phi, A, B of `_core.beta_functions` the
+rim on the right contributes to 2 pi R p/(E* cos²(pi eps))
 
     w V2^alpha/(alpha (1+V2)) [A + B(V2/V)]                                      for x <= a
-    w V2^alpha/alpha phi(-V2) + (x-a) (V/V2)^(1-alpha)/(1-alpha) phi(V/V2)       for x >= a, with 1 - alpha in this phi,
+    w V2^alpha/alpha phi(-V2) + (x-a) (V/V2)^(1-alpha)/(1-alpha) phi(V/V2)       for x >= a,
 
-and the rim on the left as in a mirror, with -eps. All terms are positive. Since the two edges depend on each other, the
-functions are given the load, which determines both. `coupling` is beta f, positive when the shear on the half-plane
-points to +x. Without it all this is the rounded flat.
+the last phi with 1 - alpha, and the rim on the left as in a mirror, with -eps. All terms are
+positive. Since the two edges depend on each other, the functions are given the load, which
+determines both. `coupling` is beta f, positive when the shear on the half-plane points to +x.
+Without it all this is the rounded flat.
 """
 
 from typing import NamedTuple
@@ -25,105 +29,88 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic import rounded_flat
-from analytic._betas import A, B, phi, rim_moment
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    bits,
-    first_where,
-    larger,
-    most,
-    not_negative,
-    pick,
-    positive,
-    real,
-)
-from analytic._slant import cosine, sliding_exponent
+from analytic._core.beta_functions import A, B, phi, rim_moment
+from analytic._core.documentation import HILLS, documented
+from analytic._core.edge_exponents import cosine, sliding_exponent
+from analytic._core.numbers import Library, Number, as_result, bits, larger, most
+from analytic._core.parameters import not_negative, positives, real, refuse
+from analytic._core.piecewise import nothing, pick
+
+SOURCES = (HILLS,)
 
 MOST_STEPS = 60
-# |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable time. beta is at most 1/2.
+# |beta f| up to which the series, in the part of the contact that one rim is, end in reasonable
+# time. beta is at most 1/2.
 MOST_COUPLING = 10
 
 
+@documented("the lengths (d1, d2)", *SOURCES)
 def rims(
-    *,
-    normal_load: Number,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    coupling: Number,
+    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
-) -> tuple[Number, Number]:
-    """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full relative accuracy.
+) -> tuple[Number, Number]:  # fmt: skip
+    """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full
+    relative accuracy.
 
-    Newton's method in the logarithms of the rims, from those without friction. ValueError for input that has no meaning.
+    Newton's method in the logarithms of the rims, from those without friction.
 
-    >>> tuple(round(float(d), 11) for d in rims(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0))
+    >>> found = rims(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...              coupling=0.0)
+    >>> tuple(round(float(d), 11) for d in found)
     (0.5, 0.5)
     """
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
     return as_result(contact.left), as_result(contact.right)
 
 
+@documented("the ends (x1, x2) of the contact, lengths", *SOURCES)
 def edges(
-    *,
-    normal_load: Number,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    coupling: Number,
+    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
-) -> tuple[Number, Number]:
+) -> tuple[Number, Number]:  # fmt: skip
     """The ends (x1, x2) = (-a - d1, a + d2) of the contact under the load P.
 
-    >>> tuple(round(float(x), 11) for x in edges(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0))
+    >>> found = edges(normal_load=0.307092424652, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...               coupling=0.0)
+    >>> tuple(round(float(x), 11) for x in found)
     (-1.0, 1.0)
     """
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
     return as_result(-contact.a - contact.left), as_result(contact.a + contact.right)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
-    x: Number,
-    *,
-    normal_load: Number,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    coupling: Number,
-    lib: Library = np,
-) -> Number:
+    x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
+    coupling: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The contact pressure p(x) under the load P, and 0 outside. The shear is f times this.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
-
-    >>> given = dict(normal_load=0.307092424652189, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
+    >>> given = dict(normal_load=0.307092424652189, half_flat=0.5, radius=1.0, modulus=1.0,
+    ...              coupling=0.0)
     >>> round(float(pressure(0.0, **given)), 12)
     0.123732974194
     """
-    x, E, R = real("x", x, lib), positive("modulus", modulus, lib), positive("radius", radius, lib)
+    x, (E, R) = real("x", x, lib), positives(lib, modulus=modulus, radius=radius)
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
     near, far = (contact.a - x) + contact.right, (contact.a + x) + contact.left
-    value = pick(lib, (near > 0) & (far > 0), _pressure_inside, _nothing, x, near, far, contact)
+    value = pick(lib, (near > 0) & (far > 0), _pressure_inside, nothing, x, near, far, contact)
     return as_result(E / R * value / (2 * lib.pi))
 
 
+@documented("the moment M, a force", *SOURCES)
 def moment(
-    *,
-    normal_load: Number,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    coupling: Number,
+    *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
-) -> Number:
-    """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays upright.
+) -> Number:  # fmt: skip
+    """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays
+    upright.
 
-    >>> round(float(moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)), 12) + 0.0
+    >>> found = moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
+    >>> round(float(found), 12) + 0.0
     0.0
     """
-    E, R = positive("modulus", modulus, lib), positive("radius", radius, lib)
+    E, R = positives(lib, modulus=modulus, radius=radius)
     contact = _contact_of(normal_load, half_flat, radius, modulus, coupling, lib=lib)
     return as_result(E / R * _moment(lib, contact) / 2)
 
@@ -147,21 +134,13 @@ class _Rim(NamedTuple):
 
 
 def _contact_of(
-    normal_load: Number,
-    half_flat: Number,
-    radius: Number,
-    modulus: Number,
-    coupling: Number,
-    *,
+    normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number, *,
     lib: Library,
-) -> _Contact:
-    P, a, k = (
-        positive("normal_load", normal_load, lib),
-        not_negative("half_flat", half_flat, lib),
-        real("coupling", coupling, lib),
-    )
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    _refuse_strong(k)
+) -> _Contact:  # fmt: skip
+    P, R, E = positives(lib, normal_load=normal_load, radius=radius, modulus=modulus)
+    a, k = not_negative("half_flat", half_flat, lib), real("coupling", coupling, lib)
+    message = "coupling = {} is beyond ±{}, where the series end too late; give a smaller |beta f|."
+    refuse(abs(k) > MOST_COUPLING, message, k, MOST_COUPLING)
     target = 2 * (P / E) * R / cosine(lib, k)
     start = rounded_flat.rim(normal_load=P, half_flat=a, radius=R, modulus=E, lib=lib) + 0 * k
     contact = _Contact(a, start, start, k)
@@ -173,15 +152,6 @@ def _contact_of(
         ):  # what is left is of the order of step²
             break
     return contact
-
-
-def _refuse_strong(k: Number) -> None:
-    strong = abs(k) > MOST_COUPLING
-    if np.any(strong):
-        (bad,) = first_where(strong, k)
-        raise ValueError(
-            f"coupling = {bad} is beyond ±{MOST_COUPLING}, where the series end too late; give a smaller |beta f|."
-        )
 
 
 def _newton_step(lib: Library, contact: _Contact, target: Number) -> tuple[Number, Number]:
@@ -232,10 +202,6 @@ def _moment(lib: Library, contact: _Contact) -> Number:
     return cosine(lib, k) * (
         2 * a * (on_right[1] - on_left[1]) + (on_right[2] - on_left[2]) - middle * load
     )
-
-
-def _nothing(lib: Library, x: Number, *_: Number) -> Number:
-    return 0 * x
 
 
 def _pressure_inside(

@@ -1,39 +1,35 @@
-"""Two equal parabolas with their apexes at x = ±d, made of one piece, pressed on a half-plane: h = (|x| - d)²/(2R).
+"""Two equal parabolas with their apexes at x = ±d, made of one piece, pressed on a half-plane: h =
+(|x| - d)²/(2R).
 
-The contact is c1 < |x| < c2. In x² the problem is that of one patch, and the two conditions at its edges turn out to be
-steps of the arithmetic-geometric mean of Gauss, a_(n+1) = (a_n + b_n)/2, b_(n+1)² = a_n b_n, c_(n+1) = (a_n - b_n)/2, from
-a_0 = c2, b_0 = c1:
+The contact is c1 < |x| < c2. In x² the problem is that of one patch, and the two conditions at its
+edges turn out to be steps of the arithmetic-geometric mean of Gauss, a_(n+1) = (a_n + b_n)/2,
+b_(n+1)² = a_n b_n, c_(n+1) = (a_n - b_n)/2, from a_0 = c2, b_0 = c1:
 
     d = agm(c2, c1),      P = (pi E*/(2R)) sum_n 2^(n-1) c_n²,  n >= 1
     p = (E* d/(3 pi R)) |x| sqrt((x² - c1²)(c2² - x²)) R_J(0, c1², c2², x²)
 
-with Carlson's elliptic integral of the third kind. The first term, c_1 = (c2 - c1)/2, is Hertz under P/2 on each parabola;
-the others are what each feels of its neighbour. The patches never merge: c1 > 0 under any load, for h has a ridge at
-x = 0. (For the equations behind: Gladwell, Contact Problems, 1980.)
+with Carlson's elliptic integral of the third kind. The first term, c_1 = (c2 - c1)/2, is Hertz
+under P/2 on each parabola; the others are what each feels of its neighbour. The patches never
+merge: c1 > 0 under any load, for h has a ridge at x = 0. (For the equations behind: Gladwell,
+Contact Problems, 1980.)
 """
 
 import numpy as np
 
-from analytic._agm import agm, means, ratio_D, third_kind
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    bits,
-    everywhere,
-    first_where,
-    most,
-    pick,
-    positive,
-    real,
-    sign,
-)
+from analytic._core.documentation import GLADWELL, documented
+from analytic._core.elliptic import agm, means, ratio_D, third_kind
+from analytic._core.numbers import Library, Number, as_result, bits, most, sign
+from analytic._core.parameters import patch_ends, positive, positives, real, refuse
+from analytic._core.piecewise import nothing, pick
+
+SOURCES = (GLADWELL,)
 
 MOST_STEPS = 60
 # ln(c2/c1) beyond which c1 is next to the least double.
 FARTHEST = 600
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> Number:
     """The undeformed gap h = (|x| - d)²/(2R).
 
@@ -44,6 +40,7 @@ def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) ->
     return as_result(off * (off / (2 * positive("radius", radius, lib))))
 
 
+@documented("the slope h', a number", *SOURCES)
 def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> Number:
     """The slope h' = sign(x) (|x| - d)/R.
 
@@ -56,47 +53,54 @@ def slope(x: Number, *, distance: Number, radius: Number, lib: Library = np) -> 
     )
 
 
+@documented("the distance d, a length", *SOURCES)
 def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
     """The distance d = agm(c2, c1) of the apexes from the middle, for patches c1 < |x| < c2.
 
     >>> round(float(distance(inner=1.0, outer=2.0)), 12)
     1.456791031047
     """
-    c1, c2 = _ends(inner, outer, lib)
+    c1, c2 = patch_ends(inner, outer, lib)
     return as_result(agm(lib, c2, c1))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(
     *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without any cancellation.
+    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without
+    any cancellation.
 
     >>> round(float(load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0) / np.pi), 12)
     0.126840027595
     """
-    c1, c2 = _ends(inner, outer, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
+    c1, c2 = patch_ends(inner, outer, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     half = (c2 - c1) / 2
     return as_result(lib.pi / 2 * E * (half / R) * half * _gain(lib, half / c2, c1 / c2))
 
 
+@documented("the edges (c1, c2) of the patch on x > 0, lengths", *SOURCES)
 def edges(
     *, normal_load: Number, distance: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> tuple[Number, Number]:
-    """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and `load`.
+    """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and
+    `load`.
 
-    Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1 - D/K), k² = 1 - (c1/c2)².
-    ValueError for input that has no meaning, and for loads beyond about 1e5 E* d²/R, at which c1 leaves the range of doubles.
+    Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1
+    - D/K), k² = 1 - (c1/c2)². ValueError for loads beyond about 1e5 E* d²/R, at which c1 leaves the
+    range of doubles.
 
     >>> P = load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0)
-    >>> tuple(round(float(c), 12) for c in edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0, modulus=1.0))
+    >>> found = edges(normal_load=P, distance=distance(inner=1.0, outer=2.0), radius=1.0,
+    ...               modulus=1.0)
+    >>> tuple(round(float(c), 12) for c in found)
     (1.0, 2.0)
     """
-    P, d = positive("normal_load", normal_load, lib), positive("distance", distance, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
-    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(
-        R
-    )  # the half-width of each without its neighbour
+    P, d = positives(lib, normal_load=normal_load, distance=distance)
+    R, E = positives(lib, radius=radius, modulus=modulus)
+    # The half-width of each without its neighbour
+    length = lib.sqrt(2 * (P / E) / lib.pi) * lib.sqrt(R)
     t = 2 * length / d
     for _ in range(MOST_STEPS):
         _refuse_far(t, length / d)
@@ -108,31 +112,20 @@ def edges(
     return as_result(c2 * lib.exp(-t)), as_result(c2)
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
     """The pressure p(x) on both patches c1 < |x| < c2, and 0 elsewhere.
 
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
-
     >>> round(float(pressure(1.5, inner=1.0, outer=2.0, radius=1.0, modulus=1.0)), 12)
     0.253652979653
     """
-    r, (c1, c2) = abs(real("x", x, lib)), _ends(inner, outer, lib)
-    R, E = positive("radius", radius, lib), positive("modulus", modulus, lib)
+    r, (c1, c2) = abs(real("x", x, lib)), patch_ends(inner, outer, lib)
+    R, E = positives(lib, radius=radius, modulus=modulus)
     return as_result(
-        E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, _nothing, r, c1, c2)
+        E / R / lib.pi * pick(lib, (r > c1) & (r < c2), _pressure_inside, nothing, r, c1, c2)
     )
-
-
-def _ends(inner: Number, outer: Number, lib: Library) -> tuple[Number, Number]:
-    c1, c2 = positive("inner", inner, lib), positive("outer", outer, lib)
-    if not everywhere(c1 < c2):
-        near, far = first_where(np.logical_not(c1 < c2) if lib is np else True, c1, c2)
-        raise ValueError(
-            f"outer = {far} is not more than inner = {near}; give inner < outer, the edges of one patch."
-        )
-    return c1, c2
 
 
 def _gain(lib: Library, c: Number, kc: Number) -> Number:
@@ -156,16 +149,9 @@ def _newton_step(lib: Library, t: Number, length: Number) -> Number:
 
 
 def _refuse_far(t: Number, length: Number) -> None:
-    if not everywhere(t < FARTHEST):
-        far = ~(t < FARTHEST) if isinstance(t, np.ndarray) else True
-        (ratio,) = first_where(far, length * length * np.pi / 2)
-        raise ValueError(
-            f"normal_load = {ratio} E* d²/R leaves c1/c2 < exp(-{FARTHEST}); give a smaller load."
-        )
-
-
-def _nothing(lib: Library, r: Number, *_: Number) -> Number:
-    return 0 * r
+    message = "normal_load = {} E* d²/R leaves c1/c2 < exp(-{}); give a smaller load."
+    far = np.logical_not(t < FARTHEST)  # a step out of the range of doubles leaves a nan
+    refuse(far, message, length * length * np.pi / 2, FARTHEST)
 
 
 def _pressure_inside(lib: Library, r: Number, c1: Number, c2: Number) -> Number:

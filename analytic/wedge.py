@@ -2,33 +2,24 @@
 
     p = (E* A/pi) arccosh(b/|x|),      P = E* A b,      Fp = (E* A/pi) arcsin(b/z)
 
-(Johnson, Contact Mechanics, 1985, section 5.2). The pressure is infinite, like a logarithm, at the apex.
-Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contact arcsin(b/x - i0) = sign(x) pi/2
-- i arccosh(b/|x|), so that Fp = E*/2 h' - i p, and far away Fp ~ E* A b/(pi z), which together determine it.
+(Johnson, Contact Mechanics, 1985, section 5.2). The pressure is infinite, like a logarithm, at the
+apex. Fp(z) = (1/pi) ∫ p(t)/(z-t) dt is the potential of the pressure: on the contact arcsin(b/x -
+i0) = sign(x) pi/2 - i arccosh(b/|x|), so that Fp = E*/2 h' - i p, and far away Fp ~ E* A b/(pi z),
+which together determine it.
 """
-
-from functools import partial
 
 import numpy as np
 
-from analytic._lib import (
-    Library,
-    Number,
-    as_result,
-    cartesian,
-    on_cut,
-    pick,
-    point,
-    positive,
-    real,
-    root,
-    scaled,
-    seen_from,
-    side_of_cut,
-    sign,
-)
+from analytic._core.cut import in_plane, on_cut, root, seen_from
+from analytic._core.documentation import JOHNSON, documented
+from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
+from analytic._core.parameters import point, positive, positives, real
+from analytic._core.piecewise import infinite, pick
+
+SOURCES = (f"{JOHNSON}, section 5.2",)
 
 
+@documented("the gap h, a length >= 0", *SOURCES)
 def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
     """The undeformed gap h = A |x|.
 
@@ -38,12 +29,12 @@ def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
     return as_result(positive("slope", slope, lib) * abs(real("x", x, lib)))
 
 
+@documented("the pressure p, a stress", *SOURCES)
 def pressure(
     x: Number, *, half_width: Number, slope: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985, section 5.2).
-
-    `x` and the parameters broadcast. ValueError for input that has no meaning.
+    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985,
+    section 5.2).
 
     >>> round(float(pressure(0.5, half_width=1.0, slope=0.1, modulus=10.0)), 12)
     0.419200718279
@@ -52,6 +43,7 @@ def pressure(
     return as_result(E * A / lib.pi * _arccosh(lib, abs(x), b))
 
 
+@documented("the normal load P per unit length, a force per length", *SOURCES)
 def load(*, half_width: Number, slope: Number, modulus: Number, lib: Library = np) -> Number:
     """The normal load P = E* A b per unit length.
 
@@ -62,82 +54,68 @@ def load(*, half_width: Number, slope: Number, modulus: Number, lib: Library = n
     return as_result(E * A * b)
 
 
+@documented("half the length of the contact, a length", *SOURCES)
 def half_width(*, normal_load: Number, slope: Number, modulus: Number, lib: Library = np) -> Number:
     """The half-width b = P/(E* A): the inverse of `load`.
 
     >>> float(half_width(normal_load=2.0, slope=0.1, modulus=10.0))
     2.0
     """
-    P, A, E = positive("normal_load", normal_load, lib), *_stiffness(slope, modulus, lib)
+    P, A, E = positives(lib, normal_load=normal_load, slope=slope, modulus=modulus)
     return as_result(P / E / A)
 
 
+@documented("the potential Fp, a complex stress", *SOURCES)
 def potential(
-    z: Number,
-    *,
-    half_width: Number,
-    slope: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The potential Fp = (E* A/pi) arcsin(b/z), complex; ~ P/(pi z) far away.
 
-    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0, E*/2 h' - i p, and
-    -1 its conjugate. At z = 0 the imaginary part is infinite. ValueError for input that has no meaning.
+    Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
+    E*/2 h' - i p, and -1 its conjugate. At z = 0 the imaginary part is infinite.
 
     >>> complex(potential(1.0, half_width=1.0, slope=0.1, modulus=10.0)).real
     0.5
     """
-    z, side, (b, A, E) = point(z, lib), side_of_cut(side), _contact(half_width, slope, modulus, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_potential_on_cut, side=side), _potential, z, b)
+    z, (b, A, E) = point(z, lib), _contact(half_width, slope, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _potential_on_cut, _potential, z, b)
     return as_result(scaled(E * A / lib.pi, value, lib))
 
 
+@documented("the derivative Fp', a complex stress per length", *SOURCES)
 def potential_derivative(
-    z: Number,
-    *,
-    half_width: Number,
-    slope: Number,
-    modulus: Number,
-    side: int = +1,
+    z: Number, *, half_width: Number, slope: Number, modulus: Number, side: int = +1,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The derivative Fp' = -(E* A/pi) b/(z sqrt(z² - b²)); on the contact - i p' on the side +1.
 
-    At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit from x > 0).
-    ValueError for input that has no meaning.
+    At |x| = b and x = 0, where p' is infinite, so is the imaginary part (at x = 0 it is the limit
+    from x > 0).
 
-    >>> round(complex(potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)).imag, 12)
+    >>> found = potential_derivative(0.6, half_width=1.0, slope=0.1, modulus=np.pi * 10.0)
+    >>> round(complex(found).imag, 12)
     2.083333333333
     """
-    z, side, (b, A, E) = point(z, lib), side_of_cut(side), _contact(half_width, slope, modulus, lib)
-    value = pick(lib, on_cut(lib, z, b), partial(_derivative_on_cut, side=side), _derivative, z, b)
+    z, (b, A, E) = point(z, lib), _contact(half_width, slope, modulus, lib)
+    value = in_plane(lib, on_cut(lib, z, b), side, _derivative_on_cut, _derivative, z, b)
     return as_result(scaled(E * (A / b) / lib.pi, value, lib))
 
 
 def _contact(
     half_width: Number, slope: Number, modulus: Number, lib: Library
 ) -> tuple[Number, Number, Number]:
-    return positive("half_width", half_width, lib), *_stiffness(slope, modulus, lib)
-
-
-def _stiffness(slope: Number, modulus: Number, lib: Library) -> tuple[Number, Number]:
-    return positive("slope", slope, lib), positive("modulus", modulus, lib)
+    return positives(lib, half_width=half_width, slope=slope, modulus=modulus)
 
 
 def _arccosh(lib: Library, x: Number, b: Number) -> Number:
     """arccosh(b/x) at x >= 0, inf at 0, and 0 beyond b."""
-    return pick(lib, x > 0, _arccosh_beside_apex, _infinite, x, b)
+    return pick(lib, x > 0, _arccosh_beside_apex, infinite, x, b)
 
 
 def _arccosh_beside_apex(lib: Library, x: Number, b: Number) -> Number:
     """By arccosh(1+2s²) = 2 arsinh(s), which keeps what b - x knows near the edge."""
     return 2 * lib.asinh(lib.sqrt((b - x) * (x < b)) / lib.sqrt(2 * x))
-
-
-def _infinite(lib: Library, *_: Number) -> Number:
-    return lib.inf
 
 
 def _potential(lib: Library, z: Number, b: Number) -> Number:

@@ -1,15 +1,17 @@
-"""Run times for development, off by default: pip install -e ".[bench]", then python -m pytest benchmarks --benchmark-group-by=func.
+"""Run times for development, off by default: pip install -e ".[bench]", then python -m pytest
+benchmarks --benchmark-group-by=func.
 
-What a change costs is seen by --benchmark-autosave before it and --benchmark-compare after it. Counts of solves and transforms, which do
-not depend on the machine, are asserted in tests/test_cost.py.
+What a change costs is seen by --benchmark-autosave before it and --benchmark-compare after it.
+Counts of solves and transforms, which do not depend on the machine, are asserted in
+tests/contact/test_cost.py.
 """
 
 import numpy as np
 import pytest
 
 import sie
-from validation.speed import closed_form
-from validation.timing import compared
+from validation.harness.timing import compared
+from validation.topics.speed import closed_form
 
 PROFILES = {
     "parabola": sie.Parabola(1.0),
@@ -114,6 +116,22 @@ def test_shear_of_a_thousand_remembered_turning_points(benchmark):
     path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / 1_000) * (-1.0) ** k])
     question = scene(PROFILES["rounded flat"], friction=0.5)
     benchmark(lambda: sie.follow(question, path)[-1].shear(X))
+
+
+def test_stick_zones_over_those_without_a_guess(benchmark, monkeypatch):
+    """What a guess from known stick zones saves (`sie.history.KnownZones`): `ratio` without it."""
+    k = np.arange(1_000)
+    path = sie.Path([(0.3, Q) for Q in 0.14 * (1.0 - k / 1_000) * (-1.0) ** k])
+    question = scene(PROFILES["rounded flat"], friction=0.5)
+    run = lambda: [point.stick for point in sie.follow(question, path)]  # noqa: E731
+
+    def without():
+        with monkeypatch.context() as patch:
+            patch.setattr(sie.history.KnownZones, "guess", lambda *_: None)
+            run()
+
+    benchmark.extra_info["ratio"] = compared(without, run)[1]
+    benchmark(run)
 
 
 def test_stress_on_a_grid(benchmark):

@@ -8,22 +8,24 @@ One notation for the whole package, its messages and its plots:
     p(x), q(x)  contact pressure, >= 0; shear traction, q > 0 pushes the half-plane in +x
     P, Q, M     ∫p dx, ∫q dx, ∫p x dx (about x = 0), per unit length
     E*, β       1/E* = (1-ν1²)/E1 + (1-ν2²)/E2; Dundurs' second constant
-    F(z)        1/π ∫ p(t)/(z - t) dt, the potential of a traction; Fp of the pressure, Fq of the shear
-    σ_xx, J2    stress, tension positive: σ_yy = -p, σ_xy = -q on the surface; second invariant of its deviator
+    F(z)        1/π ∫ p(t)/(z - t) dt, the Cauchy potential: Fp of the pressure, Fq of the shear
+    σ_xx, J2    stress, tension positive: σ_yy = -p, σ_xy = -q on the surface; second invariant
+                of its deviator
     k           yield stress in shear
 
     f, κ        Coulomb's coefficient of friction; q over p of a layer of the contact, |κ| <= f
     [c1, c2]    the stick zone; ρ its half-width; p̂ the corrective pressure there, q = ± f (p - p̂)
-    g(x), σ, τ  slip: displacement of the indenter relative to the body along +x; bulk stress, E*/2 times the strain it causes
+    g(x), σ, τ  relative slip of the indenter along +x; bulk stress, E*/2 times its strain
 
     (1)   E*/2 h'(x) = 1/π PV∫ p(ξ)/(x - ξ) dξ - β q(x)          in contact
-    (12)  E*/2 g'(x) = 1/π PV∫ q(ξ)/(x - ξ) dξ - τ               at β = 0; g = 0 where the bodies never slipped
+    (12)  E*/2 g'(x) = 1/π PV∫ q(ξ)/(x - ξ) dξ - τ               at β = 0; g = 0 in stick zones
 
 Units are free: any consistent set works, and nothing depends on scale.
 
 >>> import sie
 >>> punch = sie.RoundedFlat(half_flat=1.0, radius=50.0)
->>> solution = sie.solve(sie.Scene(profile=punch, body=sie.Elastic(young=210e3, poisson=0.3), normal_load=500.0))
+>>> steel = sie.Elastic(young=210e3, poisson=0.3)
+>>> solution = sie.solve(sie.Scene(profile=punch, body=steel, normal_load=500.0))
 >>> round(float(solution.pressure(0.0)), 3)
 131.935
 """
@@ -38,18 +40,11 @@ from .problem.load_path import Path
 from .problem.material import RIGID, Elastic
 from .problem.scene import Scene
 from .profiles.base import Profile
+from .profiles.from_function import FromFunction
+from .profiles.polynomials import Piecewise, Polynomial
 from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
-from .profiles.shapes import (
-    Flat,
-    FromFunction,
-    Parabola,
-    Piecewise,
-    Polynomial,
-    Power,
-    RoundedFlat,
-    Wedge,
-)
+from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
 from .stress.fretting import Cycle

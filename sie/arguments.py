@@ -1,4 +1,4 @@
-"""Refusals of values that mean nothing: one sentence with the value and the remedy, before any work is done."""
+"""Refusals of values that mean nothing: one sentence with the value and the remedy."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .numerics.interval import EPS
-
-# A load, a place x, the value there and the other side of the equation that checks it are rounded by EPS/2 each.
-FINEST = 2.0 * EPS
-# Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are such
-# products, loads and moments, may be larger, and so may coefficients of powers of a length.
+# A load, a place x, the value there and the other side of the equation that checks it are rounded
+# by eps/2 each.
+FINEST = 2.0 * float(np.finfo(float).eps)
+# Lengths, stresses and numbers: of larger ones the product of two is not a double. Those that are
+# such products, loads and moments, may be larger, and so may coefficients of powers of a length.
 LARGEST, LARGEST_LOAD, LARGEST_COEFFICIENT = 1e150, 1e250, 1e300
 REMEDY = "choose other units"
 
@@ -37,6 +36,7 @@ def real(name: str, value: Any) -> float:
 
 
 def finite(name: str, value: Any) -> float:
+    """`value` as a float; ValueError unless it is one finite number."""
     number = real(name, value)
     if math.isinf(number):
         raise ValueError(f"{name} = {number} is infinite: give a finite number")
@@ -48,23 +48,27 @@ def measure(name: str, value: Any, largest: float = LARGEST) -> float:
     number = finite(name, value)
     if abs(number) > largest:
         raise ValueError(
-            f"{name} = {number:g} is more than {largest:g} in size, where products leave the range of doubles: {REMEDY}"
+            f"{name} = {number:g} is more than {largest:g} in size, "
+            f"where products leave the range of doubles: {REMEDY}"
         )
     return number
 
 
 def positive(name: str, value: Any, largest: float = LARGEST) -> float:
+    """A number > 0 that may be multiplied with others and divided by."""
     number = measure(name, value, largest)
     if number <= 0.0:
         raise ValueError(f"{name} = {number:g} is not positive: give {name} > 0")
     if number < 1.0 / largest:
         raise ValueError(
-            f"{name} = {number:g} is less than {1.0 / largest:g}, where products leave the range of doubles: {REMEDY}"
+            f"{name} = {number:g} is less than {1.0 / largest:g}, "
+            f"where products leave the range of doubles: {REMEDY}"
         )
     return number
 
 
 def not_negative(name: str, value: Any) -> float:
+    """A finite number >= 0."""
     number = finite(name, value)
     if number < 0.0:
         raise ValueError(f"{name} = {number:g} is negative: give {name} >= 0")
@@ -97,7 +101,7 @@ def among(value: Any, choices: Collection[Any]) -> bool:
 
 
 def reals(name: str, values: Any) -> NDArray[np.float64]:
-    """`values` as an array of floats, infinite or nan where they are; ValueError unless they are real numbers."""
+    """`values` as an array of floats; ValueError unless they are real numbers, inf or nan."""
     array = _array(values)
     if array.dtype == np.float64:
         return array
@@ -112,7 +116,7 @@ def reals(name: str, values: Any) -> NDArray[np.float64]:
 
 
 def complexes(name: str, values: Any) -> NDArray[np.complex128]:
-    """`values` as an array of complex numbers, infinite or nan where they are; ValueError unless they are numbers."""
+    """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
     array = _array(values)
     try:
         if array.dtype.kind in "cfiu":
@@ -132,7 +136,7 @@ def _array(values: Any) -> NDArray[Any]:
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
-    """What a user's function returns; ValueError, with the remedy, if it fails as functions of single numbers do."""
+    """What a user's function returns. ValueError, with the remedy, if it fails on arrays."""
     try:
         return function(*arrays)
     except Exception as problem:  # whatever a user's function may raise
@@ -157,7 +161,8 @@ def real_values(
     if values.dtype.kind == "c":
         one = complex(values.flat[np.argmax(np.abs(values.imag))]) if values.size else 0j
         raise ValueError(
-            f"{name} returned complex numbers, like {one:.6g}: it must be real; return the real part if that is what is meant"
+            f"{name} returned complex numbers, like {one:.6g}: it must be real; "
+            "return the real part if that is what is meant"
         )
     if values.dtype.kind not in "fiu" or values.shape not in (x.shape, ()):
         kind = "one value" if values.shape == () else f"an array of shape {values.shape}"

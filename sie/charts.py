@@ -1,7 +1,7 @@
-"""The charts of Ciavarella, Hills & Monno (1998) as numbers: what their Figs 4 to 8 show of the punch with rounded edges.
+"""The charts of Ciavarella, Hills & Monno (1998) as numbers: Figs 4 to 8, of the rounded punch.
 
-All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only. Drawing is elsewhere
-(`python -m validation --only paper`).
+All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only.
+Drawing is elsewhere (`python -m validation --only paper`).
 """
 
 from __future__ import annotations
@@ -31,10 +31,14 @@ FRICTIONS = tuple(
 
 
 def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solution:
-    """The punch of a/b = ratio in full sliding, b = E* = R = 1 (a parabola for ratio 0). ValueError unless 0 <= ratio < 1."""
+    """The punch of a/b = ratio in full sliding, b = E* = R = 1 (a parabola for ratio 0).
+
+    ValueError unless 0 <= ratio < 1.
+    """
     if not 0.0 <= arguments.finite("ratio", ratio) < 1.0:
         raise ValueError(
-            f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged flat"
+            f"ratio = {ratio:g} is not in [0, 1): a/b is 0 for a parabola and 1 for a sharp-edged "
+            "flat"
         )
     profile = RoundedFlat(ratio, 1.0) if ratio else Parabola(1.0)
     return _sliding(
@@ -53,7 +57,10 @@ def yield_parameter(
 
 @dataclass(frozen=True)
 class ElasticLimits:
-    """P/(bk) at first yield and where, (ratios, frictions): Figs 5 (f = 0), 6 and 7. Of tied maxima x is that of the right one."""
+    """P/(bk) at first yield and where, (ratios, frictions): Figs 5 (f = 0), 6 and 7.
+
+    Of tied maxima x is that of the right one.
+    """
 
     ratios: tuple[float, ...]
     frictions: tuple[float, ...]
@@ -78,10 +85,12 @@ def elastic_limits(
 
 
 def surface_tension(ratio: float, stick: ArrayLike) -> Array:
-    """Largest surface tension over f p0, p0 = P/(πb), in partial slip with a stick zone of half-width c = stick (in units of b): Fig. 8.
+    """Largest surface tension over f p0, p0 = P/(πb), in partial slip with a stick zone of
+    half-width c = stick (in units of b): Fig. 8.
 
-    The shear is f (p_b - p_c), p_c the pressure of the same profile in a contact of half-width c (eq. (19)); where c <= a the punch slides.
-    At the trailing edge that is 2f [E*(b - a)/(2R) - F_c(b)].
+    The shear is f (p_b - p_c), p_c the pressure of the same profile in a contact of half-width c
+    (eq. (19)); where c <= a the punch slides. At the trailing edge that is 2f [E*(b - a)/(2R) -
+    F_c(b)].
     """
     whole = punch(ratio)
     scale = whole.normal_load / np.pi

@@ -1,8 +1,9 @@
-"""What the package says when a question has no answer.
+"""Refusals of questions that have no answer.
 
-A bad question (a negative radius, a load of nan) is a `ValueError`, raised where the value is built. A good question
-without an answer (a load that no single contact patch can carry) is a `ContactError`, raised by the stage that found out,
-with whatever was reached until then in its attributes. Messages are sentences: what, how much, what to do.
+A bad question (a negative radius, a load of nan) is a `ValueError`, raised where the value is
+built. A good question without an answer (a load that no single contact can carry) is a
+`ContactError`, raised by the stage that notices it. Messages are sentences: what, how much, what
+to do.
 """
 
 from __future__ import annotations
@@ -11,9 +12,29 @@ from typing import Any
 
 
 class ContactError(Exception):
-    """A well-posed contact question that has no answer within what the package covers.
+    """A well-posed contact problem has no answer within what the package covers.
 
-    `reached` holds what is known at that point (edges, the largest load, the place of the violation ...), by name.
+    Parameters
+    ----------
+    message : str
+        What, how much, and what to do.
+    **reached : Any
+        What is known when the problem is refused, by name.
+
+    Attributes
+    ----------
+    reached : dict
+        The same: edges, the largest load that can be carried, the place of a violation, ...
+
+    Examples
+    --------
+    >>> import sie
+    >>> wavy = sie.Polynomial((0.0, 0.0, -1.0, 0.0, 1.0))    # two lowest points
+    >>> try:
+    ...     sie.solve(sie.Scene(profile=wavy, modulus=1.0, normal_load=0.01)).edges
+    ... except sie.ContactError as error:
+    ...     print(type(error).__name__, error.reached)
+    LoadError {'load': 0.0}
     """
 
     def __init__(self, message: str, **reached: Any) -> None:
@@ -26,15 +47,56 @@ class ContactError(Exception):
 
 
 class LoadError(ContactError):
-    """The profile cannot carry the load (or moment) in one patch of contact."""
+    """The profile cannot carry the load or the moment in one contact.
+
+    Notes
+    -----
+    `reached["load"]` is the largest load that it carries, where that is known.
+
+    Examples
+    --------
+    >>> import sie
+    >>> sie.solve(sie.Scene(profile=sie.Wedge(0.1), modulus=1.0, normal_load=1.0, tilt=0.2)).edges
+    Traceback (most recent call last):
+    sie.errors.LoadError: the profile falls without bound to the left: no lowest point, ...
+    """
 
 
 class InequalityError(ContactError):
-    """A single patch would need tension inside the contact (p < 0) or overlap outside it (gap < 0)."""
+    """One contact would need tension inside it (p < 0) or overlap outside it (gap < 0).
+
+    Notes
+    -----
+    `reached` has the edges and the place x of the violation, and the intervals of it as `tension`
+    or `overlap`.
+
+    Examples
+    --------
+    >>> import sie
+    >>> hollow = sie.Flat(2.0) + sie.Polynomial((0.0, 0.0, -0.1))
+    >>> try:
+    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.3)).edges
+    ... except sie.InequalityError as error:
+    ...     print(error.reached["edges"])
+    (-2.0, 2.0)
+    """
 
 
 class ResolutionError(ContactError):
-    """A function does not settle to the tolerance: noise, a singularity, or a break that was not declared."""
+    """A function does not settle to the tolerance: noise, a singularity or an undeclared break.
+
+    Notes
+    -----
+    `reached["x"]` is near the place where the function still changes.
+
+    Examples
+    --------
+    >>> import sie
+    >>> noisy = sie.FromFunction("x + 1e-3*sin(1e9*x)")
+    >>> sie.solve(sie.Scene(profile=noisy, modulus=1.0, normal_load=1.0)).edges
+    Traceback (most recent call last):
+    sie.errors.ResolutionError: the slope does not settle: ...
+    """
 
 
 def _rebuilt(kind: type[ContactError], message: str, reached: dict[str, Any]) -> ContactError:

@@ -1,16 +1,20 @@
 """Slip over a load path: a lazy sequence of solutions, one for each turning point.
 
-The first point is answered like a scene: P alone, then Q and σ in proportion. From each point to the next all loads change in proportion to
-time. What is exact, and covered:
+The first point is answered like a scene: P alone, then Q and σ in proportion. From each point to
+the next all loads change in proportion to time. What is exact, and covered:
 
-    constant P, any Q                  every unloading, reloading and nested loop (`ladder`)
-    constant P, σ in proportion to Q   the same, as long as the zones of slip of the largest amplitude opened monotonically (`slip`);
-                                       P may change before
-    P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with |dQ/dP| on either side of f, or falls.
-                                       The contacts of one profile at one tilt are nested: a given moment would tilt it (but for moment
-                                       = 0 of a symmetric profile)
+    constant P, any Q                  every unloading, reloading and nested loop
+    constant P, σ in proportion to Q   the same where the slip zones of the largest amplitude
+                                       opened monotonically; P may change before
+    P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
+                                       |dQ/dP| on either side of f, or falls
 
-Everything else raises ContactError, which names the step and the reason. A path may begin unloaded, at (0, 0, 0).
+With σ = 0 the contacts of one profile at one tilt must be nested: a given moment would tilt it (but
+for moment = 0 of a symmetric profile). The layers that a step changes are in `friction.memory`,
+what a single step does to a contact is in `friction.partial_slip`.
+
+Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
+at (0, 0, 0).
 """
 
 from __future__ import annotations
@@ -26,14 +30,15 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact.normal import ECONOMY, Normal
+from .contact.pressure import Normal
 from .errors import ContactError, LoadError
-from .friction.dissipation import Growth
-from .friction.memory import Overwritten
+from .friction.dissipation import Dissipation, dissipated
+from .friction.memory import SlippedLayer, direction, turning_points
 from .friction.partial_slip import slip
-from .friction.states import OneWay, Slip, Step
+from .friction.states import OneSignedSlip, Slip, Step
 from .numerics.interval import EPS, Interval
-from .problem.load_path import Path, direction, states
+from .problem.load_path import Path
+from .problem.request import ECONOMY
 from .problem.scene import Scene, refuse_no_scene
 from .solution import Solution, solve
 from .traction.base import ZERO, Density
@@ -46,13 +51,41 @@ Array = NDArray[np.float64]
 def follow(
     scene: Scene, path: Path, tol: float = 1e-13, economy: Collection[str] = ECONOMY
 ) -> History:
-    """The solutions at the turning points of a path, as a lazy sequence: nothing is solved yet.
+    """The solutions at the turning points of a load path, as a lazy sequence.
 
-    The scene gives profile, bodies, friction and tilt; its loads are replaced by the path's. Raises ContactError where a step is not
-    covered, as soon as that shows: in the loads, or once the contact is known.
+    Parameters
+    ----------
+    scene : Scene
+        Profile, bodies, friction and tilt; its loads are replaced by those of the path.
+    path : Path
+        Turning points of the loads.
+    tol : float, optional
+        As in `solve`.
+    economy : collection of str, optional
+        As in `solve`.
 
+    Returns
+    -------
+    History
+        One solution for each turning point. Nothing is solved yet.
+
+    Raises
+    ------
+    ValueError
+        If `path` is no path, or the scene is one of full stick.
+    ContactError
+        Where a step is not covered, as soon as that shows: in the loads, or once the contact is
+        known.
+
+    References
+    ----------
+    Mindlin & Deresiewicz, J. Appl. Mech. 20 (1953) 327-344; Jäger, Arch. Appl. Mech. 68 (1998)
+    57-60.
+
+    Examples
+    --------
     >>> import sie
-    >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0, friction=0.5)
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0, friction=0.5)
     >>> loading, unloading = sie.follow(scene, sie.Path([(50.0, 20.0), (50.0, 0.0)]))
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
@@ -62,16 +95,34 @@ def follow(
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
         raise ValueError(
-            "a bonded contact never slips, and forgets its path: give a finite friction, or solve the last point as a scene"
+            "a bonded contact never slips, and forgets its path: give a finite friction, or solve "
+            "the last point as a scene"
         )
     return History(scene, path, tol, economy)
 
 
-# -- the sequence -------------------------------------------------------------------------------------------------------
+# -- the sequence ----------------------------------------------------------------------------------
 
 
 class History(Sequence[Solution]):
-    """The solutions at the turning points, each made when it is asked for; what they share is solved once."""
+    """The solutions at the turning points of a load path; `follow` makes it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Profile, bodies, friction and tilt.
+    path : Path
+        Turning points of the loads.
+    tol : float
+        As in `solve`.
+    economy : collection of str
+        As in `solve`.
+
+    Notes
+    -----
+    A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
+    asked for. What the points share is solved once. `history.path` is the path.
+    """
 
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
         first = next(P for P, _, _ in path.points if P > 0.0)
@@ -86,16 +137,16 @@ class History(Sequence[Solution]):
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self.unit = direction(path)
-        self.states = states(scene, path)
+        self.turning_points = turning_points(scene, path)
         self._plain: dict[float, Solution] = {}
-        self._virgin: dict[tuple[float, float], Slip] = {}
-        self._followed: dict[int, Followed] = {}
+        self._first_loadings: dict[tuple[float, float], Slip] = {}
+        self._points: dict[int, PathSolution] = {}
         self._energy: list[float] = []
         self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
-        self._seen: dict[float, Seen] = {}
+        self._known: dict[float, KnownZones] = {}
 
     def __len__(self) -> int:
-        return len(self.states)
+        return len(self.turning_points)
 
     @overload
     def __getitem__(self, index: int) -> Solution: ...
@@ -105,9 +156,9 @@ class History(Sequence[Solution]):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         k = range(len(self))[index]
-        if k not in self._followed:
-            self._followed[k] = Followed(self, k)
-        return self._followed[k]
+        if k not in self._points:
+            self._points[k] = PathSolution(self, k)
+        return self._points[k]
 
     def __iter__(self) -> Iterator[Solution]:
         return (self[k] for k in range(len(self)))
@@ -120,15 +171,15 @@ class History(Sequence[Solution]):
             self._plain[P] = Solution(replace(self.scene, normal_load=P), self.tol, self.economy)
         return self._plain[P]
 
-    def virgin(self, P: float, depth: float) -> Slip:
-        """What the loads depth × unit do to the contact under P that never slipped."""
+    def first_loading(self, P: float, depth: float) -> Slip:
+        """The state of the contact under P that never slipped, after the loads depth × unit."""
         key = (P, depth)
-        if key not in self._virgin:
+        if key not in self._first_loadings:
             plain, f = self.plain(P), self.scene.friction
             Q, sigma = depth * self.unit[0], depth * self.unit[1]
             if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
                 Q = math.copysign(f * P, Q)
-            near = self._seen.setdefault(P, Seen())
+            near = self._known.setdefault(P, KnownZones())
             step = Step(
                 plain.scene,
                 plain.as_one_patch,
@@ -137,16 +188,16 @@ class History(Sequence[Solution]):
                 sigma * self._tau,
                 self.tol,
                 self.economy,
-                near.contact(depth),
+                near.guess(depth),
             )
             found = slip(step)
-            if isinstance(found, OneWay):
+            if isinstance(found, OneSignedSlip):
                 near.add(depth, found.found.edges.contact)
-            self._virgin[key] = found
-        return self._virgin[key]
+            self._first_loadings[key] = found
+        return self._first_loadings[key]
 
     def energy(self, index: int) -> float:
-        """Lost from the beginning of the path."""
+        """The energy lost from the beginning of the path to a turning point."""
         known = len(self._energy)
         if index >= known:
             lost = self._step_energies(range(known, index + 1))
@@ -155,31 +206,33 @@ class History(Sequence[Solution]):
 
     def _step_energies(self, steps: range) -> list[float]:
         """Lost in the steps that end at these points."""
-        fronts = [(k, o) for k in steps for slip in self.states[k].slips for o in slip.layers]
+        fronts = [
+            (k, o) for k in steps for slip in self.turning_points[k].slips for o in slip.layers
+        ]
         lost = dict.fromkeys(steps, 0.0)
         if fronts:
             owners, layers = zip(*fronts, strict=True)
-            loads = [self.states[k].loads[0] for k in owners]
+            loads = [self.turning_points[k].loads[0] for k in owners]
             for k, o, heat in zip(owners, layers, self._heat(loads, layers), strict=True):
                 lost[k] += o.jump * heat
         return list(lost.values())
 
-    def _heat(self, loads: Sequence[float], layers: Sequence[Overwritten]) -> Iterable[float]:
+    def _heat(self, loads: Sequence[float], layers: Sequence[SlippedLayer]) -> Iterable[float]:
         """What each layer that was overwritten turned into heat, per jump."""
         if self.unit[1]:
             return [
                 self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
                 for P, o in zip(loads, layers, strict=True)
             ]
-        return self.growth.heat(loads, layers, self.scene.friction).tolist()
+        return self.dissipation.of_fronts(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
-        return self.virgin(P, depth).energy if depth else 0.0
+        return dissipated(self.first_loading(P, depth)) if depth else 0.0
 
     @cached_property
-    def growth(self) -> Growth:
-        """The contacts under all loads of the path."""
-        return Growth(
+    def dissipation(self) -> Dissipation:
+        """The heat of slip, and the contacts under all loads of the path."""
+        return Dissipation(
             self.scene,
             self.plain(max(P for P, _, _ in self.path.points)).as_one_patch,
             self.tol,
@@ -187,8 +240,10 @@ class History(Sequence[Solution]):
         )
 
 
-class Seen:
-    """Stick zones already found under one P, by depth: a cubic through the nearest four says where the next one is, about."""
+class KnownZones:
+    """Stick zones already found under one P, by depth: a cubic through the nearest four says where
+    the next one is, about.
+    """
 
     def __init__(self) -> None:
         self._depths: list[float] = []
@@ -199,7 +254,7 @@ class Seen:
         self._depths.insert(k, depth)
         self._contacts.insert(k, contact)
 
-    def contact(self, depth: float) -> Interval | None:
+    def guess(self, depth: float) -> Interval | None:
         if not self._depths:
             return None
         first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
@@ -218,7 +273,7 @@ class Seen:
         return base.moved(*moves[0])
 
 
-class Followed(Solution):
+class PathSolution(Solution):
     """The solution at one point of a path."""
 
     def __init__(self, history: History, index: int) -> None:
@@ -228,17 +283,17 @@ class Followed(Solution):
     @cached_property
     def scene(self) -> Scene:  # type: ignore[override]
         """The scene of the path with the loads of this point."""
-        P, Q, sigma = self.history.states[self.index].loads
+        P, Q, sigma = self.history.turning_points[self.index].loads
         plain = self.history.scene
         return replace(plain, normal_load=P, tangential_load=Q, bulk_stress=sigma) if P else plain
 
     @cached_property
     def normal(self) -> Normal:
-        return self.history.plain(self.history.states[self.index].loads[0]).as_one_patch
+        return self.history.plain(self.history.turning_points[self.index].loads[0]).as_one_patch
 
     @cached_property
     def pressure(self) -> SlopeDensity:
-        return self.history.plain(self.history.states[self.index].loads[0]).slope_density
+        return self.history.plain(self.history.turning_points[self.index].loads[0]).slope_density
 
     @property
     def sheared(self) -> bool:
@@ -247,11 +302,13 @@ class Followed(Solution):
 
     @cached_property
     def tangential(self) -> Slip:
-        return Track(self.history, self.index)
+        return PathSlip(self.history, self.index)
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The zones that stick at this point; found without the scene, which a cycle of many steps would spend its time on."""
+        """The zones that stick at this point; found without the scene, which a cycle of many steps
+        would spend its time on.
+        """
         return self.tangential.stick if self.sheared else ()
 
     @property
@@ -268,36 +325,41 @@ class Followed(Solution):
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
 
 
-# -- one point ----------------------------------------------------------------------------------------------------------
+# -- one point -------------------------------------------------------------------------------------
 
 
-class Track(Slip):
-    """Stick, slip and shear at a point of a path: Σ weight × virgin state over the corners of the ladder."""
+class PathSlip(Slip):
+    """Stick, slip and shear at a point of a path: Σ weight × first loading over the corners of the
+    memory.
+    """
 
     kind = "after a path"
 
     def __init__(self, history: History, index: int) -> None:
         self.history, self.index = history, index
-        self.state = history.states[index]
+        self.state = history.turning_points[index]
         self.P = self.state.loads[0]
         self.friction = history.scene.friction
         if history.unit[1]:
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
-        """One monotonic loading is what a scene asks, and is answered like one; a return from there depends on the way."""
-        depth, turned = self.state.ladder.deepest
-        if turned and not self.history.virgin(self.P, depth).advancing:
+        """One monotonic loading is what a scene asks, and is answered like one; a return from there
+        depends on the way.
+        """
+        depth, turned = self.state.memory.deepest
+        if turned and not self.history.first_loading(self.P, depth).advancing:
             Q, sigma = (depth * unit for unit in self.history.unit)
             raise ContactError(
-                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = {sigma:.6g}, zones of slip have "
+                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
+                f"{sigma:.6g}, zones of slip have "
                 "retreated on the way, and what they left depends on that way; lower Q or σ",
                 step=self.index,
             )
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
-        return not self.history.unit[1] or all(virgin.advancing for _, virgin in self._terms)
+        return not self.history.unit[1] or all(loading.advancing for _, loading in self._terms)
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
@@ -306,17 +368,17 @@ class Track(Slip):
     @property
     def _terms(self) -> list[tuple[float, Slip]]:
         return [
-            (weight, self.history.virgin(self.P, depth))
-            for depth, weight in self.state.ladder.corners
+            (weight, self.history.first_loading(self.P, depth))
+            for depth, weight in self.state.memory.corners
             if depth
         ]
 
     @property
     def _now(self) -> Slip | None:
-        """The virgin state as deep as the last step slipped."""
+        """The first loading as deep as the last step slipped."""
         return (
-            self.history.virgin(self.P, self.state.ladder.top.thickness)
-            if self.state.last and self.state.ladder.top
+            self.history.first_loading(self.P, self.state.memory.top.thickness)
+            if self.state.last and self.state.memory.top
             else None
         )
 
@@ -337,7 +399,7 @@ class Track(Slip):
 
     @property
     def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
-        """What slipped while P fell, until the edges had passed it: slip turned there, or stopped."""
+        """What slipped while P fell, and then left the contact: slip turned there, or stopped."""
         zones: list[tuple[float, float, float]] = []
         for gone in self.state.slips:
             if gone is not self.state.last:
@@ -345,7 +407,10 @@ class Track(Slip):
                     self.P - depth / self.friction
                     for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
                 )
-                outer, inner = (self.history.growth.contact(load).interval for load in (start, end))
+                outer, inner = (
+                    self.history.dissipation.contacts.contact(load).interval
+                    for load in (start, end)
+                )
                 zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
         return tuple(zones)
 
@@ -358,11 +423,11 @@ class Track(Slip):
 
     @property
     def levels(self) -> tuple[float, ...]:
-        return tuple(end for _, virgin in self._terms for zone_ in virgin.stick for end in zone_)
+        return tuple(end for _, loading in self._terms for zone_ in loading.stick for end in zone_)
 
     @property
     def condition(self) -> float:  # type: ignore[override]
-        return max((virgin.condition for _, virgin in self._terms), default=1.0)
+        return max((loading.condition for _, loading in self._terms), default=1.0)
 
     @cached_property
     def shear(self) -> Density:
@@ -373,25 +438,25 @@ class Track(Slip):
             return terms[0][1].shear
         full = 0.0
         rest: list[tuple[float, Density]] = []
-        for weight, virgin in terms:
+        for weight, loading in terms:
             if (
-                isinstance(virgin, OneWay) and virgin.thin is None
+                isinstance(loading, OneSignedSlip) and loading.short is None
             ):  # the pressure that all differences begin with is taken once
-                scale = weight * virgin.sign * virgin.friction
+                scale = weight * loading.sign * loading.friction
                 full += scale
-                rest.append((-scale, virgin.corrective))
+                rest.append((-scale, loading.corrective))
             else:
-                rest.append((weight, virgin.shear))
+                rest.append((weight, loading.shear))
         return superposed((full, self.history.plain(self.P).slope_density), *rest)
 
     def slip(self, x: Array) -> Array:
         """Since x came into contact."""
-        if all(state.loads[0] == self.P for state in self.history.states[: self.index + 1]):
+        if all(state.loads[0] == self.P for state in self.history.turning_points[: self.index + 1]):
             return sum(
-                (weight * virgin.slip(x) for weight, virgin in self._terms), np.zeros(x.shape)
+                (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
             )
         total, P0 = np.zeros(x.shape), 0.0
-        for index, state in enumerate(self.history.states[: self.index + 1]):
+        for index, state in enumerate(self.history.turning_points[: self.index + 1]):
             P = state.loads[0]
             if P == 0.0:
                 continue
@@ -414,7 +479,8 @@ class Track(Slip):
         new = self._touches(x, P) & ~self._touches(x, P0)
         if new.any():
             raise ContactError(
-                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it slips: how far it slipped since is not "
+                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it "
+                "slips: how far it slipped since is not "
                 f"covered; ask for points within the contact under P = {P0:.6g}",
                 step=index,
             )
@@ -422,32 +488,29 @@ class Track(Slip):
     def slip_now(self, x: Array) -> Array:
         return _step_slip(self.history, self.index, x)
 
-    @property
-    def energy(self) -> float:
-        return self.history.energy(self.index)
-
     @cached_property
     def shift(self) -> float:
-        past = self.history.states[: self.index + 1]
+        past = self.history.turning_points[: self.index + 1]
         loads = [
             (state.loads[0], before.loads[0])
             for before, state in pairwise((past[0], *past))
-            if state.ladder.top
+            if state.memory.top
         ]
         if any(P != self.P for pair in loads for P in pair):
             raise ContactError(
-                "the rigid-body shift is counted against a contact of constant width: P changed while it was sheared"
+                "the rigid-body shift is counted against a contact of constant width: P changed "
+                "while it was sheared"
             )
-        return sum(weight * virgin.shift for weight, virgin in self._terms)
+        return sum(weight * loading.shift for weight, loading in self._terms)
 
 
 def _step_slip(history: History, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
-    state = history.states[index]
+    state = history.turning_points[index]
     P, out = state.loads[0], np.zeros(x.shape)
     if state.last is not None:  # what slipped before that has left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
                 if depth > 0.0:
-                    out += sign * o.jump * state.last.sign * history.virgin(P, depth).slip(x)
+                    out += sign * o.jump * state.last.sign * history.first_loading(P, depth).slip(x)
     return out

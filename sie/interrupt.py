@@ -1,8 +1,9 @@
-"""Ctrl-C ends the command line quietly also while it is being imported, or ends: exit code 130, no traceback.
+"""Ctrl-C ends the command with exit code 130 and no traceback, also during import and exit.
 
 `main` handles an interruption while it runs. Before and after that, and only in a process that was
-started as `sie` or `python -m sie`, the handler of this module takes the place of Python's own; nothing
-is open then that has to be closed. Where `sie` is imported by a program of another name, nothing changes.
+started as `sie` or `python -m sie`, the handler of this module takes the place of Python's own;
+nothing is open then that has to be closed. Where `sie` is imported by a program of another name,
+nothing changes.
 """
 
 from __future__ import annotations

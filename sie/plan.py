@@ -1,18 +1,20 @@
-"""What will be computed for a scene, what is skipped, and why: known before anything is computed."""
+"""What will be computed for a scene, what is skipped, and why.
+
+All of it is known before anything is computed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from . import arguments
-from .contact.normal import ECONOMY, upright_law
-from .friction.partial_slip import sheared
+from .contact.pressure import upright_law
 from .patches.answer import asks_for_patches
+from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
-# What can be asked for, and the stages of `Solution` that answer it.
-WANTS: dict[str, tuple[str, ...]] = {
+# The stages of `Solution` that answer what is asked for.
+STAGES: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
@@ -23,8 +25,8 @@ WANTS: dict[str, tuple[str, ...]] = {
     "tension": ("normal", "pressure", "tangential", "tractions"),
 }
 
-# The same for a bonded punch, whose one equation answers pressure and shear alike.
-BONDED: dict[str, tuple[str, ...]] = {
+# The same for full stick, whose one equation answers pressure and shear alike.
+FULL_STICK: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal",),
@@ -34,21 +36,23 @@ BONDED: dict[str, tuple[str, ...]] = {
     "yield": ("normal", "pressure", "tractions"),
     "tension": ("normal", "pressure", "tractions"),
 }
-# What a solution is asked for by other names.
-ALSO = {
-    "half_width": "edges",
-    "centre": "edges",
-    "elastic_limit": "yield",
-    "peak_tension": "tension",
-}
-ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
-# What is answered where nothing is said: the contact. The stress is asked for by name, as it may need Poisson's ratio.
-UNASKED = ("edges", "pressure", "gap", "shear", "check")
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `stage` names the cached property of `Solution` it fills, "" for a decision inside a stage."""
+    """One step of a plan.
+
+    Parameters
+    ----------
+    name : str
+        What it does.
+    run : bool
+        Whether it is done.
+    reason : str
+        Why it is done or skipped.
+    stage : str
+        The stage of `Solution` that it fills, "" for a decision inside a stage.
+    """
 
     name: str
     run: bool
@@ -58,11 +62,19 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
+    """The work for a scene, step by step; printed as a table.
+
+    Parameters
+    ----------
+    steps : tuple of Step
+        The steps in the order of the work, those that are skipped included.
+    """
+
     steps: tuple[Step, ...]
 
     @property
     def stages(self) -> frozenset[str]:
-        """The stages that will run: the footprint of the solution."""
+        """The stages of the solution that will be filled, a frozenset of str."""
         return frozenset(s.stage for s in self.steps if s.run and s.stage)
 
     def __str__(self) -> str:
@@ -75,20 +87,43 @@ class Plan:
 def plan(
     scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY
 ) -> Plan:
-    """The steps for what is wanted (a name among WANTS: "edges", "pressure", "stress" ..., or the solution's own, "stick", "slip" ...).
+    """What will be computed for a scene, what is skipped, and why. Nothing is computed here.
 
-    A printable Plan. Computes nothing.
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    want : str or iterable of str, optional
+        What is asked for: "edges", "pressure", "gap", "shear", "check", "stress", "yield",
+        "tension", or attributes of the solution such as "stick", "slip" and "half_width".
+    economy : collection of str, optional
+        The savings that are allowed, as in `solve`.
+
+    Returns
+    -------
+    Plan
+        The steps in the order of the work.
+
+    Raises
+    ------
+    ValueError
+        If a name in `want` is not known.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0)
+    >>> sorted(sie.plan(scene, want="pressure").stages)
+    ['normal', 'pressure']
     """
     refuse_no_scene(scene)
     names = wanted(want)
-    needed = WANTS if sheared(scene, economy) or scene.epsilon else WANTS | {"shear": ("normal",)}
+    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
     stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
         return _of_bonded(scene, names)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
-    if not convex:
-        stages |= {"pressure", "inequalities"}
     steps = [
         _resolution(scene, economy),
         Step("edges", True, _edges(scene, economy), "normal"),
@@ -97,8 +132,10 @@ def plan(
         _tilt(scene),
     ]
     if "pressure" in stages:
-        why = "" if any("pressure" in needed[w] for w in names) else "needed for the inequalities: "
-        steps.append(Step("pressure", True, why + _pressure(scene, economy), "pressure"))
+        steps.append(Step("pressure", True, _pressure(scene, economy), "pressure"))
+    elif not convex:
+        why = f"needed for the inequalities: {_pressure(scene, economy)}"
+        steps.append(Step("pressure", True, why))
     else:
         steps.append(Step("pressure", False, "not asked for", "pressure"))
     if convex:
@@ -129,7 +166,7 @@ def plan(
 
 
 def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
-    stages = {stage for name in names for stage in BONDED[name]}
+    stages = {stage for name in names for stage in FULL_STICK[name]}
     how = (
         "-1/2: β = 0 leaves p and q uncoupled"
         if scene.beta == 0.0
@@ -163,18 +200,6 @@ def _certificate(stages: set[str]) -> Step:
         "residual, equilibrium and inequalities on other points" if asked else "not asked for",
         "certificate",
     )
-
-
-def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
-    remedy = f"a name; ask for {', '.join(WANTS)}"
-    asked = (want,) if isinstance(want, str) else arguments.listed("want", want, remedy)
-    for name in asked:
-        if not arguments.among(name, {*WANTS, *ALSO}):
-            raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
-    names = tuple(ALSO.get(name, name) for name in asked)
-    if not names:
-        raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
-    return names
 
 
 def _resolution(scene: Scene, economy: Collection[str]) -> Step:
@@ -259,7 +284,10 @@ def _coupling(scene: Scene) -> Step:
     if scene.beta == 0.0:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
     if scene.slides:
-        why = f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+        why = (
+            f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: "
+            f"edges with exponents 1/2 ± {abs(scene.epsilon):.3g}"
+        )
         return Step("coupling", True, f"{why}, panels with Lerch's function for the logarithm")
     return Step(
         "coupling", False, f"β = {scene.beta:.4g}, but f = 0: no shear acts back on the pressure"
@@ -292,7 +320,8 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     return Step(
         "slip",
         True,
-        "zones of stick and slip for Q and σ in proportion: one direction or two, by the inequalities",
+        "zones of stick and slip for Q and σ in proportion: one direction or two, by the "
+        "inequalities",
         "tangential",
     )
 

@@ -1,9 +1,11 @@
-"""The answer: a lazy view over the stages. Nothing is computed until it is asked for, and `vars(solution)` shows what was."""
+"""The solution of a scene: a lazy view over the stages of the work.
+
+Nothing is computed until it is asked for, and `vars(solution)` shows what was.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from contextlib import suppress
 from dataclasses import fields, replace
 from functools import cached_property
 from typing import Any, cast
@@ -13,29 +15,31 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .cauchy.density import JacobiDensity
-from .certificate.pressure_check import (
-    RETREAT,
-    Certificate,
-    certificate,
-    slope_rises,
-    verify_inequalities,
-)
+from .certificate.full_stick_check import full_stick_certificate
+from .certificate.pressure_check import certificate
+from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
-from .contact.normal import ECONOMY, Normal, normal_contact, pressure
+from .contact.inequalities import slope_rises, verify_inequalities
+from .contact.normal import normal_contact
+from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
-from .friction.full_stick import Component, bonded_certificate, bonded_contact
-from .friction.partial_slip import refuse_sliding, sheared, slip
+from .friction.dissipation import dissipated
+from .friction.full_stick import Component, full_stick_contact
+from .friction.load_limit import refuse_sliding
+from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.certificate import PatchCertificate, worst_of
+from .patches.density import PatchPressure
 from .patches.friction import PatchSlip
-from .patches.full import FullContact
+from .patches.full import FullContact, FullPressure
 from .problem.material import Elastic
+from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene
-from .profiles.sampled import explained, traces_in
+from .profiles.sampled import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
@@ -61,8 +65,6 @@ _NORMAL_FIELDS = frozenset(
         "bonded",
     }
 )
-# Fractions of a load that cannot be carried, at which a profile is looked at for a second patch of contact.
-LIGHTER = (0.1, 1e-3)
 _SHEAR_FIELDS = _NORMAL_FIELDS | {
     "friction",
     "tangential_load",
@@ -70,30 +72,40 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
     "bulk_stress",
     "dundurs",
 }
-# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their constants stay.
-NEGLECTED = "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions by a part of about β"
-_STAGES = dict.fromkeys(("normal", "pressure", "inequalities"), _NORMAL_FIELDS)
-_STAGES |= dict.fromkeys(("bonded", "tangential", "certificate"), _SHEAR_FIELDS)
+# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
+# constants stay.
+NEGLECTED = (
+    "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions "
+    "by a part of about β"
+)
+_STAGES = dict.fromkeys(
+    ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
+)
+_STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS)
 
 
 class Solution:
-    """What a scene answers; see `solve`. Lengths, stresses and loads in the scene's units.
+    """The solution of a contact problem; `solve` makes it.
 
-    edges        (x1, x2)              the outermost two
-    patches      the patches of contact, ascending;  patch_loads: ∫p over each
-                                       half_width, centre, normal_load, moment, tilt        floats
-    pressure     Density: pressure(x), .resultant, .moment, .cauchy(z, side), .hilbert(x)
-    shear        Density: the shear traction q;  stick: tuple of (lo, hi), () in full sliding;  slip(x), energy_lost, shift
-    gap(x)       the gap between the deformed bodies, 0 in contact
-    stress(x, y), surface_stress(x)             Stress in the body, y >= 0 the depth
-    elastic_limit(), peak_tension()             YieldPoint, Peak: where it yields first, and the largest tension of the surface
-    check()      Certificate
-    trace_reports()     a TraceReport for each measured trace, with the error that its noise implies
-    notes        sentences on what the equations leave out here: large slopes and pressures, zones
-                 of slip that would retreat
-    with_(...)   a new Solution of a changed scene, which keeps the stages that cannot have changed
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    tol : float, optional
+        Relative accuracy that is asked of the resolution of functions and of the certificate.
+    economy : collection of str, optional
+        The savings that are allowed, as in `solve`.
 
-    Asking raises ContactError where the scene has no answer that the package covers.
+    Raises
+    ------
+    ContactError
+        By any attribute, where the scene has no answer that the package covers.
+
+    Notes
+    -----
+    Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
+    contact. An attribute computes what it needs when it is read, and keeps it. This class is longer
+    than 200 lines because it holds every question that a user asks; the answers are elsewhere.
     """
 
     def __init__(
@@ -103,11 +115,11 @@ class Solution:
         self.tol = tol
         self.economy = frozenset(economy)
 
-    # -- stages -------------------------------------------------------------------------------------------------------
+    # -- stages ------------------------------------------------------------------------------------
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
-        """Edges, load, moment and tilt. A profile that may not be convex is verified at once, and so fills two more stages."""
+        """Edges, load, moment and tilt; verified where the profile may not be convex."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if asks_for_patches(self.scene.profile):
@@ -121,6 +133,12 @@ class Solution:
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
 
+    def one_patch(self) -> Normal:
+        """The contact if it is one patch. Raises ContactError if it is not."""
+        if not (self.scene.profile.convex and "convexity" in self.economy):
+            _ = self.inequalities
+        return self.unverified
+
     def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
         """Contact in several patches; `one_patch` is why it is not one."""
         try:
@@ -128,7 +146,6 @@ class Solution:
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
             raise explained(told, self.scene.profile) from None
-        self.__dict__["pressure"] = found.pressure
         self.__dict__["inequalities"] = True
         return found
 
@@ -153,66 +170,58 @@ class Solution:
         """The contact, if it is in several patches or per period."""
         return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
 
-    def one_patch(self) -> Normal:
-        """The contact if it is one patch. Raises ContactError if it is not."""
-        try:
-            found = normal_contact(self.scene, self.tol, self.economy)
-        except LoadError:
-            if not self._may_be_in_patches:
-                self._look_for_a_second_patch()
-            raise
-        if self._may_not_be_convex:
-            self.__dict__["pressure"] = self._verified(self.scene, found)
-            self.__dict__["inequalities"] = True
-        return found
+    @cached_property
+    def unverified(self) -> Normal:
+        """The contact that carries the load and the moment; bodies may overlap there, or pull."""
+        return normal_contact(self.scene, self.tol, self.economy)
 
     @cached_property
-    def bonded(self) -> tuple[Edges, JacobiDensity]:
-        """Of a bonded punch: its edges, and p + i q."""
-        return bonded_contact(self.scene, self.tol)
+    def density(self) -> SlopeDensity:
+        """The pressure of this contact."""
+        return pressure(self.unverified, self.scene, self.tol, self.economy)
 
-    @property
-    def normal_and_shear(self) -> JacobiDensity:
-        """p + i q of a bonded punch."""
-        _ = self.normal
-        return self.bonded[1]
-
-    @property
-    def _may_not_be_convex(self) -> bool:
-        return not (self.scene.profile.convex and "convexity" in self.economy)
-
-    def _verified(self, scene: Scene, found: Normal) -> SlopeDensity:
-        density = pressure(found, scene, self.tol, self.economy)
-        slope = found.slope(scene.profile)
+    @cached_property
+    def inequalities(self) -> bool:
+        """True where p >= 0 and gap >= 0; otherwise InequalityError is raised."""
+        found, density = self.unverified, self.density
+        slope = found.slope(self.scene.profile)
         rises = found.series is not None or slope_rises(density, slope)
         if not ("convexity" in self.economy and rises):
             verify_inequalities(density, slope)
-        return density
-
-    def _look_for_a_second_patch(self) -> None:
-        """Where no patch carries the load, a lighter load may show why: InequalityError if it does.
-
-        Of a trace the reason is known, and a rough one is expensive to search.
-        """
-        if (
-            not self._may_not_be_convex
-            or self.scene.normal_load is None
-            or any(traces_in(self.scene.profile))
-        ):
-            return
-        for fraction in LIGHTER:
-            scene = replace(self.scene, normal_load=fraction * self.scene.normal_load)
-            with suppress(LoadError):
-                self._verified(scene, normal_contact(scene, self.tol, self.economy))
+        return True
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component:
-        """The contact pressure p(x)."""
+    def bonded(self) -> tuple[Edges, JacobiDensity]:
+        """The edges of a flat punch in full stick, and p + i q."""
+        return full_stick_contact(self.scene, self.tol)
+
+    @property
+    def normal_and_shear(self) -> JacobiDensity:
+        """The traction p + i q in full stick."""
+        _ = self.normal
+        return self.bonded[1]
+
+    @cached_property
+    def pressure(self) -> SlopeDensity | Component | PatchPressure | FullPressure:
+        """The contact pressure p, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            `pressure(x)` gives its values, `.resultant` and `.moment` its load, `.cauchy(z)` its
+            Cauchy potential ∫p(t)/(t - z) dt up to a factor, and `.hilbert(x)` the principal value.
+
+        Raises
+        ------
+        InequalityError
+            If one patch of contact would need tension, or would overlap the body elsewhere.
+        LoadError
+            If the profile carries no such load in one patch.
+        """
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
-        _ = self.normal
-        verified: SlopeDensity | None = self.__dict__.get("pressure")
-        return verified or pressure(self.as_one_patch, self.scene, self.tol, self.economy)
+        found = self.normal
+        return self.density if isinstance(found, Normal) else found.pressure
 
     @property
     def _loads(self) -> tuple[float, float]:
@@ -220,12 +229,14 @@ class Solution:
 
     @property
     def sheared(self) -> bool:
-        """Whether there is friction, and a load that shears, and not pressure and shear are one problem."""
+        """Whether the shear is found after the pressure: partial slip, or similar bodies
+        sliding.
+        """
         return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
 
     @property
     def carries_shear(self) -> bool:
-        """Whether there is a shear traction: of partial slip, or of bodies that slide or are bonded with their pressure."""
+        """Whether there is a shear traction, of partial slip, sliding or full stick."""
         return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
 
     @cached_property
@@ -245,9 +256,15 @@ class Solution:
         )
 
     @cached_property
+    def dissipated(self) -> float:
+        """The energy that slip turned into heat."""
+        state = self.tangential
+        return state.energy if isinstance(state, PatchSlip) else dissipated(state)
+
+    @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
         if self.scene.bonded:
-            return bonded_certificate(
+            return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self._several is not None:
@@ -267,18 +284,24 @@ class Solution:
 
     @property
     def slope_density(self) -> SlopeDensity:
-        """The pressure where it is not that of a bonded punch."""
+        """The pressure, where it is not that of full stick."""
         return cast(SlopeDensity, self.pressure)
 
     @property
     def _slope(self) -> Slope:
         return self.normal.slope(self.scene.profile)
 
-    # -- answers ------------------------------------------------------------------------------------------------------
+    # -- answers -----------------------------------------------------------------------------------
 
     @property
     def edges(self) -> tuple[float, float]:
-        """(x1, x2), where contact begins and ends."""
+        """Where contact begins and ends, (x1, x2), lengths.
+
+        Returns
+        -------
+        tuple of float
+            The edges rounded to doubles. The solution itself keeps them more exactly.
+        """
         contact = self.normal.edges.contact
         return contact.x1, contact.x2
 
@@ -294,35 +317,51 @@ class Solution:
 
     @property
     def half_width(self) -> float:
+        """Half-width of the contact, length."""
         return self.normal.edges.contact.r
 
     @property
     def centre(self) -> float:
+        """Centre of the contact, length."""
         return self.normal.edges.contact.m
 
     @property
     def normal_load(self) -> float:
-        """P, force per length."""
+        """Normal load P, force per length."""
         return self.normal.edges.normal_load
 
     @property
     def moment(self) -> float:
-        """∫ p x dx about x = 0, force (per length times length)."""
+        """Moment of the pressure ∫p x dx about x = 0, force per length times length."""
         return self.normal.edges.moment
 
     @property
     def tilt(self) -> float:
-        """What was added to the slope of the profile."""
+        """Tilt of the indenter, the angle that is added to the slope of the profile."""
         return self.normal.edges.tilt
 
     @property
     def sharp(self) -> tuple[bool, bool]:
-        """Which edges are the indenter's own corners, where the pressure is square-root singular."""
+        """Which edges are corners of the indenter, (left, right).
+
+        Returns
+        -------
+        tuple of bool
+            True where the contact ends at an end of the profile's domain. The pressure is infinite
+            there.
+        """
         return self.normal.edges.sharp
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The stick zones as (lo, hi): the contact where no tangential load came, () in full sliding and without friction."""
+        """The stick zones, ((lo, hi), ...) in lengths.
+
+        Returns
+        -------
+        tuple of tuple of float
+            The whole contact where no tangential load was applied; () in full sliding and without
+            friction.
+        """
         if self.scene.epsilon:
             return ()
         if self.sheared:
@@ -331,7 +370,13 @@ class Solution:
 
     @property
     def shear(self) -> Density:
-        """The shear traction q(x), which acts on the body in +x."""
+        """The shear traction q, which acts on the body along +x, a `Density` in units of stress.
+
+        Returns
+        -------
+        Density
+            As for `pressure`; zero everywhere without friction.
+        """
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
@@ -340,7 +385,7 @@ class Solution:
 
     @property
     def tangential_load(self) -> float:
-        """Q, force per length."""
+        """Tangential load Q, force per length; ±f P in full sliding."""
         slides = self.scene.slides
         return (
             slides * self.scene.friction * self.normal_load
@@ -349,10 +394,35 @@ class Solution:
         )
 
     def slip(self, x: ArrayLike) -> Array:
-        """Tangential displacement of the indenter relative to the body, same shape as x: 0 in stick and outside the contact.
+        """Relative slip: the tangential displacement of the indenter relative to the body.
 
-        It has the sign of q. In full sliding: what it is when the last point lets go. ContactError for dissimilar bodies that slide:
-        that takes their partial slip before.
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        ndarray of float
+            Slip in units of length, same shape as x: 0 in stick zones and outside the contact, with
+            the sign of q elsewhere.
+
+        Raises
+        ------
+        ContactError
+            For dissimilar bodies that slide: their slip depends on the partial slip before.
+
+        Notes
+        -----
+        In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0,
+        ...                   friction=0.5, tangential_load=20.0)
+        >>> sie.solve(scene).slip([0.0, 1.0]).tolist()
+        [0.0, 0.0]
         """
         self._refuse_unknown_slip()
         slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
@@ -360,15 +430,43 @@ class Solution:
 
     @property
     def energy_lost(self) -> float:
-        """What friction turned into heat since the normal load was applied: force (per length of the line) times length."""
+        """Energy that friction turned into heat since the normal load was applied.
+
+        Returns
+        -------
+        float
+            ∫∫|q| |dslip| dx, force per length of the line times length.
+
+        Raises
+        ------
+        ContactError
+            As for `slip`.
+        """
         self._refuse_unknown_slip()
-        return self.tangential.energy if self.sheared else 0.0
+        return self.dissipated if self.sheared else 0.0
 
     @property
     def shift(self) -> float:
-        """How far slip lets the indenter move along x, beyond what the same loads would move it if nothing slipped.
+        """Rigid-body shift of the indenter along x that slip adds, length.
 
-        The rest, Q times a constant, depends on where one stands: plane elasticity leaves it undetermined (Johnson 1985, § 2.2).
+        Returns
+        -------
+        float
+            The shift beyond that of the same loads without slip.
+
+        Raises
+        ------
+        ContactError
+            As for `slip`.
+
+        Notes
+        -----
+        The shift without slip is Q times a constant that depends on the place of observation,
+        because plane elasticity leaves it undetermined.
+
+        References
+        ----------
+        Johnson, Contact Mechanics (1985), § 2.2.
         """
         self._refuse_unknown_slip()
         return self.tangential.shift if self.sheared else 0.0
@@ -376,19 +474,21 @@ class Solution:
     def _refuse_unknown_slip(self) -> None:
         if self.scene.epsilon:
             raise ContactError(
-                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is a matter of partial slip, "
+                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
+                "a matter of partial slip, "
                 "which is not covered for them yet: pressure, shear and stresses are"
             )
 
-    # -- in the body --------------------------------------------------------------------------------------------------
+    # -- in the body -------------------------------------------------------------------------------
 
     @cached_property
     def tractions(self) -> Tractions:
-        """What acts on the body (y > 0), and what it is made of: all that a stress depends on."""
+        """The tractions and the constants that the stress in the body depends on."""
         scene, body = self.scene, self.scene.body
         if body is not None and not isinstance(body, Elastic):
             raise ContactError(
-                "the body is rigid: its stress is not determined; give the elastic one as body and the rigid as indenter"
+                "the body is rigid: its stress is not determined; give the elastic one as body and "
+                "the rigid as indenter"
             )
         if body is None:
             return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
@@ -397,23 +497,95 @@ class Solution:
         )
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
-        """The stress at points (x, y) of the body, y >= 0 the depth: a `Stress`, whose values are arrays of the broadcast shape."""
+        """The stress at points of the body.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Positions and depths, y >= 0, length. They are broadcast against each other.
+
+        Returns
+        -------
+        Stress
+            Components, invariants and strains, arrays of the broadcast shape, computed as they are
+            read.
+
+        Raises
+        ------
+        ValueError
+            For points above the surface or not finite.
+        ContactError
+            If the body is rigid.
+        """
         return Stress(self.tractions, x, y)
 
     def surface_stress(self, x: ArrayLike) -> Stress:
-        """The stress on the surface, in the contact and beside it."""
+        """The stress on the surface, in the contact and beside it.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        Stress
+            As `stress(x, 0.0)`.
+        """
         return self.stress(x, 0.0)
 
     def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """Where the body yields first, and at which load, by criterion "mises" or "tresca"; see `YieldPoint`."""
+        """Where the body yields first, and at which load.
+
+        Parameters
+        ----------
+        criterion : {"mises", "tresca"}, optional
+            Yield criterion.
+
+        Returns
+        -------
+        YieldPoint
+            First-yield load, place and stress.
+
+        Raises
+        ------
+        ValueError
+            For an unknown criterion, or if Poisson's ratio is needed and not given.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=1.0)
+        >>> found = sie.solve(scene).elastic_limit()
+        >>> round(found.y / found.half_width, 2)
+        0.7
+        """
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:
-        """(value, x): the largest σ_xx on the surface, in the contact or beside it, and where."""
+        """The largest tension σ_xx on the surface.
+
+        Returns
+        -------
+        Peak
+            (value, x): stress, and the position where it is reached, in the contact or beside it.
+        """
         return peak_tension(self.tractions)
 
     def gap(self, x: ArrayLike) -> Array:
-        """The gap between the deformed bodies, same shape as x: 0 in contact, inf beyond the ends of the indenter."""
+        """The gap between the deformed bodies.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        ndarray of float
+            Gap in units of length, same shape as x: 0 in the contact, inf beyond the ends of the
+            indenter.
+        """
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
@@ -423,29 +595,50 @@ class Solution:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """`strain_notes` and `slip_notes`: sentences on what the equations leave out here."""
+        """Sentences on what the equations leave out for this scene.
+
+        Returns
+        -------
+        tuple of str
+            `strain_notes` and `slip_notes`; () where small strains and growing slip zones are
+            given.
+        """
         return *self.strain_notes, *self.slip_notes
 
     @property
     def slip_notes(self) -> tuple[str, ...]:
-        """A sentence on zones of slip that would retreat, so that the way to the loads matters."""
+        """A sentence on slip zones that would retreat on the way to the loads, or ()."""
         if not self.sheared or self.tangential.advancing:
             return ()
         return (f"note: slip is found in total displacements: {RETREAT}",)
 
     @property
     def strain_notes(self) -> tuple[str, ...]:
-        """Sentences on strains that are not small: a slope above 0.2, a pressure above E*/4."""
+        """Sentences on strains that are not small: a slope above 0.2, p above E*/4."""
         if self.scene.bonded or "certificate" in self.__dict__ or self._several is not None:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
     def check(self) -> Certificate | PatchCertificate:
-        """The certificate of this answer, measured on points that were not used to find it."""
+        """The certificate: how well this answer satisfies the equations.
+
+        Returns
+        -------
+        Certificate
+            Measured at points that were not used to find the answer; `.ok` sums it up.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+        >>> sie.solve(scene).check().ok
+        True
+        """
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
-        """The measured traces in the profile: what was done with them, and what their noise implies.
+        """The measured traces in the profile: what was done with them, and what their noise
+        implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate is another thing: it says how well the equations are solved for the spline
@@ -461,7 +654,31 @@ class Solution:
         return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
-        """The solution of the scene with these fields changed. normal_load and half_width replace each other, so do tilt and moment."""
+        """The solution of a changed scene, which keeps the stages that cannot have changed.
+
+        Parameters
+        ----------
+        **changes
+            Fields of `Scene` and their new values. `normal_load` and `half_width` replace each
+            other, and so do `tilt` and `moment`.
+
+        Returns
+        -------
+        Solution
+            A new solution; this one stays as it is.
+
+        Raises
+        ------
+        ValueError
+            For a name that is no field of a scene, or a scene that is no contact problem.
+
+        Examples
+        --------
+        >>> import sie
+        >>> light = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0))
+        >>> round(light.with_(normal_load=4.0).half_width / light.half_width, 12)
+        2.0
+        """
         for name in changes:
             if name not in _SCENE_FIELDS:
                 raise ValueError(
@@ -497,12 +714,32 @@ class Solution:
 def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) -> Solution:
     """The solution of a scene, as a lazy view: nothing is computed yet.
 
-    tol       relative accuracy asked of functions' resolution and of the certificate
-    economy   what may be skipped; () computes everything, with the same answer
+    Parameters
+    ----------
+    scene : Scene
+        The question.
+    tol : float, optional
+        Relative accuracy that is asked of the resolution of functions and of the certificate.
+    economy : collection of str, optional
+        What may be skipped; () computes everything, with the same answer.
 
+    Returns
+    -------
+    Solution
+        Its attributes compute what they need when they are read.
+
+    Raises
+    ------
+    ValueError
+        For a scene, tolerance or economy that is none.
+    ContactError
+        For loads that are not covered, as far as that shows without a solution.
+
+    Examples
+    --------
     >>> import sie
-    >>> solution = sie.solve(sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0))
-    >>> round(solution.half_width, 6)
+    >>> scene = sie.Scene(profile=sie.Parabola(radius=100.0), modulus=80e3, normal_load=50.0)
+    >>> round(sie.solve(scene).half_width, 6)
     0.282095
     """
     refuse_no_scene(scene)
@@ -521,12 +758,16 @@ def _refuse_uncovered(scene: Scene) -> None:
         refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
     if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
-            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) with friction is not covered yet: "
+            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
+            "with friction is not covered yet: "
             f"{NEGLECTED}; or set friction = 0"
         )
     if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
         raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick and slip in part at "
-            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is not covered yet; "
-            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the frictionless contact"
+            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick "
+            "and slip in part at "
+            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is "
+            "not covered yet; "
+            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the "
+            "frictionless contact"
         )

@@ -1,11 +1,15 @@
-"""Many scenes at once: one question over a grid of parameters, on one core or as many as an executor has.
+"""Many scenes at once: one question over a grid of parameters, on one core or as many as an
+executor has.
 
-    sweep(scene, over={"friction": f, "tilt": t}, want=["half_width", "elastic_limit"], executor=ProcessPoolExecutor())
+    sweep(scene, over={"friction": f, "tilt": t}, want=["half_width", "elastic_limit"],
+    executor=ProcessPoolExecutor())
 
-`over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is a function of the named parameters that
-returns a Scene. Points are taken in chunks of neighbours, last name fastest, so that what does not change between two of them (a normal
-problem under many tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
-`client.get_executor()`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer leaves nan and the sentence that says why.
+`over` names fields of the scene, or parameters of its profile as "profile.half_flat"; or `scene` is
+a function of the named parameters that returns a Scene. Points are taken in chunks of neighbours,
+last name fastest, so that what does not change between two of them (a normal problem under many
+tangential loads) is solved once. Any `concurrent.futures.Executor` will do: a process pool, Dask's
+`client.get_executor()`, `mpi4py.futures.MPIPoolExecutor()`. A scene without an answer leaves nan
+and the sentence that says why.
 """
 
 from __future__ import annotations
@@ -36,7 +40,8 @@ Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("
 Wanted = Callable[[Solution], Any]
 
 DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
-# A chunk is as long as this many would share the work evenly among themselves, in a pool whose size is not known.
+# A chunk is as long as this many would share the work evenly among themselves, in a pool whose size
+# is not known.
 CHUNKS, LONGEST_CHUNK = 64, 256
 PATIENCE = 1.0  # seconds of work before a progress bar appears
 REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in columns
@@ -80,7 +85,13 @@ PARTS = {
 
 
 class Interrupted(KeyboardInterrupt):
-    """A sweep that was interrupted; `result` is what it had found, the rest nan and "interrupted"."""
+    """A sweep that was interrupted from the keyboard.
+
+    Parameters
+    ----------
+    result : xarray.Dataset or dict
+        What the sweep had found; the other points are nan with the reason "interrupted".
+    """
 
     def __init__(self, result: Any) -> None:
         super().__init__("the sweep was interrupted: what it found is in the exception's `result`")
@@ -97,16 +108,45 @@ def sweep(
     chunk: int | None = None,
     progress: bool = True,
 ) -> Any:
-    """What is wanted of every scene of the grid: an xarray.Dataset where xarray is installed, otherwise a dict of NumPy arrays.
+    """What is wanted of every scene of a grid of parameters.
 
-    over       the values of each parameter, by name; the results have one dimension for each, in this order
-    want       names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an array or a dict of them
-    executor   where chunks run; None is here. For a process pool, functions must be importable (no lambdas)
-    chunk      points in a chunk; progress: a bar on standard error, if it is a terminal and the work takes more than a second
+    Parameters
+    ----------
+    scene : Scene or callable
+        A scene whose fields are changed, or a function of the named parameters that returns a
+        Scene.
+    over : mapping of str to sequence
+        The values of each parameter by name: fields of the scene, or "profile." and a parameter of
+        its profile. The results have one dimension for each, in this order.
+    want : str, iterable of str or mapping, optional
+        Names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an
+        array or a dict of them.
+    executor : concurrent.futures.Executor, optional
+        Where chunks run; None is here. For a process pool, functions must be importable (no
+        lambdas).
+    tol : float, optional
+        As in `solve`.
+    chunk : int, optional
+        Points in a chunk.
+    progress : bool, optional
+        Whether a bar is drawn on standard error, if that is a terminal and the work takes more than
+        a second.
 
-    Beside the values there is "reason", why a point has none. ValueError, before any work is done, for names that are not known.
-    `Interrupted`, with all that was found, in place of KeyboardInterrupt.
+    Returns
+    -------
+    xarray.Dataset or dict of ndarray
+        A Dataset where xarray is installed. Beside the values there is "reason", which says why a
+        point has none.
 
+    Raises
+    ------
+    ValueError
+        For names that are not known, before any work is done.
+    Interrupted
+        In place of KeyboardInterrupt, with all that was found.
+
+    Examples
+    --------
     >>> import sie
     >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
     >>> found = sie.sweep(scene, over={"normal_load": [0.25, 1.0]}, want="half_width")
@@ -131,7 +171,7 @@ def sweep(
     return _labelled(axes, wanted, run.answers())
 
 
-# -- the grid ----------------------------------------------------------------------------------------------------------
+# -- the grid --------------------------------------------------------------------------------------
 
 
 def _axes(
@@ -193,16 +233,18 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
     for name, quantity in pairs:
         if not callable(quantity) and not arguments.among(quantity, QUANTITIES):
             raise ValueError(
-                f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, or give a dict of functions of a solution'
+                f'want "{quantity}" is not known: choose among {", ".join(QUANTITIES)}, '
+                "or give a dict of functions of a solution"
             )
         if name == "reason":
             raise ValueError(
-                'want "reason" is what a sweep calls why a point has no answer: give the quantity another name'
+                'want "reason" is what a sweep calls why a point has no answer: '
+                "give the quantity another name"
             )
     return dict(pairs)
 
 
-# -- the work ----------------------------------------------------------------------------------------------------------
+# -- the work --------------------------------------------------------------------------------------
 
 
 class Work(NamedTuple):
@@ -275,7 +317,8 @@ def _answer_into(
         try:
             last = _solution(work.scene, point, work.tol, last)
             answers.append((_values(last, work.wanted), ""))
-        except Exception as problem:  # functions of a user raise what they like: one point must not cost the others
+        # functions of a user raise what they like: one point must not cost the others
+        except Exception as problem:
             answers.append(({}, _reason(problem)))
     return last
 
@@ -284,7 +327,8 @@ def _reason(problem: Exception) -> str:
     """The sentence that says why; of what is not ours, its kind too."""
     if isinstance(problem, BrokenExecutor):
         return (
-            "the process that computed this chunk died: its memory was exhausted, or a function that is "
+            "the process that computed this chunk died: its memory was exhausted, or a function "
+            "that is "
             "wanted crashed; ask for these points alone, or with a smaller chunk"
         )
     return (
@@ -328,7 +372,7 @@ def _floats(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")
 
 
-# -- the result --------------------------------------------------------------------------------------------------------
+# -- the result ------------------------------------------------------------------------------------
 
 
 def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:

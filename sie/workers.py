@@ -1,9 +1,9 @@
 """Tasks in an executor: each outcome as soon as it is there, whatever happens to a worker.
 
-A worker process that dies breaks its whole pool: every task that the pool still holds fails, further
-submissions fail too, and which task was the cause is not known. These tasks run again, each in a
-pool of one process; only a task whose own process dies then has no result. Executors of other kinds
-(threads, Dask, MPI) replace their workers themselves: what they report is the outcome.
+A worker process that dies breaks its whole pool: every task that the pool still holds fails,
+further submissions fail too, and which task was the cause is not known. These tasks run again, each
+in a pool of one process; only a task whose own process dies then has no result. Executors of other
+kinds (threads, Dask, MPI) replace their workers themselves: what they report is the outcome.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""How hard hypothesis tries: "default" in minutes for the whole of the tests, "deep" for a long run by hand.
+"""How hard hypothesis tries: "default" in minutes for the whole of the tests, "deep" for a long run
+by hand.
 
 HYPOTHESIS_PROFILE=deep pytest tests       or       pytest --hypothesis-profile=deep tests
 
-The examples are new in every run, in continuous integration too: what holds for the same examples only is no law. A failure prints
-what reproduces it (--hypothesis-seed, and a blob for its example).
+The examples are new in every run, in continuous integration too: what holds for the same examples
+only is no law. A failure prints what reproduces it (--hypothesis-seed, and a blob for its example).
 """
 
 import os

@@ -1,4 +1,6 @@
-"""What depends on what: imports point downward, solver and closed forms share nothing, heavy packages wait."""
+"""What depends on what: imports point downward, solver and closed forms share nothing, heavy
+packages wait.
+"""
 
 import ast
 import graphlib
@@ -10,13 +12,16 @@ from pathlib import Path
 import pytest
 
 import analytic
+import oracles
 import sie
 
+ORACLES = Path(oracles.__file__).parent
 HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).parent}
 
-# From the ground up: a folder or a module at the top imports only from its own row and from rows before it.
+# From the ground up: a folder or a module at the top imports only from its own row and from rows
+# before it.
 LAYERS = (
-    ("interrupt", "errors", "arguments", "workers"),
+    ("interrupt", "errors", "messages", "files", "streams", "arguments", "workers"),
     ("numerics",),
     ("profiles",),
     ("problem", "traction"),
@@ -30,7 +35,7 @@ LAYERS = (
     ("sweep", "charts"),
     ("io",),
     ("plots",),
-    ("cli", "__main__"),
+    ("command_parser", "cli", "__main__"),
 )
 
 
@@ -57,13 +62,28 @@ def test_the_solver_and_the_closed_forms_share_no_code(house, other):
             assert name.split(".")[0] != other, f"{path.name}:{line}"
 
 
+@pytest.mark.parametrize("path", sorted(ORACLES.glob("*.py")), ids=lambda path: path.stem)
+def test_a_reference_shares_no_code_with_what_is_measured_against_it(path):
+    for name, line in imported(path):
+        assert name.split(".")[0] not in {*HOUSES, "validation"}, f"{path.name}:{line}"
+
+
+@pytest.mark.parametrize("house", HOUSES)
+def test_what_is_installed_imports_neither_references_nor_validation(house):
+    for path in modules(house):
+        for name, line in imported(path):
+            assert name.split(".")[0] not in {"oracles", "validation"}, f"{path.name}:{line}"
+
+
 def parts(name):
     """The layer of a module of the solver, by its full name."""
     return name.split(".")[1] if "." in name else ""
 
 
 def dependencies():
-    """Every import in the solver: (importing module, imported name, line), both by their full names."""
+    """Every import in the solver: (importing module, imported name, line), both by their full
+    names.
+    """
     for path in modules("sie"):
         inside = path.relative_to(HOUSES["sie"].parent).with_suffix("").parts
         package = list(inside[:-1])
@@ -93,8 +113,32 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
     graph.prepare()
 
 
+def needed_by(module):
+    """The modules that a module imports, directly or by way of others."""
+    below = {}
+    for name, target, _ in dependencies():
+        below.setdefault(name, set()).add(target)
+    found, left = set(), [module]
+    while left:
+        new = below.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def test_reading_a_scene_file_imports_no_module_of_the_solver():
+    """The names of the imports are followed, as `import sie` itself loads the whole package."""
+    needed = needed_by("sie.io.scene_file")
+    assert "sie.problem.scene" in needed
+    solver = {"cauchy", "certificate", "contact", "friction", "plan", "solution", "stress"}
+    assert not {name for name in needed if parts(name) in solver}
+
+
 def loaded_after(statement):
-    code = f"import sys; {statement}; import json; print(json.dumps(sorted({{m.split('.')[0] for m in sys.modules}})))"
+    code = (
+        f"import sys; {statement}; import json; "
+        "print(json.dumps(sorted({m.split('.')[0] for m in sys.modules})))"
+    )
     return set(
         json.loads(
             subprocess.run(
@@ -109,7 +153,8 @@ def test_importing_the_solver_loads_neither_mpmath_nor_matplotlib_nor_scipy():
 
 
 def test_a_normal_contact_needs_numpy_only():
-    solve = "sie.solve(sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0)).check()"
+    scene = "sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0)"
+    solve = f"sie.solve({scene}).check()"
     assert not loaded_after(f"import sie; {solve}") & {"mpmath", "matplotlib", "scipy", "analytic"}
 
 

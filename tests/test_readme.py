@@ -1,10 +1,12 @@
-"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture and table are there."""
+"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture
+and table are there.
+"""
 
 import re
 import tomllib
 from pathlib import Path
 
-from sie.certificate.pressure_check import PROMISE
+from sie.certificate.result import PROMISE
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")

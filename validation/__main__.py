@@ -1,6 +1,8 @@
-"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with pictures and one JSON of every number.
+"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with
+pictures and one JSON of every number.
 
-The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails, or a check is blind.
+The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails,
+or a check is blind.
 """
 
 from __future__ import annotations
@@ -13,15 +15,15 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from sie.io.files import write_files
-
-from . import readme
-from .report import Section, machine, number, page
-from .running import run
+from sie.files import write_files
+from validation import readme
+from validation.harness.report import Section, machine, number, page
+from validation.harness.running import run
 
 # Modules of this package, in the order of the page.
 TOPICS = (
-    "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip", "sliding", "sampled", "growth",
+    "paper", "appendix", "pressure", "speed", "stress", "collocation", "work_precision", "slip",
+    "sliding", "sampled", "growth",
     "stability", "kinks", "certificate", "economy", "mutation",
 )  # fmt: skip
 NOT_WRITTEN = 2
@@ -60,7 +62,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error("the report's figures need Matplotlib: pip install -e '.[plot]'")
     if given.readme and not set(readme.TOPICS) <= set(names):
         parser.error(
-            f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without --only, or with both"
+            f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without "
+            f"--only, or with both"
         )
     if not writable(given.out):
         parser.error(f"--out {given.out} is no folder that can be written to: give another")
@@ -104,14 +107,17 @@ def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:
     failed = [(name, c) for name, c in claims if not c.ok]
     for s in sections:
         print(
-            f"{s.name:<16} {sum(c.ok for c in s.found.claims):3d} of {len(s.found.claims):3d} claims, {s.seconds:6.1f} s"
+            f"{s.name:<16} {sum(c.ok for c in s.found.claims):3d} of {len(s.found.claims):3d} "
+            f"claims, {s.seconds:6.1f} s"
         )
     for name, c in failed:
         print(
-            f"{c.verdict.upper()}: {name}: {c.what} (measured {number(c.measured)}, bar {c.bar}; {c.wrong}: {number(c.control)})"
+            f"{c.verdict.upper()}: {name}: {c.what} (measured {number(c.measured)}, bar {c.bar}; "
+            f"{c.wrong}: {number(c.control)})"
         )
     print(
-        f"{len(claims)} claims, {len(failed)} failed, {seconds:.0f} s: {out / 'report.html'}, {out / 'report.json'}"
+        f"{len(claims)} claims, {len(failed)} failed, {seconds:.0f} s: {out / 'report.html'}, "
+        f"{out / 'report.json'}"
     )
     return 1 if failed else 0
 

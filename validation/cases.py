@@ -1,4 +1,6 @@
-"""The contacts that are compared with the 40-digit reference: a profile of the package and, written apart, its slope for the reference."""
+"""The contacts that are compared with the 40-digit reference: a profile of the package and, written
+apart, its slope for the reference.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,16 +9,17 @@ from functools import cache
 import numpy as np
 
 import sie
-
-from . import reference
-from .reference import Pieces, mp, polynomials, smooth
+from oracles import normal_contact
+from oracles.normal_contact import Pieces, mp, polynomials, smooth
 
 INF = float("inf")
 
 
 @dataclass(frozen=True)
 class Case:
-    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` as the case is meant to end."""
+    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` as the
+    case is meant to end.
+    """
 
     name: str
     profile: sie.Profile
@@ -48,13 +51,14 @@ def solved(case: Case) -> sie.Solution:
 
 
 @cache
-def exact(case: Case) -> reference.Contact:
+def exact(case: Case) -> normal_contact.Contact:
     """The answer in 40 digits; the solver's edges are only where Newton starts."""
     pieces = case.pieces.tilted(case.tilt) if case.tilt else case.pieces
     if all(case.sharp):
-        return reference.sharp_contact(pieces, 1.0, case.load)
+        assert case.load is not None
+        return normal_contact.sharp_contact(pieces, 1.0, case.load)
     start = solved(case).edges
-    return reference.contact(
+    return normal_contact.contact(
         pieces,
         1.0,
         start,
@@ -91,8 +95,9 @@ def chain(seed: int, n: int) -> tuple[sie.Piecewise, Pieces]:
         rows.append((value - curvatures[k + 1] * b, curvatures[k + 1]))
         if k + 1 < len(breaks):
             value += curvatures[k + 1] * (breaks[k + 1] - b)
-    rows = [tuple(map(float, row)) for row in rows]
-    return sie.Piecewise([float(b) for b in breaks], rows), polynomials((-INF, *breaks, INF), rows)
+    pieces = [tuple(map(float, row)) for row in rows]
+    inner = breaks.tolist()
+    return sie.Piecewise(inner, pieces), polynomials((-INF, *inner, INF), pieces)
 
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
@@ -140,16 +145,20 @@ SMOOTH_CASES = (
 )
 SHARP_CASES = (
     Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, sharp=(True, True)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=0.125, sharp=(True, True)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=1.5, sharp=(True, False)),
-    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=-1.5, sharp=(False, True)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=0.125,
+         sharp=(True, True)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=1.5,
+         sharp=(True, False)),
+    Case("flat", sie.Flat(1.0), polynomials((-1.0, 1.0), ((0.0,),)), load=1.0, tilt=-1.5,
+         sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=5.0, sharp=(True, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=0.6, sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=0.1),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), width=0.625, sharp=(False, True)),
     Case("cut", CUT, smooth(mp.sinh, -1.0, 0.5), load=5.0, tilt=0.25, sharp=(True, True)),
     Case(
-        "cut chain", sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))), polynomials((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
+        "cut chain", sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
+        polynomials((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
         load=2.0, sharp=(True, True),
     ),
 )  # fmt: skip
@@ -167,7 +176,9 @@ def chosen(quick: bool) -> Iterator[Case]:
 
 
 def points(case: Case) -> np.ndarray:
-    """Off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges (nearer, p is rounding of the edge itself)."""
+    """Off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges
+    (nearer, p is rounding of the edge itself).
+    """
     solution = solved(case)
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     x = [m + r * s for s in (-0.999, -0.71, -0.29, 0.013, 0.21, 0.57, 0.91, 0.999)]

@@ -1,6 +1,8 @@
-"""The README's table of accuracy and speed, written by `python -m validation --readme` from the numbers of that run, never by hand.
+"""The README's table of accuracy and speed, written by `python -m validation --readme` from the
+numbers of that run, never by hand.
 
-What it was written from is kept in validation/readme.json, so that a test can tell whether the two have parted.
+What it was written from is kept in validation/readme.json, so that a test can tell whether the two
+have parted.
 """
 
 from __future__ import annotations
@@ -11,7 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from . import cases, pressure, speed
+from validation import cases
+from validation.topics import pressure, speed
 
 ROOT = Path(__file__).parent.parent
 README, KEPT = ROOT / "README.md", Path(__file__).parent / "readme.json"
@@ -26,7 +29,9 @@ TOPICS = ("pressure", "speed")  # that the table is made of
 
 
 def rows(report: Mapping[str, Any]) -> list[list[Any]]:
-    """From the JSON of a report: the cases that the README shows, the first of each kind; errors and counts, then times."""
+    """From the JSON of a report: the cases that the README shows, the first of each kind; errors
+    and counts, then times.
+    """
     errors, times = (
         first_of_each_kind(report, *of)
         for of in zip(TOPICS, (pressure.TABLE, speed.TABLE), strict=True)
@@ -39,7 +44,8 @@ def first_of_each_kind(report: Mapping[str, Any], name: str, title: str) -> dict
     topic = report["topics"].get(name)
     if topic is None:
         raise ValueError(
-            f"the report has no topic `{name}`, of which the README's table is made: run it without --only, or with it"
+            f"the report has no topic `{name}`, of which the README's table is made: run it "
+            f"without --only, or with it"
         )
     table = next(r for r in topic if r["kind"] == "table" and r["title"] == title)
     first: dict[str, list[Any]] = {}

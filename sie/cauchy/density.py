@@ -1,9 +1,10 @@
-"""The density that solves a Cauchy equation: on each interval a Jacobi series times its weight, exact everywhere in the plane.
+"""The density that solves a Cauchy equation, a Jacobi series times its weight on each interval.
 
-    φ(x) ρ(x) = w(s) Σ c_n p_n(s),        x(s) affine or graded, ρ = dx/ds or what serves better next to a gap (`grading`)
+    φ(x) ρ(x) = w(s) Σ c_n p_n(s),        x(s) affine or graded, ρ = dx/ds or another factor
 
-On a graded interval the Cauchy kernel is that of s plus a smooth one; where z comes near, the first is a closed form and the second
-plain Gauss quadrature, and further out all is Gauss quadrature.
+(`interval_map`). It is exact everywhere in the plane. On a graded interval the Cauchy kernel is
+that of s plus a smooth one: where z is near, the first has a closed form and the second is
+integrated by plain Gauss quadrature; further out all is.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ Array = NDArray[Any]
 
 # Points of the plane evaluated at once: nodes times points are held.
 CHUNK = 4096
-# Imaginary part of v (`grading`) from which plain quadrature serves: the kernel's other poles are then as far from the near region.
+# Imaginary part of v (`interval_map`) from which plain quadrature serves: the kernel's other poles
+# are then as far from the near region.
 HALFWAY = 0.5 * math.pi
 
 
@@ -46,10 +48,12 @@ class Part:
         """With these errors of the coefficients (and maybe of others, dropped since) on top."""
         return replace(self, errors=np.hypot(self.errors, errors[: len(self.coefficients)]))
 
-    # -- value --------------------------------------------------------------------------------------------------------
+    # -- value -------------------------------------------------------------------------------------
 
     def value(self, to_right: Array, to_left: Array) -> Array:
-        """φ at points inside, by their distances from the ends; infinite at a singular end, with the sign of its coefficient."""
+        """φ at points inside, by their distances from the ends; infinite at a singular end, with
+        the sign of its coefficient.
+        """
         right, left, rho = self.map.inverse(to_right, to_left)
         psi = jacobi.evaluate(self.weight, self.coefficients, 0.5 * (left - right))
         safe = self.weight(np.where(right > 0.0, right, 1.0), np.where(left > 0.0, left, 1.0))
@@ -75,7 +79,7 @@ class Part:
 
     @cached_property
     def intensity_errors(self) -> tuple[float, float]:
-        """Estimated relative errors of the intensities; infinite where one vanishes that need not."""
+        """Estimated relative errors of the intensities; infinite where one vanishes by chance."""
         p = jacobi.polynomials(self.weight, len(self.coefficients), np.array([-1.0, 1.0]))
         values, off = (
             np.abs(self.coefficients @ p),
@@ -87,11 +91,13 @@ class Part:
         )
         return left, right
 
-    # -- sums -----------------------------------------------------------------------------------------------------------
+    # -- sums --------------------------------------------------------------------------------------
 
     @cached_property
     def nodes(self) -> tuple[Array, Array, Array, Array]:
-        """(s, x - x1, values of φ ρ ds, values of φ dx), times weights: ∫ f φ dx = Σ f times the last."""
+        """(s, x - x1, values of φ ρ ds, values of φ dx), times weights: ∫ f φ dx = Σ f times the
+        last.
+        """
         n = self._quadrature_size
         s, A = jacobi.analysis(self.weight, n)
         _, to_left, _, rest = self.map.distances(1.0 - s, 1.0 + s)
@@ -124,7 +130,7 @@ class Part:
         _, to_left, _, values = self.nodes
         return self.map.x1 * self.resultant + (to_left @ values).item()
 
-    # -- Cauchy integrals -----------------------------------------------------------------------------------------------
+    # -- Cauchy integrals --------------------------------------------------------------------------
 
     def cauchy_inside(self, to_right: Array, to_left: Array, side: int) -> Array:
         """1/π PV∫ φ/(x - t) dt inside (side 0), or the limit from one side."""
@@ -144,7 +150,9 @@ class Part:
 
     @cached_property
     def _reduced(self) -> Part:
-        """The same density by a weight close to 1, if w is one times 1 + s or 1 - s: its Cauchy integrals then keep their digits."""
+        """The same density by a weight close to 1, if w is one times 1 + s or 1 - s: its Cauchy
+        integrals then keep their digits.
+        """
         w, n = self.weight, len(self.coefficients)
         if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= jacobi.FAINT:
             return self
@@ -187,7 +195,8 @@ class Part:
 
     @cached_property
     def steepness(self) -> Part:
-        """(x2 - x)(x - x1) φ'(x), a density with the same weight: integrated by parts it is what F' is made of.
+        """(x2 - x)(x - x1) φ'(x), a density with the same weight: integrated by parts it is what F'
+        is made of.
 
         With Q(z) = (x2 - z)(z - x1):  1/π ∫ Q(t) φ'(t)/(z - t) dt = Q(z) F'(z) - 1/π ∫ φ dt.
         """
@@ -213,7 +222,9 @@ class Part:
         return Part(self.map, self.weight, values @ A)
 
     def _near(self, to_right: Array, to_left: Array) -> Array:
-        """Points whose s lies in the ellipse through HALFWAY, where plain quadrature does not serve."""
+        """Points whose s lies in the ellipse through HALFWAY, where plain quadrature does not
+        serve.
+        """
         assert not isinstance(self.map, Affine)
         poles = (to_right + self.map.behind == 0.0) | (to_left + self.map.before == 0.0)
         at = np.where(poles, 0.5 * self.map.length, to_left)
@@ -235,21 +246,36 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class JacobiDensity(Density):
-    """The solution φ of a `CauchyEquation`, real or complex, on one interval or several; 0 outside of them.
+    """The solution φ of a `CauchyEquation`, real or complex; 0 outside its intervals.
 
-    parts             one `Part` for each interval: .resultant, .moment, .intensities, .weight (exponents), .coefficients, .value
-    intensities       for each interval the coefficients K of φ ~ K (distance)^exponent at its left and right end
-    intensity_errors  estimated relative errors of these; large where K is small next to φ, as at a bounded end next to a narrow gap
-    constants         the multiples that were found of the equation's free functions
-    n                 the number of nodes on each interval that the solver chose
-    error             estimated error of φ over its largest value on the interval (singular ends divided out): what the last
-                      coefficients, the residual and, next to narrow gaps, rounding leave open
-    residual          largest residual of the equation at points that were not used to solve it, over the largest term there
-    cauchy(z, side), hilbert(x)     1/π ∫ φ(t)/(z - t) dt and its principal value, with the half-plane's sign: that of the equation's
-                      kernel 1/(t - x) is the opposite one; side = +1, -1, 0 is the limit from above, from below, the principal value
+    Attributes
+    ----------
+    parts : tuple of Part
+        One for each interval: .resultant, .moment, .intensities, .weight, .coefficients, .value.
+    intensities : tuple
+        For each interval the coefficients K of φ ~ K (distance)^exponent at its two ends.
+    intensity_errors : tuple
+        Estimated relative errors of these; large where K is small next to φ, as at a bounded end
+        next to a narrow gap.
+    constants : tuple
+        The multiples that were found of the equation's free functions.
+    n : tuple of int
+        The number of nodes on each interval that the solver chose.
+    error : float
+        Estimated error of φ over its largest value on the interval (singular ends divided out):
+        what the last coefficients, the residual and, next to narrow gaps, rounding leave open.
+    residual : float
+        Largest residual of the equation at points that were not used to solve it, over the largest
+        term there.
 
-    Next to a gap of δ lengths between bounded ends, φ is of the order of δ times its peak when g is of one size everywhere. As g is known
-    to rounding only, so is φ, and K there to n^1.5 roundings over δ: six digits are lost by δ = 1e-6, and two more by n = 70 nodes.
+    Notes
+    -----
+    `cauchy` and `hilbert` have the half-plane's sign, 1/π ∫ φ(t)/(z - t) dt; that of the equation's
+    kernel 1/(t - x) is the opposite one.
+
+    Next to a gap of δ lengths between bounded ends, φ is of the order of δ times its peak when g is
+    of one size everywhere. As g is known to rounding only, so is φ, and K there to n^1.5 roundings
+    over δ: six digits are lost by δ = 1e-6, and two more by n = 70 nodes.
     """
 
     parts: tuple[Part, ...]

@@ -1,6 +1,7 @@
-"""Cauchy singular integral equations as values: `CauchyEquation`, refused unless it is well posed; `collocation` solves it.
+"""Cauchy singular integral equations as values, refused unless they are well posed.
 
-Muskhelishvili, Singular Integral Equations (1953), §§ 107-115, for exponents and index.
+`solver` solves them. Reference: Muskhelishvili, Singular Integral Equations (1953), §§ 107-115, for
+the exponents and the index.
 """
 
 from __future__ import annotations
@@ -31,24 +32,51 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class CauchyEquation:
-    """a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j free_j(x).
+    """A Cauchy singular integral equation on one interval or several.
 
-    interval   (x1, x2), or several of them, ascending and apart
-    g          the right-hand side: a function of an array x, or a number; real or complex
-    a, b       constants, real or complex, b ≠ 0 and a² + b² ≠ 0
-    k          regular kernel k(x, t), called with arrays of one shape; None for none
-    ends       "singular" or "bounded"; or a pair for the left and right end; or such a pair for each interval
-    total      given ∫φ dx: a number (of all intervals together), or one for each interval, None where it is not given
-    moment     given ∫φ x dx about x = 0, in the same way
-    free       functions (or numbers) whose multiples d_j are unknown too; as many more side conditions are needed
+    Parameters
+    ----------
+    interval : (float, float) or sequence of these
+        The two ends, or those of several intervals, ascending and apart.
+    g : callable or complex
+        The right-hand side: a function of an array x, or a number; real or complex.
+    a, b : complex
+        Constants, b ≠ 0 and a² + b² ≠ 0.
+    k : callable, optional
+        Regular kernel k(x, t), called with arrays of one shape.
+    ends : {"singular", "bounded"}, pair of these, or a pair for each interval
+        Whether φ is infinite or zero at the left and at the right end.
+    total : complex or sequence, optional
+        Given ∫φ dx: of all intervals together, or one for each interval (None where not given).
+    moment : complex or sequence, optional
+        Given ∫φ x dx about x = 0, in the same way.
+    free : sequence of callable or complex
+        Functions u_j whose multiples d_j are unknown too.
 
-    The side conditions must be as many as the index (the sum over the intervals of +1, 0, -1 for two, one, no singular ends) plus the
-    number of free functions. Without any and with index -1 the right-hand side must be consistent, and it is checked.
+    Raises
+    ------
+    ValueError
+        If the question is not well posed; the message says what the index asks for.
 
-    Raises ValueError, with what the index asks for, when the question is not well posed. The half-plane's conventions, with
-    1/(x - t) in place of 1/(t - x), are b = -1.
+    Notes
+    -----
+    The equation is
 
-    A slit |x| < 1 under unit pressure, by its dislocation density: φ = x / sqrt(1 - x²), stress intensity 1/sqrt(2) at each end.
+        a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j u_j(x)
+
+    The half-plane's conventions, with 1/(x - t) in place of 1/(t - x), are b = -1. There must be as
+    many side conditions as the index says (the sum over the intervals of +1, 0, -1 for two, one, no
+    singular ends), and one more for each free function. Without any and with the index -1 the
+    right-hand side must be consistent, and it is checked.
+
+    References
+    ----------
+    Muskhelishvili, Singular Integral Equations (1953), §§ 107-115; Erdogan, Gupta & Cook (1973).
+
+    Examples
+    --------
+    A slit |x| < 1 under unit pressure, by its dislocation density: φ = x / sqrt(1 - x²), the stress
+    intensity is 1/sqrt(2) at each end.
 
     >>> import sie
     >>> crack = sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0)
@@ -84,7 +112,8 @@ class CauchyEquation:
             if not callable(function):
                 if np.ndim(function):
                     raise ValueError(
-                        f"{name} = {function!r} is an array: give a function of an array x, or a number"
+                        f"{name} = {function!r} is an array: give a function of an array x, or a "
+                        "number"
                     )
                 _constant(name, function)
         if self.k is not None and not callable(self.k):
@@ -97,7 +126,7 @@ class CauchyEquation:
             object.__setattr__(self, name, self._given(name))
         self._refuse_miscounted()
 
-    # -- what is asked ------------------------------------------------------------------------------------------------
+    # -- what is asked -----------------------------------------------------------------------------
 
     def _intervals(self) -> tuple[Interval, ...]:
         try:
@@ -119,28 +148,33 @@ class CauchyEquation:
                 raise ValueError(f"interval ({x1:g}, {x2:g}): give finite ends with x1 < x2")
             if not np.isfinite(x2 - x1):
                 raise ValueError(
-                    f"interval ({x1:g}, {x2:g}): its length is more than the largest double; measure x in larger units"
+                    f"interval ({x1:g}, {x2:g}): its length is more than the largest double; "
+                    "measure x in larger units"
                 )
         for before, after in pairwise(out):
             if not before[1] < after[0]:
                 raise ValueError(
-                    f"the intervals {before} and {after} overlap, touch or descend: give them apart, from left to right"
+                    f"the intervals {before} and {after} overlap, touch or descend: give them "
+                    "apart, from left to right"
                 )
         return out
 
     def _refuse_degenerate(self) -> None:
         if self.b == 0.0:
             raise ValueError(
-                "b = 0: without a Cauchy kernel this is a Fredholm equation, for which any quadrature will do"
+                "b = 0: without a Cauchy kernel this is a Fredholm equation, for which any "
+                "quadrature will do"
             )
         ratio = self.a / self.b  # a² or b² may be more, or less, than the largest double
         if not np.isfinite(ratio):
             raise ValueError(
-                f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm equation; give a larger b"
+                f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm "
+                "equation; give a larger b"
             )
         if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
             raise ValueError(
-                f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is not of normal type"
+                f"a = {self.a}, b = {self.b}: a² + b² = 0, no exponents exist; the equation is "
+                "not of normal type"
             )
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
@@ -159,7 +193,8 @@ class CauchyEquation:
                 else f"{ends!r}"
             )
             raise ValueError(
-                f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a pair for each interval"
+                f"ends are {given}: give 'singular' or 'bounded', or a pair of them, or such a "
+                "pair for each interval"
             )
         pairs = tuple((pair, pair) if isinstance(pair, str) else pair for pair in ends)
         for pair in pairs:
@@ -178,7 +213,8 @@ class CauchyEquation:
         values = tuple(None if v is None else _constant(name, v) for v in value)
         if len(values) != len(self.interval):
             raise ValueError(
-                f"{name} is given for {len(values)} intervals, but there are {len(self.interval)}: None where it is not given"
+                f"{name} is given for {len(values)} intervals, but there are "
+                f"{len(self.interval)}: None where it is not given"
             )
         return values
 
@@ -188,7 +224,8 @@ class CauchyEquation:
             return
         free = f" and {len(self.free)} free function(s)" if self.free else ""
         raise ValueError(
-            f"index {self.index}{free} asks for {max(needed, 0)} side condition(s), but {given} given: give as many of total and "
+            f"index {self.index}{free} asks for {max(needed, 0)} side condition(s), but {given} "
+            "given: give as many of total and "
             "moment, or make other ends bounded or singular, or free a constant of g"
         )
 
@@ -204,18 +241,19 @@ class CauchyEquation:
         for weight, pair in zip(found, self.ends, strict=True):
             if weight is None:
                 raise ValueError(
-                    f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are imaginary: make both ends bounded"
+                    f"ends = {pair!r}: with a = {self.a}, b = {self.b} the exponents are "
+                    "imaginary: make both ends bounded"
                 )
         return tuple(w for w in found if w is not None)
 
     @property
     def index(self) -> int:
-        """How many side conditions the solution needs before constants are freed: the sum over the intervals."""
+        """The index: how many side conditions the solution needs if no function is free."""
         return sum(weight.kappa for weight in self.weights)
 
     @property
     def exponents(self) -> tuple[tuple[Any, Any], ...]:
-        """Of the distance from the left and the right end of each interval."""
+        """The exponents of the distance from the left and the right end of each interval."""
         return tuple((weight.beta, weight.alpha) for weight in self.weights)
 
     @cached_property
@@ -229,7 +267,7 @@ class CauchyEquation:
                 found.append(Condition(power, tuple(range(len(self.interval))), value))
         return tuple(found)
 
-    # -- answers ------------------------------------------------------------------------------------------------------
+    # -- answers -----------------------------------------------------------------------------------
 
     @cached_property
     def problem(self) -> Problem:
@@ -245,11 +283,33 @@ class CauchyEquation:
         )
 
     def solve(self, tol: float = 1e-13, n: int | None = None) -> JacobiDensity:
-        """The density, with as many nodes as its coefficients need for the relative tolerance `tol`; or with just `n` on each interval.
+        """The density that solves the equation.
 
-        k is called once, on a grid that resolves a smooth kernel whatever g asks for; once more where it is narrower, up to 1000 points;
-        and size by size, growing by half, where it is rougher than that. Raises ContactError, with the best `reached["density"]`, when
-        tol is not met, when g is not consistent with the ends, or when the homogeneous equation has solutions of its own.
+        Parameters
+        ----------
+        tol : float
+            Relative tolerance: there are as many nodes as the coefficients need for it.
+        n : int, optional
+            Nodes on each interval, whatever the tolerance.
+
+        Returns
+        -------
+        JacobiDensity
+            The solution φ.
+
+        Raises
+        ------
+        ValueError
+            If `tol` or `n` is out of range, or a function returns what is no number.
+        ContactError
+            If `tol` is not met, g is not consistent with the ends, or the homogeneous equation has
+            solutions of its own; `reached["density"]` is the best density.
+
+        Notes
+        -----
+        k is called once, on a grid that resolves a smooth kernel whatever g asks for; once more
+        where it is narrower, up to 1000 points; and size by size, growing by half, where it is
+        rougher than that.
         """
         tol = arguments.tolerance(tol)
         if n is not None:
@@ -257,7 +317,18 @@ class CauchyEquation:
         return solve(self.problem, tol)
 
     def system(self, n: int) -> tuple[Array, Array]:
-        """The square system for n nodes on each interval, (matrix, right-hand side), as it is solved where no transform serves."""
+        """The square system that is solved where no transform serves.
+
+        Parameters
+        ----------
+        n : int
+            Nodes on each interval.
+
+        Returns
+        -------
+        matrix : ndarray, shape (N, N)
+        rhs : ndarray, shape (N,)
+        """
         system = System(self.problem, (_size(n),) * len(self.interval))
         return system.matrix(), system.rhs
 

@@ -1,4 +1,7 @@
-"""A Cauchy equation as `collocation` sees it: the question, its functions sampled, and how good one attempt at an answer is."""
+"""A Cauchy equation prepared for the solver: its functions sampled, and the quality of a solution.
+
+`Problem` is the equation with maps and weights, `Attempt` one solution with its estimated errors.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,8 @@ ROUNDING = 4.0 * EPS  # of the largest term of the equation: coefficients below 
 SUBNORMAL = (
     64.0 * 5e-324
 )  # what numbers below 2e-308, with fewer digits than others, are rounded to
-# A solution so many times larger than its right-hand side belongs to a matrix that is singular to rounding.
+# A solution so many times larger than its right-hand side belongs to a matrix that is singular to
+# rounding.
 SINGULAR = 1e10
 
 
@@ -69,7 +73,9 @@ class Problem:
 
     @property
     def functions(self) -> list[tuple[str, Function]]:
-        """(name, function) of g and of everything whose multiple is unknown, last the constants by which g may miss its consistency."""
+        """(name, function) of g and of everything whose multiple is unknown, last the constants by
+        which g may miss its consistency.
+        """
         excess = max(-sum(weight.kappa for weight in self.weights) - len(self.free), 0)
         bounded = [
             m for m, weight in zip(self.maps, self.weights, strict=True) if weight.kappa == -1
@@ -82,11 +88,13 @@ def _indicator(x1: float, x2: float, x: Array) -> Array:
     return np.where((x >= x1) & (x <= x2), 1.0, 0.0)
 
 
-# -- what the equation is made of -----------------------------------------------------------------------------------------
+# -- what the equation is made of ------------------------------------------------------------------
 
 
 def constant_of(problem: Problem, weight: Weight) -> Any:
-    """a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}, p̃ as the inverse weight's own recurrence has it."""
+    """a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}, p̃ as the inverse weight's own
+    recurrence has it.
+    """
     return -real_if_real(problem.b) / weight.sine * jacobi.second_sign(weight)
 
 
@@ -142,7 +150,7 @@ def moved(c: Array, index: int) -> Array:
     return c[index:] if index >= 0 else np.concatenate((np.zeros(-index, dtype=c.dtype), c))
 
 
-# -- functions sampled ------------------------------------------------------------------------------------------------------
+# -- functions sampled -----------------------------------------------------------------------------
 
 
 def sample(name: str, function: Function, x: Array) -> Array:
@@ -153,19 +161,23 @@ def sample(name: str, function: Function, x: Array) -> Array:
         )
     if values.shape not in ((), x.shape):
         raise ValueError(
-            f"{name} returned shape {values.shape} for x of shape {x.shape}: return one value for each x"
+            f"{name} returned shape {values.shape} for x of shape {x.shape}: return one value for "
+            "each x"
         )
     values = np.broadcast_to(_numeric(name, values), x.shape)
     bad = ~np.isfinite(values)
     if bad.any():
         raise ValueError(
-            f"{name} returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside the intervals"
+            f"{name} returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside "
+            "the intervals"
         )
     return values
 
 
 def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
-    """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape (or one number)."""
+    """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape
+    (or one number).
+    """
     shape = (len(x), len(t))
     with np.errstate(all="ignore"):
         values = np.asarray(
@@ -175,14 +187,16 @@ def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
         )
     if values.shape not in ((), shape):
         raise ValueError(
-            f"k returned shape {values.shape} for x and t of shape {shape}: return one value for each pair"
+            f"k returned shape {values.shape} for x and t of shape {shape}: return one value for "
+            "each pair"
         )
     values = np.broadcast_to(_numeric("k", values), shape)
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         i, j = bad[0]
         raise ValueError(
-            f"k returned {values[i, j]} at x = {x[i]:.6g}, t = {t[j]:.6g}: a regular kernel is finite"
+            f"k returned {values[i, j]} at x = {x[i]:.6g}, t = {t[j]:.6g}: a regular kernel is "
+            "finite"
         )
     return values
 
@@ -200,18 +214,21 @@ def solved(matrix: Array, rhs: Array) -> Array:
         found = np.full(len(rhs), np.inf)
     if not np.linalg.norm(found) <= SINGULAR * np.linalg.norm(rhs):
         raise ContactError(
-            "the equation is singular: its homogeneous form has a solution that the side conditions do not fix; "
-            "give conditions that are independent, for each interval one where both ends are singular"
+            "the equation is singular: its homogeneous form has a solution that the side "
+            "conditions do not fix; "
+            "give conditions that are independent, for each interval one where both ends are "
+            "singular"
         )
     return found
 
 
-# -- how good an attempt is -------------------------------------------------------------------------------------------------
+# -- how good an attempt is ------------------------------------------------------------------------
 
 
 class Attempt(NamedTuple):
-    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to), below what both are rounding; the
-    constant that g lacks: all relative. And what rounding makes of each interval, where that takes another solution."""
+    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to),
+    below what both are rounding; the constant that g lacks: all relative. And what rounding makes
+    of each interval, where that takes another solution."""
 
     density: JacobiDensity
     tails: Array
@@ -251,8 +268,9 @@ class Attempt(NamedTuple):
 
 
 class Terms(NamedTuple):
-    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it everywhere; times dx/ds.
-    And what its nodes miss of the integrals over it, relative; and how far the terms may be off because positions are rounded."""
+    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it
+    everywhere; times dx/ds. And what its nodes miss of the integrals over it, relative; and how far
+    the terms may be off because positions are rounded."""
 
     n: int
     left_over: Array
@@ -307,7 +325,8 @@ class _Measured(NamedTuple):
 def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> _Measured:
     """What is kept of one interval's coefficients, and how well they are known.
 
-    Residuals are weighted as in the norm in which the singular operator is an isometry: next to a singular end of 1/w they mean less.
+    Residuals are weighted as in the norm in which the singular operator is an isometry: next to a
+    singular end of 1/w they mean less.
     """
     interval, weight = problem.maps[i], problem.weights[i]
     scale = positive(np.abs(c).max(), EPS * largest)

@@ -1,22 +1,26 @@
-"""Maps of [-1, 1] on an interval: affine, or graded logarithmically towards neighbours that are close.
+"""Maps of [-1, 1] on an interval: affine, or graded logarithmically towards close neighbours.
 
-A density next to a gap of width δ is a function of distance/δ, and a polynomial in x would need sqrt(length/δ) terms. With the ends A and B
-of the neighbours on the left and right (or, where there is none that close, a length away)
+A density next to a gap of width δ is a function of distance/δ, and a polynomial in x would need
+sqrt(length/δ) terms. With the ends A and B of the neighbours on the left and right (or, where there
+is none that close, a length away)
 
     v = ln((x - A)/(B - x)) = hs + const
 
-any power of B - x is entire in v: the number of terms grows like ln(length/δ) only. The Cauchy kernel stays a Cauchy kernel, plus
-1/2 coth(y/2) - 1/y, which is smooth; the neighbours lie on Im v = ±π, so that no integral over them is nearly singular.
+any power of B - x is entire in v: the number of terms grows like ln(length/δ) only. The Cauchy
+kernel stays a Cauchy kernel, plus 1/2 coth(y/2) - 1/y, which is smooth; the neighbours lie on Im v
+= ±π, so that no integral over them is nearly singular.
 
-What is expanded is φ times a factor ρ, known to rounding of its largest value anywhere, so that ρ decides where digits are. Next to a
-gap between singular ends φ grows like 1/(x - A), and ρ ~ x - A evens it out; where one of them is bounded φ does not grow, and ρ ~ 1
-spares digits that a factor of δ would cost the coefficient of the bounded end. With p, q = 1 towards singular gaps, 0 towards others:
+What is expanded is φ times a factor ρ, known to rounding of its largest value anywhere, so that ρ
+decides where digits are. Next to a gap between singular ends φ grows like 1/(x - A), and ρ ~ x - A
+evens it out; where one of them is bounded φ does not grow, and ρ ~ 1 spares digits that a factor of
+δ would cost the coefficient of the bounded end. With p, q = 1 towards singular gaps, 0 towards
+others:
 
     ρ ~ (x - A)^p (B - x)^q,      ρ(u)/ρ(v) x'(v) / (x(v) - x(u)) = 1/2 coth((v - u)/2) + c
     c = 1/2 tanh(u/2) for p = q = 1,   -1/2 tanh(v/2) for p = q = 0,   (q - p)/2 otherwise
 
-Points are known by their distances from both ends: `right` = 1 - s and `left` = 1 + s on [-1, 1], `to_right` = x2 - x and
-`to_left` = x - x1 on the interval. Complex ones are taken too.
+Points are known by their distances from both ends: `right` = 1 - s and `left` = 1 + s on [-1, 1],
+`to_right` = x2 - x and `to_left` = x - x1 on the interval. Complex ones are taken too.
 """
 
 from __future__ import annotations
@@ -30,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.jacobi import Weight
+from sie.numerics.lerch import log1p
 
 Array = NDArray[Any]
 
@@ -83,7 +88,9 @@ class Affine:
 
 @dataclass(frozen=True)
 class Graded:
-    """x = (A + B e^v)/(1 + e^v), with A = x1 - before and B = x2 + behind; v and s differ by an affine map."""
+    """x = (A + B e^v)/(1 + e^v), with A = x1 - before and B = x2 + behind; v and s differ by an
+    affine map.
+    """
 
     x1: float
     x2: float
@@ -128,7 +135,7 @@ class Graded:
         return to_right, to_left, rho, rest
 
     def _split(self, from_A: Array, from_B: Array) -> tuple[Array, Array]:
-        """dx/ds = h (x - A)(B - x) / (B - A) as ρ and the rest, which is 1 in the middle of (A, B)."""
+        """dx/ds = h (x - A)(B - x) / (B - A) as ρ and the rest, which is 1 midway in (A, B)."""
         rho: Any = 0.25 * self.h * self._width
         rest: Any = 1.0
         for power, distance in zip(self.powers, (from_A, from_B), strict=True):
@@ -138,8 +145,8 @@ class Graded:
 
     def inverse(self, to_right: Array, to_left: Array) -> tuple[Array, Array, Array]:
         from_A, from_B = to_left + self.before, to_right + self.behind
-        right = _log1p(to_right / self.behind) + _log1p(to_right / from_A)
-        left = _log1p(to_left / self.before) + _log1p(to_left / from_B)
+        right = log1p(to_right / self.behind) + log1p(to_right / from_A)
+        left = log1p(to_left / self.before) + log1p(to_left / from_B)
         return right / self.h, left / self.h, self._split(from_A, from_B)[0]
 
     def steepening(self, left: Array) -> Array:
@@ -159,16 +166,6 @@ class Graded:
 
 
 Map = Affine | Graded
-
-
-def _log1p(y: Array) -> Array:
-    """ln(1 + y), real or complex: NumPy's for complex numbers rounds 1 + y first."""
-    if not np.iscomplexobj(y):
-        return np.log1p(y)
-    out = np.empty_like(y)
-    out.real = 0.5 * np.log1p(y.real * (2.0 + y.real) + y.imag * y.imag)
-    out.imag = np.arctan2(y.imag, 1.0 + y.real)
-    return out
 
 
 def smooth_coth(y: Array) -> Array:

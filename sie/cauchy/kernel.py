@@ -1,14 +1,16 @@
-"""A regular kernel, called once: its Chebyshev series in both variables, from which systems of every size are filled.
+"""A regular kernel, called once: its Chebyshev series in both variables, from which systems of
+every size are filled.
 
     k(x_i(s), x_j(σ)) = Σ_mn C_mn T_m(s) T_n(σ)            on each pair (i, j) of intervals
 
-A kernel knows nothing of how many nodes g will ask for, and g nothing of k; so k is sampled on a grid of its own, all pairs of intervals
-in one call, with further rows and columns on no grid, where the series must agree. If the first grid is too coarse, the decay of its
-coefficients tells how fine the second must be. A kernel that no small grid resolves (a layer much thinner than its contact, a kink) has
-no series, and `system` samples it at its own nodes, size by size.
+How many nodes k needs does not depend on g, nor the reverse; so k is sampled on a grid of its own,
+all pairs of intervals in one call, with further rows and columns on no grid, where the series must
+agree. If the first grid is too coarse, the decay of its coefficients tells how fine the second must
+be. A kernel that no small grid resolves (a layer much thinner than its contact, a kink) has no
+series, and `system` samples it at its own nodes, size by size.
 
-Rows are at the extrema of T_n and columns at its zeros, midway between: no x is ever a t, so that a difference of singular terms such as
-1/tan(t - x) - 1/(t - x) may be given as it is.
+Rows are at the extrema of T_n and columns at its zeros, midway between: no x is ever a t, so that a
+difference of singular terms such as 1/tan(t - x) - 1/(t - x) may be given as it is.
 """
 
 from __future__ import annotations
@@ -69,7 +71,9 @@ class Series(NamedTuple):
 
 
 def series(problem: Problem, tol: float) -> Series | None:
-    """The kernel's series, by one call of it, or two; None where it has none, and where k returns nonsense: direct sampling will say so."""
+    """The kernel's series, by one call of it, or two; None where it has none, and where k returns
+    nonsense: direct sampling will say so.
+    """
     if problem.k is None:
         return None
     n = max(min(FIRST, MOST // len(problem.maps)), FEWEST)
@@ -87,7 +91,9 @@ def series(problem: Problem, tol: float) -> Series | None:
 
 
 def _sampled(k: Kernel, maps: tuple[Map, ...], n: int, enough: float) -> tuple[Series | None, int]:
-    """The series by n columns and n + 1 rows on each interval if they resolve k, and how many would."""
+    """The series by n columns and n + 1 rows on each interval if they resolve k, and how many
+    would.
+    """
     s, sigma = np.concatenate((_extrema(n), PROBES)), np.concatenate((chebyshev.points(n), -PROBES))
     x, t = (
         np.concatenate([positions(m, 1.0 - at, 1.0 + at)[0] for m in maps]) for at in (s, sigma)
@@ -141,7 +147,9 @@ def _from_zeros(n: int) -> Array:
 
 
 def _cosine(numerator: NDArray[np.int64], denominator: int) -> Array:
-    """cos(π numerator / denominator), of an angle in the first quadrant: k times a rounded angle would cost k roundings."""
+    """cos(π numerator / denominator), of an angle in the first quadrant: k times a rounded angle
+    would cost k roundings.
+    """
     m = numerator % (2 * denominator)
     m = np.minimum(m, 2 * denominator - m)
     first = np.minimum(m, denominator - m)

@@ -1,9 +1,11 @@
-"""How far a density is off because the terms of its equation are doubles at positions that are doubles.
+"""The error of a density by rounding of the equation's terms and of the places they are taken at.
 
-The residual cannot tell: next to a narrow gap, residuals as small belong to densities further apart, and what is small there, as the
-coefficient of a bounded end, is known to rounding of what is large only. So roundings are drawn, and solved for.
+The residual cannot tell: next to a narrow gap, residuals as small belong to densities further
+apart, and what is small there, as the coefficient of a bounded end, is known to rounding of what is
+large only. So roundings are drawn, and solved for.
 
-Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), § 1.6, for errors by perturbation.
+Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), § 1.6, for errors by
+perturbation.
 """
 
 from __future__ import annotations
@@ -28,7 +30,9 @@ LARGEST = (
 
 
 class Spread(NamedTuple):
-    """What rounding makes of one interval's density: of φ and of φ ρ over the largest there; and of each coefficient."""
+    """What rounding makes of one interval's density: of φ and of φ ρ over the largest there; and of
+    each coefficient.
+    """
 
     relative: float
     coefficients: Array
@@ -43,7 +47,9 @@ def signs(rows: int) -> Array:
 def spread(
     interval: Map, weight: Weight, quadrature: tuple[Array, Array], c: Array, off: Array
 ) -> Spread:
-    """From the coefficients' errors (n, DRAWS); `quadrature` are nodes and the matrix to weights times values there (`jacobi.analysis`)."""
+    """From the coefficients' errors (n, DRAWS); `quadrature` are nodes and the matrix to weights
+    times values there (`jacobi.analysis`).
+    """
     sigma, matrix = quadrature
     # A Gauss weight's root evens out the ends as the norm does in which polynomials are orthonormal
     norm = 1.0 / np.sqrt(jacobi.gauss(weight.real, len(sigma))[1])
@@ -61,7 +67,8 @@ def _root_mean_square(draws: Array) -> Array:
 
 
 def unsure(x: Array, values: Array, rho: Array) -> Array:
-    """How far values(x) ρ are off because x are doubles: what the values vary by over a rounding of x.
+    """How far values(x) ρ are off because x are doubles: what the values vary by over a rounding of
+    x.
 
     It counts far from x = 0, and where values vary across a narrow gap; no solver could do better.
     """

@@ -1,18 +1,23 @@
 """Gauss-Chebyshev and Gauss-Jacobi collocation for Cauchy singular integral equations.
 
-    a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j u_j(x),       with side conditions  ∫ φ x^power dx = value
+    a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j u_j(x)
+    with side conditions  ∫ φ x^power dx = value
 
-On [-1, 1] the density is sought as φ = w Σ c_n p_n, w = (1-s)^α (1+s)^β with the exponents that a and b ask for and p_n orthonormal for w.
-The singular part maps p_n to one constant times p̃_{n-κ}, orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the matrix for c is
-the identity, moved by κ places, plus the coefficients of what is smooth; side conditions fill the places that κ = 1 leaves open, and
-free constants u_j answer the equation too many that κ = -1 brings.
+On [-1, 1] the density is sought as φ = w Σ c_n p_n, w = (1-s)^α (1+s)^β with the exponents that a
+and b ask for and p_n orthonormal for w. The singular part maps p_n to one constant times p̃_{n-κ},
+orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the matrix for c is the identity, moved
+by κ places, plus the coefficients of what is smooth; side conditions fill the places that κ = 1
+leaves open, and free constants u_j answer the equation too many that κ = -1 brings.
 
-Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`). Otherwise the matrix is square, and
-about as well conditioned as the identity plus k (`system`). The sizes grow until coefficients have decayed, the residual is small at
-points that were not used, and the kernel's own coefficients show that its integrals are resolved. k itself is called once (`kernel`).
+Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`).
+Otherwise the matrix is square, and about as well conditioned as the identity plus k (`system`). The
+sizes grow until coefficients have decayed, the residual is small at points that were not used, and
+the kernel's own coefficients show that its integrals are resolved. k itself is called once
+(`kernel`).
 
-Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J. Numer. Anal. 19 (1982), for the weighted
-spaces in which the condition number stays bounded; Kelley & Xue, SIAM J. Sci. Comput. 17 (1996), for GMRES on equations of the second kind.
+Sources: Erdogan & Gupta, Q. Appl. Math. 29 (1972); Erdogan, Gupta & Cook (1973); Elliott, SIAM J.
+Numer. Anal. 19 (1982), for the weighted spaces in which the condition number stays bounded; Kelley
+& Xue, SIAM J. Sci. Comput. 17 (1996), for GMRES on equations of the second kind.
 """
 
 from __future__ import annotations
@@ -45,15 +50,19 @@ IDLE, SETTLED = (
     3,
     1e-6,
 )  # after so many enlargements without progress an error below this is noise of g or k
-# Errors from the first of these sizes on, once the second is reached, tell whether they fall like a power of n, as those of kinks and of
-# weak singularities do, and whether a system so many times larger than the largest would be enough.
+# Errors from the first of these sizes on, once the second is reached, tell whether they fall like a
+# power of n, as those of kinks and of weak singularities do, and whether a system so many times
+# larger than the largest would be enough.
 FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
 # A right-hand side that misses its consistency by more than this fraction is refused.
 INCONSISTENT = 1e-9
 
 
 def solve(problem: Problem, tol: float) -> JacobiDensity:
-    """The density with as many nodes as tol asks for. Raises ContactError with the best `density` if it does not settle."""
+    """The density with as many nodes as tol asks for.
+
+    Raises ContactError with the best `density` if it does not settle.
+    """
     sizes, idle, kernel = _first_sizes(problem, tol), 0, series(problem, tol)
     best: Attempt | None = None
     seen: list[tuple[int, float]] = []
@@ -72,8 +81,8 @@ def solve(problem: Problem, tol: float) -> JacobiDensity:
         if sum(sizes) > _largest(problem) or (idle >= IDLE and best.progress < SETTLED) or hopeless:
             reached = best.answer()
             raise ContactError(
-                f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its estimated error is {reached.error:.1e}; "
-                + _reason(problem, best),
+                f"the density did not settle to tol = {tol:.1e}: with n = {reached.n} nodes its "
+                f"estimated error is {reached.error:.1e}; " + _reason(problem, best),
                 density=reached,
             )
 
@@ -88,10 +97,11 @@ def _largest(problem: Problem) -> int:
 
 
 def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
-    """Whether the errors of a kernel without a series fall like a power of n that no affordable n brings to tol.
+    """Whether the errors of a kernel without a series fall like a power of n that no affordable n
+    brings to tol.
 
-    So they fall where k has a kink or is singular, from the first sizes on; of a kernel that is only narrow they stay where they are
-    until n resolves it, and then fall faster than any power.
+    So they fall where k has a kink or is singular, from the first sizes on; of a kernel that is
+    only narrow they stay where they are until n resolves it, and then fall faster than any power.
     """
     n, progress = np.array([(n, error) for n, error in seen if n >= FIRST_SEEN]).reshape(-1, 2).T
     if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
@@ -116,14 +126,15 @@ def _reason(problem: Problem, best: Attempt) -> str:
         )
         if weight.kappa == 0 and left < NEAR_MINUS_ONE:
             return (
-                f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of φ stands at that end: "
+                f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of "
+                "φ stands at that end: "
                 f"{remedy}, or make that end bounded and the other singular"
             )
     return f"g or k is noisy or not smooth: {remedy}"
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
-    """Where there is a kernel on one interval: as many nodes as g needs without it, by transforms."""
+    """As many nodes as g needs without the kernel, for one interval with one: by transforms."""
     sizes, free_of_kernel = problem.first_sizes(), replace(problem, k=None)
     if problem.is_transform or not free_of_kernel.is_transform:
         return sizes
@@ -145,7 +156,8 @@ def _enlarged(sizes: tuple[int, ...], more: NDArray[np.bool_]) -> tuple[int, ...
 def consistent(found: Attempt) -> JacobiDensity:
     if found.defect > INCONSISTENT:
         raise ContactError(
-            f"the right-hand side is not consistent: bounded ends ask for an integral of g that vanishes, and it misses a constant of "
+            "the right-hand side is not consistent: bounded ends ask for an integral of g that "
+            "vanishes, and it misses a constant of "
             f"{found.defect:.1e} times g; free a constant, or let an end be singular",
             density=found.answer(),
         )
@@ -153,7 +165,9 @@ def consistent(found: Attempt) -> JacobiDensity:
 
 
 def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:
-    """The density with so many nodes on each interval; with the kernel's series, if it is known, in place of the kernel."""
+    """The density with so many nodes on each interval; with the kernel's series, if it is known, in
+    place of the kernel.
+    """
     if problem.is_transform:
         return by_transform(problem, sizes[0])
     system = System(problem, sizes, kernel)

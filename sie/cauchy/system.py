@@ -1,7 +1,8 @@
 """Kernels and several intervals: a square system, the identity plus what is smooth.
 
-LAPACK factorises it while it is small, and above DENSE unknowns GMRES solves it in steps of n² operations, whose number does not grow
-with n. Several intervals are coupled by their Cauchy kernels, which are smooth there; close ones are graded towards each other (`grading`).
+LAPACK factorises it while it is small, and above DENSE unknowns GMRES solves it in steps of n²
+operations, whose number does not grow with n. Several intervals are coupled by their Cauchy
+kernels, which are smooth there; close ones are graded towards each other (`interval_map`).
 """
 
 from __future__ import annotations
@@ -45,13 +46,16 @@ Array = NDArray[Any]
 # Unknowns up to which LAPACK's n³ costs less than GMRES, measured (`validation`).
 DENSE = 600
 KRYLOV = 120
-# Of a kernel's coefficients in t: the first and the last ones are looked at, and below this they are rounding.
+# Of a kernel's coefficients in t: the first and the last ones are looked at, and below this they
+# are rounding.
 _FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
 NEGLIGIBLE = 64.0 * EPS
 
 
 class _Block(NamedTuple):
-    """One interval of a system: where its rows are sampled (its probes last), and where its integrals are."""
+    """One interval of a system: where its rows are sampled (its probes last), and where its
+    integrals are.
+    """
 
     x: Array
     rows: tuple[Array, Array, Array]  # x2 - x, x - x1, ρ
@@ -70,9 +74,10 @@ class _Block(NamedTuple):
 class System:
     """The equations for all coefficients c and free constants d, with n_i nodes on interval i.
 
-    Rows in this order: interval by interval its projections on p̃, a condition before them where κ = 1, without the one too many
-    where κ = -1; then those that were left out and the conditions that are left, to match the free constants. So the matrix is the
-    identity plus what is smooth, but for that border. The kernel is called once, or not at all where its series is given.
+    Rows in this order: interval by interval its projections on p̃, a condition before them where κ
+    = 1, without the one too many where κ = -1; then those that were left out and the conditions
+    that are left, to match the free constants. So the matrix is the identity plus what is smooth,
+    but for that border. The kernel is called once, or not at all where its series is given.
     """
 
     def __init__(
@@ -244,16 +249,19 @@ class System:
             len(self.rhs)
         ) * 64.0 * EPS * np.linalg.norm(self.rhs):
             raise ContactError(
-                f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly singular or k is not smooth"
+                f"GMRES did not converge on {len(self.rhs)} unknowns: the equation is nearly "
+                "singular or k is not smooth"
             )
         out: Array = found
         return out
 
     def _aliased(self, c: Array, sizes: Array) -> list[float]:
-        """For each interval, what its nodes miss of the integrals over it, relative to the terms' sizes at the rows.
+        """For each interval, what its nodes miss of the integrals over it, relative to the terms'
+        sizes at the rows.
 
-        The residual is blind to it, as it integrates by the same nodes. The coefficients of k(x, ·) tell: n Gauss nodes mistake those
-        beyond 2n - m for the m-th; for complex exponents, where nodes are not Gauss's, all beyond n.
+        The residual is blind to it, as it integrates by the same nodes. The coefficients of k(x, ·)
+        tell: n Gauss nodes mistake those beyond 2n - m for the m-th; for complex exponents, where
+        nodes are not Gauss's, all beyond n.
         """
         missed = []
         for block, weight, at in zip(
@@ -273,9 +281,11 @@ class System:
         return missed
 
     def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
-        """For each interval what rounding does to it, by the sizes of the equation's terms that are rounded at the rows.
+        """For each interval what rounding does to it, by the sizes of the equation's terms that are
+        rounded at the rows.
 
-        On affine intervals, where the matrix is well conditioned, the residual tells; where GMRES serves, more solutions cost too much.
+        On affine intervals, where the matrix is well conditioned, the residual tells; where GMRES
+        serves, more solutions cost too much.
         """
         if all(isinstance(m, Affine) for m in self.problem.maps) or len(self.rhs) > DENSE:
             return []

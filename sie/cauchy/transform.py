@@ -1,6 +1,9 @@
-"""One interval without a kernel: the density's coefficients are a transform of g, for a = 0 a DCT. Nothing is solved.
+"""One interval without a kernel: the density's coefficients are a transform of g.
 
-What conditions and free functions ask for is a combination of particular solutions, a system as small as their number.
+For a = 0 that is a DCT, and nothing is solved.
+
+What conditions and free functions ask for is a combination of particular solutions, a system as
+small as their number.
 """
 
 from __future__ import annotations
@@ -54,7 +57,9 @@ def by_transform(problem: Problem, n: int) -> Attempt:
 def _closed(
     c: Array, defects: Array, rows: Array, values: Array, kappa: int
 ) -> tuple[Array, Array]:
-    """The combination of the particular solutions c, g's first, and of the homogeneous one if κ = 1, that meets all conditions."""
+    """The combination of the particular solutions c, g's first, and of the homogeneous one if κ =
+    1, that meets all conditions.
+    """
     functions = len(c)
     if kappa == 1:
         c = np.concatenate((c, np.eye(1, c.shape[1], dtype=c.dtype)))
@@ -68,7 +73,10 @@ def _closed(
 
 
 def _transform(weight: Weight, n: int) -> tuple[Array, Callable[[Array], Array]]:
-    """Nodes, and the map from values there to the coefficients of p_0 ... p_{n-1}: a DCT for the Chebyshev weights."""
+    """Nodes, and the map from values there to the coefficients of the first n polynomials.
+
+    It is a DCT for the Chebyshev weights.
+    """
     if not weight.is_chebyshev:
         s, A = jacobi.analysis(weight, n)
         return s, lambda values: values @ A
@@ -111,7 +119,8 @@ def _fourth_kind(t: Array) -> Array:
     return np.sqrt(np.pi) * c
 
 
-# From Chebyshev coefficients (padded by two zeros) to those of the orthonormal polynomials of (1 - s)^α (1 + s)^β.
+# From Chebyshev coefficients (padded by two zeros) to those of the orthonormal polynomials of (1 -
+# s)^α (1 + s)^β.
 _KINDS = {
     (-0.5, -0.5): _first_kind,
     (0.5, 0.5): _second_kind,

@@ -1,8 +1,10 @@
-"""Composite Gauss-Legendre in the angle φ over a contact, for a function that is not smooth at the breaks of a slope.
+"""Composite Gauss-Legendre in the angle φ over a contact, for a function that is not smooth at the
+breaks of a slope.
 
-A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative of H that jumps there. Panels are
-graded towards the breaks, and none is much longer than its neighbours. Of few breaks each is taken for a corner; of many (a trace) a break
-is graded for as many levels as the jumps there ask for, which for a smooth spline is none or one.
+A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative
+of H that jumps there. Panels are graded towards the breaks, and none is much longer than its
+neighbours. Of few breaks each is taken for a corner; of many (a trace) a break is graded for as
+many levels as the jumps there ask for, which for a smooth spline is none or one.
 """
 
 from __future__ import annotations
@@ -15,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.power_law import PowerSlope
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.sliding_panels import edge_rule
+from sie.traction.piece_quadrature import edge_rule
 
 Array = NDArray[np.float64]
 
@@ -30,9 +32,9 @@ TOWARDS_EDGE = np.array(
     [0.0625, 0.125, 0.1875]
 )  # panels need no grading to an edge, but the residual is wanted near it
 # What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
-# (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of the
-# profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x| under a
-# corner of the slope.
+# (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of
+# the profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x|
+# under a corner of the slope.
 LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
 # Of its distance from the next break: a resolution halves its pieces towards a break, and where
 # they are shorter more happens.
@@ -43,7 +45,8 @@ POINTS = 48  # at which the residual is measured: between the longest panels, wh
 
 
 class Rule(NamedTuple):
-    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels, which no node is near.
+    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels, which no
+    node is near.
 
     `inner` nodes, in `ends`, are not next to an edge.
     """
@@ -68,20 +71,19 @@ def composite_rule(
 
     `resolution` is the slope with its functions resolved in the contact.
 
-    Graded towards the breaks, and cut at those that a function's resolution added: these may close in on a kink. The panels next to the
-    edges take the powers ψ^(±2ε) of sliding into their weights.
+    Graded towards the breaks, and cut at those that a function's resolution added: these may close
+    in on a kink. The panels next to the edges take the powers ψ^(±2ε) of sliding into their
+    weights.
     """
-    many = not slope.functions and len(inner_breaks(contact, slope)) > FEW_BREAKS
+    many = not slope.functions and len(inner(contact, slope.breaks)) > FEW_BREAKS
     also = np.zeros(0) if also is None else also
     resolution = resolution or refined(slope, contact.x1, contact.x2, EPS)
     edges, large = (
         _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
     )
-    g, w = chebyshev.gauss_legendre(NODES)
-    length = np.diff(edges)
-    angle = edges[:-1, None] + length[:, None] * g
-    weight = length[:, None] * w
+    angle, weight = _on_panels(edges)
     if epsilon:
+        length = np.diff(edges)
         for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
             g, w = edge_rule(NODES, power)
             angle[k] = abs(start - length[k] * g)
@@ -103,15 +105,42 @@ def composite_rule(
     )
 
 
+def edge_graded_rule(contact: Interval) -> Rule:
+    """The composite rule for tractions that oscillate towards both edges, as those of full stick
+    do.
+    """
+    graded = 0.25 * GRADING ** np.arange(27.0, 0.0, -1.0)  # to rounding
+    middle = np.linspace(0.25, 0.75, 17)
+    cuts = np.pi * np.concatenate(([0.0], graded, middle, 1.0 - graded[::-1], [1.0]))
+    nodes, weight = _on_panels(cuts)
+    angle = nodes.ravel()
+    return Rule(
+        position(contact, angle),
+        angle,
+        weight.ravel() * contact.r * np.sin(angle),
+        position(contact, np.pi * middle),
+        slice(None),
+        contact,
+    )
+
+
+def _on_panels(cuts: Array) -> tuple[Array, Array]:
+    """Gauss nodes and weights on the panels between cuts, one panel a row."""
+    g, w = chebyshev.gauss_legendre(NODES)
+    length = np.diff(cuts)[:, None]
+    return cuts[:-1, None] + length * g, length * w
+
+
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
     """The ends of the panels, as angles from the right edge, and those of the largest."""
     levels = _levels_of_few(slope, also)
-    cut = angles(contact, np.union1d(inner_breaks(contact, resolution), also))
-    # Many breaks of a resolution close in on a few places by themselves; of few, each may be a corner that was not declared
+    cut = angles(contact, np.union1d(inner(contact, resolution.breaks), also))
+    # Many breaks of a resolution close in on a few places by themselves; of few, each may be a
+    # corner that was not declared
     towards = (
         cut
         if len(cut) <= FEW_BREAKS
-        else angles(contact, np.union1d(inner_breaks(contact, slope), also))
+        else angles(contact, np.union1d(inner(contact, slope.breaks), also))
     )
     ends = np.concatenate(([0.0], towards, [np.pi]))
     cut = cut[_shorter_than_graded(cut, ends)]
@@ -138,8 +167,10 @@ def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
 
 
 def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
-    """The same where the slope has many breaks: one panel a piece, graded where a break asks for it; and middles of the largest pieces."""
-    cut = angles(contact, inner_breaks(contact, slope))
+    """The same where the slope has many breaks: one panel a piece, graded where a break asks for
+    it; and middles of the largest pieces.
+    """
+    cut = angles(contact, inner(contact, slope.breaks))
     ends = np.concatenate(([0.0], cut, [np.pi]))
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
@@ -173,7 +204,9 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
 
 
 def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
-    """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1) ln|x - e| is then rounding."""
+    """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1)
+    ln|x - e| is then rounding.
+    """
     b = slope.breaks[1:-1]
     inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)
     longer = np.minimum(
@@ -197,7 +230,9 @@ def _largest(x: Array, size: Array) -> list[int]:
 
 
 def _balanced(edges: Array) -> Array:
-    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular next door is then far enough."""
+    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular
+    next door is then far enough.
+    """
     while True:
         length = np.diff(edges)
         shortest = np.minimum(
@@ -207,22 +242,3 @@ def _balanced(edges: Array) -> Array:
         if not long.any():
             return edges
         edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))
-
-
-def angles(contact: Interval, x: Array) -> Array:
-    """Angles from the right edge, ascending."""
-    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
-    return psi[::-1]
-
-
-def position(contact: Interval, angle: Array) -> Array:
-    """x at an angle from the right edge, counted from the nearer one."""
-    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
-    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
-    return np.where(angle < 0.5 * np.pi, right, left)
-
-
-def inner_breaks(contact: Interval, slope: Slope) -> Array:
-    b = slope.breaks
-    inner: Array = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
-    return inner

@@ -1,8 +1,8 @@
-"""The certificate of a shear traction: measured on its values and those of the pressure, at points that no solver used.
+"""The certificate of a shear traction, measured at points that no solver used.
 
-residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     equation (12), in the stick zone that never slipped
+residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     where the contact never slipped
 equilibrium   |∫q dx - Q| / ∫|q| dx
-excess        largest |q| - f p, and of ||q| - f p| where the bodies slip, over the peak of f p
+excess        largest |q| - f p, and of ||q| - f p| in slip zones, over the peak of f p
 opposing      smallest slip in the direction of q over the largest
 """
 
@@ -20,8 +20,8 @@ from sie.profiles.slope import Slope
 from sie.traction.base import Density
 from sie.traction.of_slope import SlopeDensity
 
-from .pressure_check import ShearCertificate
 from .quadrature import Rule, composite_rule
+from .result import ShearCertificate
 
 Array = NDArray[np.float64]
 
@@ -145,7 +145,7 @@ def _opposing(state: Slip, x: Array) -> float:
 
 
 def _points(state: Slip, terms: list[Term]) -> Array:
-    """Where the equation is measured: over the zone that never slipped, half-way between two nodes.
+    """Where the equation is measured: over the zone that never slipped, half-way between nodes.
 
     Of many terms these are the farthest apart in the neighbourhood.
     """

@@ -36,12 +36,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.normal import Normal
+from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap
-from sie.profiles.sampled import Mended, PlacedTrace, Sampled, traces_in
+from sie.profiles.sampled import PlacedTrace, Sampled, traces_in
 from sie.profiles.splines import slope_deviations
+from sie.profiles.trace_values import Mended
 from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
@@ -70,7 +71,8 @@ class TraceReport:
     misfit              what the spline leaves of the heights, root of the mean square
     outliers            (x, height over the reference) of points that stand out of the noise;
                         they were not removed
-    gaps                (lo, hi, missing points) of intervals without points; the spline bridges them
+    gaps                (lo, hi, missing points) of intervals without points, which the spline
+                        bridges
     mended              points left out without a value, points averaged at equal x, x sorted or not
     tilt                slope of the line through the trace and of the scene: levelling left to do
     aside               whether the contact lies off the middle of the trace, where that line is low
@@ -126,7 +128,10 @@ class TraceReport:
             ("noise estimate", f"p to {self.pressure_error:.1e} of its peak, {inner}"),
             ("", f"x1 to {x1:.1e}, x2 to {x2:.1e}; the certificate is of the equations alone"),
         ]
-        taken = "correlated noise is taken for the shape and not counted: smooth further, if there is any"
+        taken = (
+            "correlated noise is taken for the shape and not counted: smooth further, if there is "
+            "any"
+        )
         rows += [] if self.separated else [("", taken)]
         return "\n".join(f"{name:<15} {text}" for name, text in rows)
 

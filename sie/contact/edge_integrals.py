@@ -1,7 +1,8 @@
 """The integrals over a contact that fix its edges.
 
-Gauss-Legendre in the angle φ on every piece, t = m + r sin φ; exact to rounding, derivatives and jumps included. Two forms of the same
-formulas: arrays for many pieces, plain floats for a few, where NumPy's call overhead would be most of the cost of a solve.
+By the rules of the pieces for dt/w (`piece_quadrature`, `piece_quadrature`), exact to rounding,
+derivatives and jumps included. The same formulas are there in two forms: arrays for many pieces,
+plain floats for a few, where the overhead of NumPy's calls would be most of the cost of a solve.
 """
 
 from __future__ import annotations
@@ -16,7 +17,13 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.profiles.slope import SEEN_JUMP, Row, Slope
-from sie.traction.piece_quadrature import NARROW_ANGLE, Geometry, narrow_order, quadrature_order
+from sie.traction.piece_quadrature import (
+    NARROW_ANGLE,
+    Geometry,
+    SlidingGeometry,
+    narrow_order,
+    quadrature_order,
+)
 
 Array = NDArray[np.float64]
 
@@ -27,11 +34,16 @@ MANY = 24
 
 
 class Moments(NamedTuple):
-    """I0 = ∫H dφ = positive - negative, I1 = ∫H sin φ dφ, C2 = ∫H cos²φ dφ, JR = ∫H' (1 + sin φ) dφ, JL = ∫H' (1 - sin φ) dφ.
+    """The integrals of H over the contact, with dt/w = dφ and s = (t - m)/r = sin φ where ε = 0.
 
-    JR and JL apart, because where a contact is lopsided one of them is a tiny part of ∫H' dφ.
-    size1 and size2 bound ∫Σ|c_j y^j| (1 -+ sin φ) dφ, every term of H taken positively: rounding of K1 = I1 - I0 and of K2 = I1 + I0 is
-    relative to them.
+    I0      ∫H dt/w = positive - negative
+    I1      ∫H s dt/w
+    C2      ∫H (1 - s² - 2ε s - 2ε²) dt/w
+    JR, JL  ∫H' (1 + s) dt/w and ∫H' (1 - s) dt/w; apart, because one of them may be a tiny part of
+            their sum
+    size1   bounds ∫Σ|c_j y^j| (1 - s) dt/w, every term of H taken positively: rounding of
+            K1 = I1 - I0 is relative to it
+    size2   the same with 1 + s, for K2 = I1 + I0
     """
 
     I0: float
@@ -58,75 +70,76 @@ class Moments(NamedTuple):
             self.size1,
         )
 
+    def balanced(self, r: float) -> Moments:
+        """Those of the contact moved sideways until I0 = 0, from those of one where I0 is small.
+
+        To first order, with 2 dI0 = (JR + JL) dm, 2 dI1 = (JR - JL) dm and dC2 = I1/r dm.
+        """
+        rise = self.JR + self.JL
+        I1 = self.I1 - self.I0 * (self.JR - self.JL) / rise
+        return self._replace(I0=0.0, I1=I1, C2=self.C2 - 2.0 * self.I0 / rise * self.I1 / r)
+
 
 NOTHING = Moments(*(0.0,) * 9)
 
 
 def moments(
-    slope: Slope, contact: Interval, lower: float | None = None, keep_zero: bool = False
+    slope: Slope,
+    contact: Interval,
+    lower: float | None = None,
+    keep_zero: bool = False,
+    epsilon: float = 0.0,
 ) -> Moments:
-    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half right of it."""
+    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half
+    right of it.
+    """
     if not contact.r < math.inf:
         raise OverflowError("an edge of the contact is beyond all doubles")
-    if slope.few and not keep_zero:
+    if slope.few and not keep_zero and not epsilon:
         return _of_few(slope, contact, lower)
-    return _of_many(Geometry(slope, contact, lower, keep_zero))
+    # A search may try a contact of 1e-300: what overflows there is not rising
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        if not epsilon:
+            return _of_many(Geometry(slope, contact, lower, keep_zero))
+        g = SlidingGeometry(slope, contact, epsilon, keep_zero)
+        return _summed(g, quadrature_order(g.slope.degree))
 
 
-# -- arrays -----------------------------------------------------------------------------------------------------------
+# -- arrays ----------------------------------------------------------------------------------------
 
 
 def _of_many(g: Geometry) -> Moments:
-    if not len(g.k):
-        return NOTHING
-    with np.errstate(
-        over="ignore", invalid="ignore"
-    ):  # a search may try a contact of 1e-300: what overflows is not rising
-        order = quadrature_order(g.slope.degree)
-        narrow = g.angles[2][:, 0] <= NARROW_ANGLE
-        if g.slope.functions or np.count_nonzero(narrow) < MANY:
-            return _summed(g, order)
-        wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
-        return Moments(
-            *map(float.__add__, wide, _summed(g.part(narrow), narrow_order(g.slope.degree)))
-        )
+    order, narrow = quadrature_order(g.slope.degree), g.angles[2][:, 0] <= NARROW_ANGLE
+    if g.slope.functions or np.count_nonzero(narrow) < MANY:
+        return _summed(g, order)
+    wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
+    short = _summed(g.part(narrow), narrow_order(g.slope.degree))
+    return Moments(*map(float.__add__, wide, short))
 
 
 def _summed(g: Geometry, order: int) -> Moments:
-    slope = g.slope
+    if not len(g.k):
+        return NOTHING
     offset, angle, weight, sign = g.nodes(order)
     H = g.slopes(offset)
     WH = weight * H
-    near = (
-        2.0 * np.sin(0.5 * angle) ** 2
-    )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
-    cos_phi, sin_phi = np.sin(angle), sign * (near - 1.0)
-    left = np.asarray(sign > 0.0)
+    # 1 + s from the left edge, 1 - s from the right one
+    near = 2.0 * np.sin(0.5 * angle) ** 2
+    s, left = sign * (near - 1.0), np.asarray(sign > 0.0)
     plus, minus = np.where(left, near, 2.0 - near), np.where(left, 2.0 - near, near)
-    dJ = weight * slope.local_derivative(g.k, g.ends[0], g.tails[0], offset)
-    if slope.functions:
-        # ∫H' dφ = ∫ (dH/dφ) / (r cos φ) dφ, with dH/dφ from the quadrature's own interpolant
-        functions = H - slope.without_functions.local(g.k, g.ends[0], g.tails[0], offset)
-        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
-        dJ = dJ + _weighted_derivative(functions) / (g.contact.r * cos_phi)
+    dJ = g.weighted_derivative(offset, angle, weight, H)
     JR, JL = float(np.vdot(dJ, plus)), float(np.vdot(dJ, minus))
-    if not slope.continuous:
-        jump = _jumps(g, H)
+    if not g.slope.continuous:
+        jump = _jumps(g)
         JR, JL = JR + 2.0 * float(np.vdot(jump, g.left)), JL + 2.0 * float(np.vdot(jump, g.right))
-    I1, C2 = float(np.vdot(WH, sin_phi)), float(np.vdot(WH, cos_phi * cos_phi))
-    return Moments(
-        _sum(WH),
-        I1,
-        C2,
-        JR,
-        JL,
-        _sum(np.maximum(WH, 0.0)),
-        -_sum(np.minimum(WH, 0.0)),
-        *sizes(g, weight, H),
-    )
+    e = g.edge.epsilon
+    C2 = float(np.vdot(WH, plus * minus - 2.0 * e * (e + s) if e else plus * minus))
+    positive, negative = _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0))
+    I0, I1 = _sum(WH), float(np.vdot(WH, s))
+    return Moments(I0, I1, C2, JR, JL, positive, negative, *_sizes(g, weight, H))
 
 
-def sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
+def _sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
     """size1 and size2: of each piece its largest Σ|c_j y^j| and 1 -+ sin φ, times its angle."""
     slope = g.slope
     start = (g.ends[0] - slope.origins[g.k]) + g.tails[0]
@@ -140,26 +153,24 @@ def sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
     return 2.0 * float(size @ g.right[0]), 2.0 * float(size @ g.left[1])
 
 
-def _weighted_derivative(values: Array) -> Array:
-    n = values.shape[1]
-    return chebyshev.gauss_legendre(n)[1] * (values @ chebyshev.differentiation(n)[0].T)
-
-
-def _jumps(g: Geometry, H: Array) -> Array:
-    """(2, K): H enters at lo and leaves at hi, over r cos φ there; an edge of the contact is not a jump."""
-    jump = rises(chebyshev.differentiation(H.shape[1])[1] @ H.T, g.k)
-    half_cos = g.root_left * g.root_right
+def _jumps(g: Geometry) -> Array:
+    """(2, K): H enters at lo and leaves at hi, over w there; an edge of the contact is no jump."""
+    series = g.chebyshev_slope(g.slope.degree + 1)
+    ends = np.stack((series @ (-1.0) ** np.arange(series.shape[1]), series.sum(axis=1)))
+    jump, w = _rises(ends, g.k), g.edge.root(g.root_left, g.root_right)
     if g.cut_left:
-        jump[0, 0], half_cos[0, 0] = 0.0, 1.0
+        jump[0, 0], w[0, 0] = 0.0, 1.0
     if g.cut_right:
-        jump[1, -1], half_cos[1, -1] = 0.0, 1.0
-    return jump / (2.0 * g.contact.r * half_cos)
+        jump[1, -1], w[1, -1] = 0.0, 1.0
+    return jump / w
 
 
-def rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two pieces meet within rounding.
+def _rises(H: Array, k: NDArray[np.int64]) -> Array:
+    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two
+    pieces meet within rounding.
 
-    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all there is.
+    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all
+    there is.
     """
     enter, leave = H
     size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
@@ -173,7 +184,7 @@ def _sum(a: Array) -> float:
     return float(np.add.reduce(a, axis=None))
 
 
-# -- plain floats -----------------------------------------------------------------------------------------------------
+# -- plain floats ----------------------------------------------------------------------------------
 
 
 class _Cut(NamedTuple):

@@ -1,7 +1,7 @@
 """Edges that are nearly known, to the rounding of their own equations.
 
-With T = P/G, F1 = r K1 - T and F2 = r K2 - T of `edges`, both vanish where both edges are smooth. For
-any [x1, x2] of a convex profile
+With T = P/G, F1 = r K1 - T and F2 = r K2 - T of `edges`, both vanish where both edges are smooth.
+For any [x1, x2] of a convex profile
 
     dF2/dx1 = dF1/dx2 = -I0/2,    dF2/dx2 = r JR + I0/2,    dF1/dx1 = -r JL + I0/2,    JR, JL >= 0
 
@@ -24,8 +24,8 @@ jumps: at a distance d behind the break, to leading order,
 There a step leads to the root of this model, on whichever side of the break that is.
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
-their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by. What that leaves
-unknown of the edges is `uncertainty`.
+their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by. What that
+leaves unknown of the edges is `uncertainty`.
 """
 
 from __future__ import annotations
@@ -36,59 +36,32 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from sie.numerics.interval import EPS, Interval, two_sum
+from sie.numerics.root_finding import Bracket
 from sie.profiles.resolution import rounding_noise
 from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments
 
-Place = tuple[
-    float, float
-]  # of an edge, a sum of two doubles; such pairs are ordered as their sums are
-
-# A residual is rounding below so many units of its terms: the roots and the angle of each piece, its sines, its weights, Horner's rule
-# and the sum round it once or twice each.
+# A residual is rounding below so many units of its terms: the roots and the angle of each piece,
+# its sines, its weights, Horner's rule and the sum round it once or twice each.
 ROUNDINGS = 16.0 * EPS
-# r JR may vary like a power of the distance to the next break, or to where the profile touches first.
+# r JR may vary like a power of the distance to the next break, or to where the profile touches
+# first.
 VARIES = 4.0
-CLOSE = 0.25  # a step longer than this part of the distance to the next break follows what the break adds
+# A step longer than this part of the distance to the next break follows what the break adds
+CLOSE = 0.25
 FARTHEST = 0.75  # of r, a step inwards
 STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
-# The residual is halved 53 times from the size of the load to rounding, either bracket 106 times from r to the rounding of two doubles.
+# The residual is halved 53 times from the size of the load to rounding, either bracket 106 times
+# from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
 MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
 
 
-@dataclass
-class Bracket:
-    """low < edge < high."""
-
-    low: Place
-    high: Place
-    cuts: tuple[bool, bool] = (False, False)
-
-    def cut(self, at: Place, above: bool) -> None:
-        """The edge is above `at`, or below."""
-        if above:
-            self.low, self.cuts = max(self.low, at), (True, self.cuts[1])
-        else:
-            self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
-
-    def place(self, wanted: Place, slow: bool) -> Place:
-        """The place wanted; the middle if it is out of bounds, or if Newton's steps are slow and both bounds known."""
-        if self.low < wanted < self.high and not (slow and all(self.cuts)):
-            return wanted
-        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
-
-    def middle(self) -> Place:
-        return two_sum(
-            self.low[0],
-            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
-        )
-
-
 def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
-    """How far either edge moves for an ulp of the load and the rounding of its own equation: what (P, tilt) fix it to.
+    """How far either edge moves for an ulp of the load and the rounding of its own equation: what
+    (P, tilt) fix it to.
 
     Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
     """
@@ -105,12 +78,14 @@ class Polish:
     evaluate: Callable[[Interval], Moments]
     epsilon: float = 0.0
 
-    # -- one of two edges is given, or none ---------------------------------------------------------------------------
+    # -- one of two edges is given, or none --------------------------------------------------------
 
     def both(
         self, contact: Interval, target: float, left_sharp: bool
     ) -> tuple[Interval, Moments, bool]:
-        """The contact that carries target = P/G, its moments, and whether the residuals came down to rounding."""
+        """The contact that carries target = P/G, its moments, and whether the residuals came down
+        to rounding.
+        """
         lo, hi = self.slope.domain
         left, right = (
             Bracket((lo, 0.0), (contact.x2, contact.tail2)),
@@ -129,7 +104,8 @@ class Polish:
             missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
             if missed <= 1.0:
                 return wanted, k, True
-            # Signs within rounding bound nothing; where that of I0 is, both edges are too far out or in
+            # Signs within rounding bound nothing; where that of I0 is, both edges are too far out
+            # or in
             askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
             outside = (over2 if k.I0 > 0.0 else over1) > 0.0
             if abs(over2) > rounding2 and (not askew or (k.I0 > 0.0) == outside):
@@ -160,10 +136,12 @@ class Polish:
         lever: float,
         tilted: Callable[[Interval, float], Moments],
     ) -> tuple[Interval, Moments, float] | None:
-        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its tilt; None if Newton's steps find none.
+        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its
+        tilt; None if Newton's steps find none.
 
-        Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds p ~ sqrt((x - x1)/(x2 - x)) or the
-        mirror image of it, whose resultants are G r J/2 and act at m -+ r/2: the equations of both edges are apart again.
+        Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds
+        p ~ sqrt((x - x1)/(x2 - x)) or the mirror image of it, whose resultants are G r J/2 and act
+        at m -+ r/2: the equations of both edges are apart again.
         """
         lo, hi = self.slope.domain
         tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
@@ -203,9 +181,11 @@ class Polish:
     def symmetric(
         self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
     ) -> tuple[Interval, bool]:
-        """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that is longer than `reach` r.
+        """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that
+        is longer than `reach` r.
 
-        With r JR changing by no more than VARIES times itself over the distance to the next break or to z, what a step leaves is known.
+        With r JR changing by no more than VARIES times itself over the distance to the next break
+        or to z, what a step leaves is known.
         """
         bracket = Bracket((z, 0.0), (self.slope.domain[1], 0.0))
         earlier = [math.inf, math.inf]
@@ -236,7 +216,9 @@ class Polish:
         return contact, False
 
     def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, Moments]:
-        """The contact of the same half-width whose centre, between low and high, balances the slope: I0 = 0."""
+        """The contact of the same half-width whose centre, between low and high, balances the
+        slope: I0 = 0.
+        """
         bracket, r = Bracket((low, 0.0), (high, 0.0), (True, True)), contact.r
         m, earlier = (contact.m, 0.0), [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
@@ -245,7 +227,7 @@ class Polish:
             step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
             missed = abs(over) / sum(self.rounding(contact, k, 0.0))
             if missed <= 1.0:
-                return contact.moved(step, step), k
+                return contact.moved(step, step), k.balanced(contact.r)
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
             place = bracket.place(wanted, missed > 0.5 * earlier[-2])
@@ -257,7 +239,9 @@ class Polish:
         return contact, k
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
-        """How far right both edges move so that over = r I0 vanishes; the edge next to a break tells."""
+        """How far right both edges move so that over = r I0 vanishes; the edge next to a break
+        tells.
+        """
         to_left, to_right = (
             abs(self.nearest(contact, LEFT)[1]),
             abs(self.nearest(contact, RIGHT)[1]),
@@ -268,10 +252,12 @@ class Polish:
             return self.outwards(contact, RIGHT, over, rise, 0.5)
         return -self.outwards(contact, LEFT, -over, rise, 0.5)
 
-    # -- a step -------------------------------------------------------------------------------------------------------
+    # -- a step ------------------------------------------------------------------------------------
 
     def nearest(self, contact: Interval, side: int) -> tuple[float, float]:
-        """The break nearest to an edge, and how far behind the edge it lies: negative if it is ahead."""
+        """The break nearest to an edge, and how far behind the edge it lies: negative if it is
+        ahead.
+        """
         breaks, x, distance = self.slope.break_points, contact.x2, contact.from_right
         if side == LEFT:
             x, distance = contact.x1, contact.from_left
@@ -284,7 +270,8 @@ class Polish:
     def outwards(
         self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
     ) -> float:
-        """How far an edge moves outwards so that its residual `over`, which grows by `rise`, vanishes.
+        """How far an edge moves outwards so that its residual `over`, which grows by `rise`,
+        vanishes.
 
         share     of what a break adds at this edge, that the residual takes
         """
@@ -321,7 +308,7 @@ class Polish:
                 break
         return v * v - d
 
-    # -- rounding -----------------------------------------------------------------------------------------------------
+    # -- rounding ----------------------------------------------------------------------------------
 
     def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
         """Of F1 and F2."""

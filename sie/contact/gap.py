@@ -2,8 +2,9 @@
 
     gap'(x) = H(x) - (2/E*) 1/π ∫p(t)/(x - t) dt,        gap = ∫ gap' from the edge
 
-The slope is exact, and relative to itself at a smooth edge, where gap ~ distance^(3/2). Its integral is Gauss-Legendre in θ,
-x = m + r cosh θ, in which the square root disappears; panels are graded by the breaks inside and cut at those outside the contact.
+The slope is exact, and relative to itself at a smooth edge, where gap ~ distance^(3/2). Its
+integral is Gauss-Legendre in θ, x = m + r cosh θ, in which the square root disappears; panels are
+graded by the breaks inside and cut at those outside the contact.
 """
 
 from __future__ import annotations
@@ -29,11 +30,14 @@ NODES = 20
 SHORT, SHORT_NODES = 0.125, 6
 # Half-widths from an edge, as far as a gap is looked at: between them a function needs few pieces.
 DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
-LONGEST = 0.5  # of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded break)
+# Of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded
+# break)
+LONGEST = 0.5
 
 
 def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
-    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the tilt.
+    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the
+    tilt.
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
@@ -63,7 +67,8 @@ def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
         return opening
     G, continued = density.gap_excess(x[near])
     difference: Array = opening[near] - continued
-    # On the piece that reaches the edge H is its own continuation; what is left there is rounding, and would hide G next to the edge
+    # On the piece that reaches the edge H is its own continuation; what is left there is rounding,
+    # and would hide G next to the edge
     own = np.abs(difference) <= 16.0 * EPS * (np.abs(continued) + density.slope_scale)
     difference[own] = 0.0
     opening[near] = difference + G
@@ -113,7 +118,9 @@ def _on_one_side(
 
 
 def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
-    """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer than LONGEST."""
+    """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer
+    than LONGEST.
+    """
     inner = slope.breaks[
         (contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)
     ]

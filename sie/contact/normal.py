@@ -1,51 +1,48 @@
-"""The normal problem at β = 0: from the slope of a profile and a load to the edges and the pressure.
+"""The normal problem at β = 0: from the slope of a profile and a load to the edges and the
+pressure.
 
-Where the slope is a polynomial on each piece this is one search for the edges (`edges`) and one expansion. A slope given by a function is
-resolved first, on a window that is fitted to the contact: relative accuracy is needed where the contact is, not where the domain is.
+Where the slope is a polynomial on each piece this is one search for the edges (`edges`) and one
+expansion. A slope given by a function is resolved first, on a window that is fitted to the contact:
+relative accuracy is needed where the contact is, not where the domain is.
 """
 
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.errors import ContactError, LoadError
-from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval, interval_about
+from sie.numerics.root_finding import Bracket
+from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
-from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
+from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
-from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity, TransformDensity
-from sie.traction.panels import CHOP, Panels
-from sie.traction.piece_quadrature import Geometry
-from sie.traction.sliding_panels import SlidingDensity, SlidingGeometry, SlidingPanels
 
+from . import given_moment
 from .edges import PLACES, Edges, Found, Search
+from .pressure import Normal, resolution, slope_series, upright_law, with_breaks
 from .smooth_slope import smooth_contact
-from .widest import widest_contact
+from .widest_contact import widest_contact
 
 Array = NDArray[np.float64]
 
-# What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
-ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
-# A window of a function's slope is refitted while it is longer than the contact by more than this factor ...
+# A window of a function's slope is refitted while it is longer than the contact by more than this
+# factor ...
 WINDOW = 1.6
 FITTED = 1.25  # ... to the contact times this.
 WINDOW_GROWTH = 8.0
 MOST_GROWN, MOST_SHRUNK = 12, 120
 GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
-# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut into pieces.
-LARGEST_TRANSFORM = 257
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
@@ -61,38 +58,24 @@ LOOKS = 4
 MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
-@dataclass(frozen=True)
-class Normal:
-    """The found contact, and whether its symmetry halved the search.
-
-    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
-    """
-
-    edges: Edges
-    symmetric: bool
-    series: Array | None = field(default=None, compare=False, repr=False)
-    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
-
-    def slope(self, profile: Profile) -> Slope:
-        """H of the profile as it is pressed: with these breaks, and tilted."""
-        return _broken(profile.pieces, self.seen).tilted(self.edges.tilt)
-
-
 def normal_contact(
     scene: Scene,
     tol: float,
     economy: Collection[str] = ECONOMY,
     seen: tuple[float, ...] | None = None,
 ) -> Normal:
-    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact cannot answer it.
+    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact
+    cannot answer it.
 
-    `seen` are the breaks found in a larger contact of the same profile, which need not be looked for again.
+    `seen` are the breaks found in a larger contact of the same profile, which need not be looked
+    for again.
     """
     found = _within_scale(scene, tol, economy, seen)
     ends = zip(found.edges.sharp, scene.profile.ends_are_corners, scene.profile.domain, strict=True)
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
-            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is like beyond is not known: "
+            f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
+            "like beyond is not known: "
             "lower the load or the tilt, or measure further out",
             end=end,
         )
@@ -102,13 +85,16 @@ def normal_contact(
 def _within_scale(
     scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
-    """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares are no doubles."""
+    """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares
+    are no doubles.
+    """
     if (
         scene.normal_load is not None
         and not 1.0 / arguments.LARGEST <= scene.normal_load / scene.Estar <= arguments.LARGEST
     ):
         raise LoadError(
-            f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of range: {arguments.REMEDY}"
+            f"normal_load = {scene.normal_load:g} over E* = {scene.Estar:g} is a length out of "
+            f"range: {arguments.REMEDY}"
         )
     try:
         with np.errstate(
@@ -124,14 +110,15 @@ def _within_scale(
     apart = math.ulp(max(abs(x1), abs(x2)))
     if not r >= PLACES * apart:
         raise LoadError(
-            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are {apart:.2g} apart: {NEARER}"
+            f"the contact at x = {edges.contact.m:.6g} is {2.0 * r:.6g} wide, where doubles are "
+            f"{apart:.2g} apart: {NEARER}"
         )
     refuse_out_of_scale(r, P, scene.Estar)
     return found
 
 
 def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
-    """Raises LoadError for a contact of half-width r whose sizes have products that are no doubles."""
+    """Raises LoadError for a contact of half-width r with sizes whose products are no doubles."""
     sizes = (
         ("half-width", r, SIZE),
         ("mean traction", 0.5 * load / r, SIZE),
@@ -140,19 +127,14 @@ def refuse_out_of_scale(r: float, load: float, Estar: float) -> None:
     for name, size, largest in sizes:
         if not 1.0 / largest <= size <= largest:
             raise LoadError(
-                f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: {arguments.REMEDY}"
+                f"the contact's {name} is {size:.6g}, whose products leave the range of doubles: "
+                f"{arguments.REMEDY}"
             )
 
 
 def _asked(scene: Scene) -> str:
     names = ("normal_load", "half_width", "moment", "tilt")
     return ", ".join(f"{name} = {value:g}" for name in names if (value := getattr(scene, name)))
-
-
-def _broken(slope: Slope, places: tuple[float, ...]) -> Slope:
-    for x in places:
-        slope = slope.split_at(x)
-    return slope
 
 
 def _contact(
@@ -167,7 +149,7 @@ def _contact(
     looks = 0 if profile.convex or seen is not None else LOOKS
     seen = seen or ()
     smooth = (
-        _smooth(scene, _broken(profile.pieces, seen), tol, "symmetry" in economy)
+        _smooth(scene, with_breaks(profile.pieces, seen), tol, "symmetry" in economy)
         if "transform" in economy
         else None
     )
@@ -181,7 +163,7 @@ def _contact(
     while True:
         open_ends = (lo > ends[0], hi < ends[1])
         try:
-            resolved = refined(_broken(profile.pieces, seen), lo, hi, _resolution(tol))
+            resolved = refined(with_breaks(profile.pieces, seen), lo, hi, resolution(tol))
             found = _searched(scene, resolved, economy, tilt)
         except LoadError as error:
             before, carried = carried, float(error.reached.get("load", 0.0))
@@ -200,14 +182,16 @@ def _contact(
                     else f"half-width {scene.half_width:.6g}"
                 )
                 raise LoadError(
-                    f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope rises too little, give a domain"
+                    f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope "
+                    "rises too little, give a domain"
                 )
             grown, settled = grown + 1, shrunk > 0
             lo, hi = _grown(lo, hi, ends)
             continue
         margin = 0.5 * (FITTED - 1.0) * (contact.x2 - contact.x1)
         fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
-        # A window that had to grow again after it was fitted belongs to a profile that is not convex: it stays
+        # A window that had to grow again after it was fitted belongs to a profile that is not
+        # convex: it stays
         if (
             hi - lo <= WINDOW * (contact.x2 - contact.x1)
             or fitted == (lo, hi)
@@ -226,15 +210,6 @@ def _contact(
         shrunk += 1
         lo, hi = fitted
         tilt = found.edges.tilt
-
-
-def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
-    """The power law of a profile that is pressed upright, where its closed form serves."""
-    law = scene.profile.power_law
-    if law is None:
-        return None
-    upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
-    return law if law.explicit and upright else None
 
 
 def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:
@@ -262,7 +237,7 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
     slope, G = slope.tilted(scene.tilt), 0.5 * scene.Estar
     axis = scene.profile.axis if symmetry and scene.tilt == 0.0 else None
     load = None if scene.normal_load is None else scene.normal_load / G
-    found = smooth_contact(slope, load, scene.half_width, axis, _resolution(tol))
+    found = smooth_contact(slope, load, scene.half_width, axis, resolution(tol))
     if found is None:
         return None
     contact, c = found.contact.rounded(slope.break_points), found.series
@@ -278,12 +253,15 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
 
 
 def _refuse_infinite_ends(slope: Slope) -> None:
-    """Raises LoadError where the slope is infinite at an end of the indenter, towards which no series resolves it."""
+    """Raises LoadError where the slope is infinite at an end of the indenter, towards which no
+    series resolves it.
+    """
     ends = np.array([end for end in slope.domain if math.isfinite(end)])
     infinite = ends[~np.isfinite(slope(ends))]
     if len(infinite):
         raise LoadError(
-            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the contact comes near: narrow the domain"
+            f"the slope is infinite at the end x = {infinite[0]:.6g} of its domain, which the "
+            "contact comes near: narrow the domain"
         )
 
 
@@ -292,7 +270,7 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
     assert found.series is not None
     contact = found.edges.contact
     series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])
-    return bool(between_points(found.slope(profile), (series.H,), contact, _resolution(tol)))
+    return bool(between_points(found.slope(profile), (series.H,), contact, resolution(tol)))
 
 
 def _unseen(
@@ -303,11 +281,11 @@ def _unseen(
     By the pieces that gave the edges, and by what will give the pressure.
     """
     slope, contact = found.slope(scene.profile), found.edges.contact
-    accuracy = _resolution(tol)
+    accuracy = resolution(tol)
     pieces = expanded(slope, resolved, contact)
     places = between_pieces(slope, pieces, contact, accuracy)
     transform = not scene.epsilon and "transform" in economy
-    series = _series(slope, contact, accuracy) if transform else None
+    series = slope_series(slope, contact, accuracy) if transform else None
     if series is None:
         resolved = refined(slope, contact.x1, contact.x2, accuracy)
         final = expanded(slope, resolved, contact)
@@ -327,7 +305,9 @@ def contact_under(
     near: Interval | None = None,
     seen: tuple[float, ...] | None = None,
 ) -> Normal:
-    """The contact of a scene's profile under another load, at another tilt; `near` is that under a load that may be almost the same."""
+    """The contact of a scene's profile under another load, at another tilt; `near` is that under a
+    load that may be almost the same.
+    """
     profile = scene.profile
     upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy
     searched = not profile.pieces.functions and upright_law(scene, economy, tilt) is None
@@ -343,41 +323,6 @@ def contact_under(
     )
 
 
-def pressure(
-    normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
-) -> SlopeDensity:
-    """The pressure that answers the slope on the contact: a transform where the slope is smooth there, exact panels where it is not."""
-    edges = normal.edges
-    contact, G = edges.contact, 0.5 * scene.Estar
-    common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
-    if normal.series is not None:
-        return TransformDensity(*common, normal.series)
-    declared = normal.slope(scene.profile)
-    if scene.epsilon:
-        slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-        geometry = SlidingGeometry(
-            slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
-        )
-        return SlidingDensity(*common, SlidingPanels(geometry, edges.I0))
-    if "transform" in economy:
-        series = _series(declared, contact, _resolution(tol))
-        if series is not None:
-            if not any(edges.sharp):
-                series[0] = 0.0  # the edges' condition, which quadrature met to rounding
-            return TransformDensity(*common, series)
-    law = upright_law(scene, economy, edges.tilt)
-    if law is not None:
-        return PowerDensity(*common, law, declared, _resolution(tol))
-    slope = refined(declared, contact.x1, contact.x2, _resolution(tol))
-    return PanelDensity(
-        *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
-    )
-
-
-def _resolution(tol: float) -> float:
-    return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS
-
-
 def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
     """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
     axis = scene.profile.axis if "symmetry" in economy else None
@@ -391,7 +336,8 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
             found = search.of_half_width(scene.half_width)
             if all(found.sharp):
                 raise LoadError(
-                    f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any load: give normal_load instead of half_width"
+                    f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any "
+                    "load: give normal_load instead of half_width"
                 )
             return search.finished(found, None, tilt)
         assert scene.normal_load is not None
@@ -424,12 +370,13 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         and epsilon == 0.0
         and (axis is None or scene.moment != axis * scene.normal_load)
     ):
-        edges = search.under_moment(scene.normal_load, scene.moment)
+        edges = given_moment.under_load(search, scene.normal_load, scene.moment)
     if scene.half_width is not None and epsilon == 0.0 and not scene.moment == axis == 0.0:
-        edges = search.of_half_width_under_moment(scene.half_width, scene.moment)
+        edges = given_moment.of_half_width(search, scene.half_width, scene.moment)
         if edges is None and np.isinf(scene.profile.domain).all():
             raise LoadError(
-                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found that has the moment {scene.moment:.6g}: "
+                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found "
+                f"that has the moment {scene.moment:.6g}: "
                 "give a smaller moment, or a larger half_width"
             )
     edges = edges or _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
@@ -439,16 +386,20 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
 def _refuse_outside(
     moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
 ) -> None:
-    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or beyond the indenter."""
+    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or
+    beyond the indenter.
+    """
     if window[0] < moment / load < window[1]:
         return
     acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
     if domain[0] < moment / load < domain[1]:
         raise LoadError(
-            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: lower the moment"
+            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: "
+            "lower the moment"
         )
     raise LoadError(
-        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to below the load times that length"
+        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to "
+        "below the load times that length"
     )
 
 
@@ -460,7 +411,7 @@ def _tilt_of_moment(
     tilt: float,
 ) -> Edges:
     """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
-    low, high = -math.inf, math.inf
+    bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
     best = edges_at(tilt)
     edges = best
     left, missed = MAX_TILTS, [math.inf, math.inf]
@@ -468,20 +419,18 @@ def _tilt_of_moment(
         excess = edges.moment - moment
         if abs(excess) <= abs(best.moment - moment):
             best = edges
-        low, high = (max(low, tilt), high) if excess > 0.0 else (low, min(high, tilt))
+        bracket.cut((tilt, 0.0), above=excess > 0.0)
         if abs(excess) <= 2.0 * EPS * _reach(edges):
             break
         falls = _fall_of_moment(edges, search, at_fixed_width)
-        new = tilt + excess / falls if falls > 0.0 else math.inf
         missed.append(abs(excess))
-        astray = (
-            missed[-1] > 0.5 * missed[-3]
-        )  # Newton's steps run to and fro across a part that is nearly flat
-        if math.isfinite(low + high) and (astray or not low < new < high):
-            new = 0.5 * (low + high)
-        elif not low < new < high:
-            new = tilt
-        if new == tilt or high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE):
+        # Newton's steps may run to and fro across a part that is nearly flat
+        astray = missed[-1] > 0.5 * missed[-3]
+        wanted = tilt + excess / falls if falls > 0.0 else math.inf
+        new, _ = bracket.place((wanted, 0.0), astray)
+        (low, _), (high, _) = bracket.low, bracket.high
+        settled = high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE)
+        if new == tilt or settled or not math.isfinite(new):
             break
         tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
         left -= spent
@@ -490,7 +439,8 @@ def _tilt_of_moment(
         edges = tried
     if abs(best.moment - moment) > MISSED * _reach(best):
         raise LoadError(
-            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is {best.moment:.6g} "
+            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is "
+            f"{best.moment:.6g} "
             f"at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
             moment=best.moment,
             tilt=best.tilt,
@@ -501,7 +451,9 @@ def _tilt_of_moment(
 def _carried(
     edges_at: Callable[[float], Edges], tilt: float, known: float, most: int
 ) -> tuple[float, Edges | None, int]:
-    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be tilted by so much; and the tilts tried."""
+    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be
+    tilted by so much; and the tilts tried.
+    """
     for tried in range(1, most + 1):
         if abs(tilt - known) <= 4.0 * EPS * abs(known):
             return tilt, None, tried
@@ -513,7 +465,9 @@ def _carried(
 
 
 def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
-    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes too, dm/d(tilt) = -π/J0, dP/dm = G r J1."""
+    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes
+    too, dm/d(tilt) = -π/J0, dP/dm = G r J1.
+    """
     r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
     if at_fixed_width:
@@ -528,31 +482,10 @@ def _reach(edges: Edges) -> float:
     return edges.normal_load * (edges.contact.r + abs(edges.contact.m))
 
 
-def _series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
-    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do not decay."""
-    breaks = slope.break_points
-    inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)
-    if inner[0] < inner[1]:
-        return None
-    k = Geometry(slope, contact, keep_zero=True)
-    if len(k.k) != 1:
-        return None
-    if not slope.functions:
-        return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0]
-    noise = NOISE * rounding_noise(slope.inside, contact.x1, contact.x2)
-    n = 17
-    while n <= LARGEST_TRANSFORM:
-        c = k.chebyshev_slope(n)[0]
-        scale = float(np.abs(c).max())
-        if np.abs(c[-3:]).max() <= max(tol * scale, min(noise, ROUGHEST * scale)):
-            return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
-        n = 2 * n - 1
-    return None
-
-
 def _first_window(scene: Scene) -> tuple[float, float]:
-    """A little more than the contact where symmetry tells it; otherwise the domain where it is finite, or some way around the break
-    nearest to x = 0, as far as the load or half-width asks for.
+    """A little more than the contact where symmetry tells it; otherwise the domain where it is
+    finite, or some way around the break nearest to x = 0, as far as the load or half-width asks
+    for.
 
     A contact of half-width w under slopes of the size H(w) carries about G w H(w).
     """
@@ -572,7 +505,8 @@ def _first_window(scene: Scene) -> tuple[float, float]:
         sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
         with np.errstate(invalid="ignore", over="ignore"):
             H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
-            # A tilted profile touches first where its slope has risen to 0, on one side: both have to rise outwards
+            # A tilted profile touches first where its slope has risen to 0, on one side: both have
+            # to rise outwards
             outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
             enough = [np.flatnonzero(~(force < scene.normal_load)) for force in outwards]
         size = max((float(WINDOW_SIZES[k[0]]) for k in enough if k.size), default=1.0)

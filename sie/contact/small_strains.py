@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.interval import inner
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
 
@@ -40,9 +41,8 @@ def regular_points(density: SlopeDensity, slope: Slope, x: Array) -> NDArray[np.
         edge for edge, k in zip(density.interval, (density.k1, density.k2), strict=True) if k
     ]
     if not slope.continuous:
-        b = slope.breaks
-        inner = b[(contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)]
-        infinite += inner[np.isinf(density(inner))].tolist()
+        breaks = inner(contact, slope.breaks)
+        infinite += breaks[np.isinf(density(breaks))].tolist()
     places = np.array([-np.inf, *sorted(infinite), np.inf])
     k = np.searchsorted(places, x, side="right").clip(1, len(places) - 1)
     regular: NDArray[np.bool_] = np.minimum(x - places[k - 1], places[k] - x) > BESIDE * contact.r

@@ -1,22 +1,24 @@
 """How a contact grows under its load, and what slip in its layers turns into heat.
 
-Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the pressure is
-dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`ladder`) the slip beside the contact grows by
-2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what lies beside an interval:
-integrated over the layer of a larger contact of half-width R, in which the interval lies anywhere, it
-gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, § 5.1). Hence a front of slip that
-runs down from the level Y to the level L, while the load is P(y) when it passes y, turns into heat
+Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the
+pressure is dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`memory`) the slip beside the
+contact grows by 2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green's function of what
+lies beside an interval: integrated over the layer of a larger contact of half-width R, in which the
+interval lies anywhere, it gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, §
+5.1). Hence a front of slip that runs down from the level Y to the level L, while the load is P(y)
+when it passes y, turns into heat
 
     W = 2 f² j/(π E*) ∫_L^Y dy ∫_y^P(y) (P(y) - η) d ln r(η)  =  2 f² j/(π E*) ∫ v(η) d ln r(η)
 
-for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a quadratic
-polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At constant P, from
-Y = P down, v = (P - η)(η - L).
+for every profile, symmetric or not: only its half-width counts. With P linear in y, v is a
+quadratic polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At
+constant P, from Y = P down, v = (P - η)(η - L).
 
-d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of the
-profile: from there on it goes with the root of the distance. A wide front that crosses the many breaks of
-a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy and T = ∫S dy at
-the four levels, and these are known from the contact under one load (`Growth._potentials`).
+d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of
+the profile: from there on it goes with the root of the distance. A wide front that crosses the many
+breaks of a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy
+and T = ∫S dy at the four levels, and these are known from the contact under one load
+(`Dissipation._potentials`).
 """
 
 from __future__ import annotations
@@ -26,22 +28,21 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import Moments
-from sie.contact.edges import Found, Search
-from sie.contact.normal import Normal, pressure
+from sie.contact.edges import Found
+from sie.contact.pressure import Normal, pressure
 from sie.errors import LoadError
 from sie.numerics import chebyshev
-from sie.numerics.interval import EPS, Interval, two_sum
+from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
-from sie.profiles.resolution import refined
 from sie.traction.piece_quadrature import Geometry
 
-from .memory import Overwritten
+from .contact_growth import ContactGrowth
+from .memory import SlippedLayer
+from .states import Slip, Slipping
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,9 @@ FINE, COARSE = (
     1e-11,
 )  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
 LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
-NOISE = 1e-10  # ... or this, where twice as many points do not make them smaller: the slope of a function is known by its series
+# ... or this, where twice as many points do not make them smaller: the slope of a function is known
+# by its series
+NOISE = 1e-10
 NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
 NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
 SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
@@ -65,22 +68,19 @@ LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
 THIN = 8.0 * EPS  # of the load: panels reach at least so far below it, however thin a front is
 NODES = 16  # on each part of a panel whose ends are not further apart than ...
 RATIO = 4.0
-MARGIN = 0.02  # of the widest contact: how far beyond it a function is resolved
-NEAR, STEPS = 0.25, 8  # Newton from an interpolated contact: its first step, and how many
-SETTLED, ASTRAY = (
-    64.0 * EPS,
-    1e-9,
-)  # steps relative to the distance from where the profile touched first: rounding, and no solution
-FARTHEST = 2.0  # of the logarithms of distances from those of known contacts
 ROWS = 20_000  # parts of panels at a time
 
 
-class Contact(NamedTuple):
-    """The contact under a load, which of its edges are sharp, and the moments there."""
-
-    interval: Interval
-    sharp: tuple[bool, bool]
-    moments: Moments
+def dissipated(state: Slip) -> float:
+    """∫|q| |slip| dx: the energy that a first loading turned into heat, per unit length."""
+    if not isinstance(state, Slipping):
+        return 0.0
+    step = state.step
+    if step.tau:
+        return state.work
+    heat = Dissipation(step.scene, step.normal, step.tol, step.economy)
+    fronts = [SlippedLayer(0.0, abs(step.Q), 1.0)]
+    return float(heat.of_fronts([step.normal_load], fronts, state.friction)[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,40 +96,30 @@ class Panel:
     series: Array
 
 
-class Growth:
-    """The contacts of a scene's profile at the tilt of a normal contact, under every load up to its; solved where they are asked for."""
+class Dissipation:
+    """The heat of slip fronts in the contacts of a profile at one tilt, from ∫v d ln r.
+
+    The class is longer than 200 lines: two ways of taking one integral, on the same panels.
+    """
 
     def __init__(self, scene: Scene, normal: Normal, tol: float, economy: Collection[str]) -> None:
-        tilt, widest, top = normal.edges.tilt, normal.edges.contact, normal.edges.normal_load
-        declared = scene.profile.pieces.tilted(tilt)
-        margin = MARGIN * widest.r
-        lo, hi = (
-            max(widest.x1 - margin, declared.domain[0]),
-            min(widest.x2 + margin, declared.domain[1]),
-        )
-        axis = scene.profile.axis if tilt == 0.0 and "symmetry" in economy else None
-        self._search = Search(
-            refined(declared, lo, hi, EPS), 0.5 * scene.Estar, axis, "zero panels" not in economy
-        )
-        self._breaks = declared.break_points
-        self._touch = self._search.touch()
-        self._ends = declared.domain
-        self._scene, self._tilt, self._tol, self._unit = scene, tilt, tol, widest.r
+        self.contacts = ContactGrowth(scene, normal, economy)
+        self._scene, self._tol = scene, tol
+        self._tilt, self._unit = normal.edges.tilt, normal.edges.contact.r
+        self.top = normal.edges.normal_load
         self._of_load: dict[float, tuple[float, float]] = {}
-        self.top = top
         self._panels: list[Panel] = []
-        self._known: list[
-            tuple[float, float, float]
-        ] = []  # (ln y, logarithms of both edges' distances from where it touched first)
 
     @property
     def evaluations(self) -> int:
         """How often the moments of a contact were evaluated."""
-        return self._search.evaluations
+        return self.contacts.search.evaluations
 
-    # -- energy -------------------------------------------------------------------------------------------------------
+    # -- energy ------------------------------------------------------------------------------------
 
-    def heat(self, loads: Sequence[float], fronts: Sequence[Overwritten], friction: float) -> Array:
+    def of_fronts(
+        self, loads: Sequence[float], fronts: Sequence[SlippedLayer], friction: float
+    ) -> Array:
         """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
 
         Depths are counted in Q from each load down. LoadError where the load is
@@ -151,7 +141,7 @@ class Growth:
                 [row for row, many in zip(rows, apart, strict=True) if not many]
             ).tolist()
         )
-        G = self._search.half_modulus
+        G = self.contacts.search.half_modulus
         found = [
             self._from_potentials(*row) / G if many else next(rest)
             for row, many in zip(rows, apart, strict=True)
@@ -194,7 +184,8 @@ class Growth:
             0,
             len(panels) - 1,
         )
-        # In the root of the distance from a break's level, by ratios alone: a front may be thinner than y is known
+        # In the root of the distance from a break's level, by ratios alone: a front may be thinner
+        # than y is known
         base, kinked = (
             np.array([getattr(p, name) for p in panels])[k] for name in ("lo", "kinked")
         )
@@ -215,7 +206,7 @@ class Growth:
         level = np.maximum(P + y, panels[0].lo)
         # v in its two factors: loads of 1e160 have no square
         first = np.maximum(upper - lower, 0.0) / level
-        second = (at_Y + rise * (Y - middle) - y) / self._search.half_modulus
+        second = (at_Y + rise * (Y - middle) - y) / self.contacts.search.half_modulus
         out: Array = (hi - lo) * (weight * first * second * self._growth(k, level)).sum(axis=1)
         return out
 
@@ -246,15 +237,19 @@ class Growth:
         )
         return sorted({*(end for p in self._panels for end in (p.lo, p.hi)), *geometric.tolist()})
 
-    # -- across many breaks -----------------------------------------------------------------------------------------------
+    # -- across many breaks ------------------------------------------------------------------------
 
     def _crosses_many_breaks(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> bool:
-        """Whether the front of a trace crosses so many breaks that a panel for each costs more than two potentials (and no digits)."""
-        if len(self._breaks) <= MANY or self._search.slope.functions:
+        """Whether the front of a trace crosses so many breaks that a panel for each costs more than
+        two potentials (and no digits).
+        """
+        if len(self.contacts.breaks) <= MANY or self.contacts.search.slope.functions:
             return False
         highest, change = max(at_L, at_Y), abs(at_L - at_Y)
         thin = highest - L < WIDE * (P + highest) or 0.0 < change < WIDE * (Y - L)
-        return not thin and len(self._passed(max(P + L, LOWEST * self.top), P + highest)) > FEW
+        return (
+            not thin and len(self.contacts.passed(max(P + L, LOWEST * self.top), P + highest)) > FEW
+        )
 
     def _from_potentials(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> float:
         """∫v d ln r from S = ∫ln r dy and T = ∫S dy at the four levels."""
@@ -266,22 +261,28 @@ class Growth:
         return of_load - (2.0 + rise) * (T_Y - T_L) - (at_Y - Y) * S_Y + (at_L - L) * S_L
 
     def _potentials(self, y: float) -> tuple[float, float]:
-        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the lowest point in the angle φ.
+        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the
+        lowest point in the angle φ.
 
-        Because δ - h is the potential of p in the contact, and the mean of a potential over a contact is its Robin constant.
+        Because δ - h is the potential of p in the contact, and the mean of a potential over a
+        contact is its Robin constant.
         """
         if y not in self._of_load:
             self._of_load[y] = self._measured(y) if y > LOWEST * self.top else (0.0, 0.0)
         return self._of_load[y]
 
     def _measured(self, y: float) -> tuple[float, float]:
-        (contact, sharp, _), search, scene = self.contact(y), self._search, self._scene
+        (contact, sharp, _), search, scene = (
+            self.contacts.contact(y),
+            self.contacts.search,
+            self._scene,
+        )
         edges = search.finished(Found(contact, sharp), y, self._tilt)
         p = pressure(Normal(edges, search.axis is not None), scene, self._tol)
         geometry = Geometry(search.slope, edges.contact, keep_zero=True)
         offset, angle, weight, _ = geometry.nodes(HEIGHTS)
         x = (geometry.ends[0] + geometry.tails[0])[:, None] + offset
-        z = 0.5 * sum(self._touch)
+        z = 0.5 * sum(self.contacts.touch)
         h = (scene.profile.height(x) + self._tilt * x) - float(
             scene.profile.height(z) + self._tilt * z
         )
@@ -291,7 +292,7 @@ class Growth:
         S = y * math.log(r / self._unit) - math.pi * G * mean
         return S, 0.5 * (y * S - math.pi * G * work)
 
-    # -- panels ---------------------------------------------------------------------------------------------------------
+    # -- panels ------------------------------------------------------------------------------------
 
     def _cover(self, lo: float, hi: float) -> None:
         """Panels for every load from lo to hi, where there are none yet."""
@@ -313,14 +314,20 @@ class Growth:
             panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
 
     def _break_below(self, level: float, top: float, limit: float) -> float:
-        """The level at which an edge passed the nearest break, where that is not far below, nor below `limit`; otherwise 0."""
-        here, there = self.contact(level).interval, self.contact(top).interval
+        """The level at which an edge passed the nearest break, where that is not far below, nor
+        below `limit`; otherwise 0.
+        """
+        here, there = self.contacts.contact(level).interval, self.contacts.contact(top).interval
         found = [0.0]
         for right in (False, True):
             passed = [
                 b
-                for b in self._breaks
-                if (self._touch[1] < b < here.x2 if right else here.x1 < b < self._touch[0])
+                for b in self.contacts.breaks
+                if (
+                    self.contacts.touch[1] < b < here.x2
+                    if right
+                    else here.x1 < b < self.contacts.touch[0]
+                )
             ]
             if passed:
                 b = max(passed) if right else min(passed)
@@ -330,21 +337,23 @@ class Growth:
                     else (here.x1 - there.x1, b - here.x1)
                 )
                 if since <= moved:
-                    found.append(self._level_at(b, right, here))
+                    found.append(self.contacts.level_at(b, right, here))
         return max(y if max(limit, LOWEST * self.top) < y < level else 0.0 for y in found)
 
     def _resolved(
         self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
     ) -> list[Panel]:
-        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short one may miss more.
+        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short
+        one may miss more.
 
         An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
         """
         whole = whole or hi - lo
-        inside = self._passed(lo, hi)
+        inside = self.contacts.passed(lo, hi)
         cut = (
-            self._level_at(
-                *inside[len(inside) // 2], self.contact(math.sqrt(lo) * math.sqrt(hi)).interval
+            self.contacts.level_at(
+                *inside[len(inside) // 2],
+                self.contacts.contact(math.sqrt(lo) * math.sqrt(hi)).interval,
             )
             if inside
             else 0.0
@@ -376,145 +385,21 @@ class Growth:
         length = math.log1p((hi - lo) / lo)
         # The slope near where it is 0 is known to rounding of its larger values
         scale = max(NOISELESS * math.sqrt(self.top / hi), 1.0)
-        if length > LONG and (self._search.slope.functions or len(self._breaks) > FEW):
-            contacts = [self.contact(level).interval for level in y.tolist()]
+        if length > LONG and (
+            self.contacts.search.slope.functions or len(self.contacts.breaks) > FEW
+        ):
+            contacts = [self.contacts.contact(level).interval for level in y.tolist()]
             series = chebyshev.transform(np.log([[c.r / contacts[-1].r for c in contacts]]))[0]
             missed = float(np.abs(series[-TAIL:]).max()) / scale / length
             return np.polynomial.chebyshev.chebder(series) * (
                 (1.0 if kinked else 2.0) / length
             ), missed
-        values = np.array([self._rate(level) for level in y.tolist()])
+        values = np.array([self.contacts.rate(level) for level in y.tolist()])
         if kinked:
             values = values * t
         series = chebyshev.transform(values[None, :])[0]
         scale *= float(np.abs(values).max())
         return series, float(np.abs(series[-TAIL:]).max()) / scale if scale else 0.0
-
-    def _passed(self, lo: float, hi: float) -> list[tuple[float, bool]]:
-        """The breaks that the edges pass between two loads, in the order of their distance, and whether it is the right edge."""
-        if not self._breaks:
-            return []
-        a, b = self.contact(lo).interval, self.contact(hi).interval
-        slack = 4.0 * EPS * (b.r + abs(b.m))
-        lo_end, hi_end = self._ends  # which an edge reaches, and does not pass
-        left = [
-            (x, False)
-            for x in self._breaks
-            if b.x1 + (0.0 if x == lo_end else slack) <= x < a.x1 - slack
-        ]
-        right = [
-            (x, True)
-            for x in self._breaks
-            if a.x2 + slack < x <= b.x2 - (0.0 if x == hi_end else slack)
-        ]
-        both = left + right if self._search.axis is None else right
-        return sorted(both, key=lambda pair: abs(pair[0] - a.m))
-
-    # -- contacts ---------------------------------------------------------------------------------------------------------
-
-    def _rate(self, y: float) -> float:
-        """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp (`edges`)."""
-        (contact, sharp, k), G = self.contact(y), self._search.half_modulus
-        rise1 = contact.r * k.JL - (0.5 * k.I0 if sharp[1] else 0.0)
-        rise2 = contact.r * k.JR + (0.5 * k.I0 if sharp[0] else 0.0)
-        moves = (0.0 if sharp[0] else 1.0 / rise1) + (0.0 if sharp[1] else 1.0 / rise2)
-        return y * moves / (2.0 * G * contact.r)
-
-    def contact(self, y: float) -> Contact:
-        found = self._near(y)
-        if found is None:
-            search = self._search
-            contact, sharp, k = (
-                search.symmetric(y) if search.axis is not None else search.general(y)
-            )
-            found = Contact(contact, sharp, k or search.moments(contact))
-        self._learn(y, found)
-        return found
-
-    def _near(self, y: float) -> Contact | None:
-        """By Newton from what the contacts of other loads say, None if that does not settle or an edge is sharp."""
-        guess = self._guess(math.log(y))
-        if guess is None:
-            return None
-        contact, target, previous = guess, y / self._search.half_modulus, NEAR
-        for _ in range(STEPS):
-            k, r = self._search.moments(contact), contact.r
-            if not (k.JL > 0.0 and k.JR > 0.0):
-                return None
-            step1, step2 = (
-                (r * (k.I1 - k.I0) - target) / (r * k.JL),
-                (target - r * (k.I1 + k.I0)) / (r * k.JR),
-            )
-            d1, d2 = self._distances(contact)
-            size = max(abs(step1) / d1, abs(step2) / d2)
-            if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(self.top / y):
-                return Contact(contact, (False, False), k)
-            if not size <= previous:
-                return None
-            contact, previous = contact.moved(step1, step2), size
-            if not (self._ends[0] < contact.x1 and contact.x2 < self._ends[1]):
-                return None
-        return None
-
-    def _distances(self, contact: Interval) -> tuple[float, float]:
-        z1, z2 = self._touch
-        return (z1 - contact.x1) - contact.tail1, (contact.x2 - z2) + contact.tail2
-
-    def _learn(self, y: float, found: Contact) -> None:
-        distances = self._distances(found.interval)
-        if any(found.sharp) or min(distances) <= 0.0:
-            return
-        point = (math.log(y), math.log(distances[0]), math.log(distances[1]))
-        k = bisect_left(self._known, point[:1])
-        if k == len(self._known) or self._known[k][0] != point[0]:
-            self._known.insert(k, point)
-
-    def _guess(self, at: float) -> Interval | None:
-        """From the four nearest loads: the distances of the edges are power laws, about, and cubics in logarithms."""
-        if len(self._known) < 2:
-            return None
-        first = max(min(bisect_left(self._known, (at,)) - 2, len(self._known) - 4), 0)
-        table = np.array(self._known[first : first + 4])
-        x, moves = table[:, 0], table[:, 1:]
-        for order in range(1, len(x)):  # Neville
-            t = ((at - x[: len(x) - order]) / (x[order:] - x[: len(x) - order]))[:, None]
-            moves = moves[:-1] + t * (moves[1:] - moves[:-1])
-        if not np.abs(moves[0] - table[:, 1:]).max(axis=1).min() <= FARTHEST:
-            return None
-        (d1, d2), (z1, z2) = np.exp(moves[0]).tolist(), self._touch
-        (x1, tail1), (x2, tail2) = two_sum(z1, -d1), two_sum(z2, d2)
-        return Interval(x1, x2, tail1, tail2)
-
-    def _level_at(self, b: float, right: bool, near: Interval) -> float:
-        """The load under which an edge is at b, 0 if it is not found."""
-        search = self._search
-        if search.axis is not None:
-            d = abs(b - search.axis)
-            contact = (
-                Interval(2.0 * search.axis - b, b) if right else Interval(b, 2.0 * search.axis - b)
-            )
-            return search.load(contact, search.moments(contact)) if d > 0.0 else 0.0
-        contact = (
-            Interval(near.x1, b, near.tail1, 0.0)
-            if right
-            else Interval(b, near.x2, 0.0, near.tail2)
-        )
-        previous = math.inf
-        for _ in range(STEPS * 4):
-            k = search.moments(contact)
-            J = k.JL if right else k.JR
-            if not J > 0.0:
-                return 0.0
-            step = -2.0 * k.I0 / J
-            if abs(step) >= 0.5 * previous or abs(step) <= SETTLED * contact.r:
-                return search.load(contact, k) if abs(step) <= ASTRAY * contact.r else 0.0
-            contact, previous = (
-                (contact.moved(step, 0.0) if right else contact.moved(0.0, step)),
-                abs(step),
-            )
-            if not contact.r > 0.0:
-                return 0.0
-        return 0.0
 
 
 def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:

@@ -1,11 +1,13 @@
 """A flat punch that sticks to the body all over: full stick, under P, Q and a moment or a tilt.
 
-Neither body slips, so that both equations hold on the whole contact with g' = 0. In φ = p + i q they are one,
+Neither body slips, so that both equations hold on the whole contact with g' = 0. In φ = p + i q
+they are one,
 
     iβ φ(x) - 1/π PV∫ φ(t)/(t - x) dt = E*/2 tilt,        ∫φ dx = P + i Q,
 
-whose exponents -1/2 ± iη, tanh πη = β, make the tractions oscillate next to the edges (Muskhelishvili 1953, § 114; Johnson 1985, § 2.8(b)).
-There, within a distance of about e^(-π/2η) of the width, p changes sign: bonded surfaces can pull.
+whose exponents -1/2 ± iη, tanh πη = β, make the tractions oscillate next to the edges
+(Muskhelishvili 1953, § 114; Johnson 1985, § 2.8(b)). There, within a distance of about e^(-π/2η) of
+the width, p changes sign: bonded surfaces can pull.
 """
 
 from __future__ import annotations
@@ -13,7 +15,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -22,21 +23,15 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.cauchy.density import JacobiDensity
 from sie.cauchy.equation import CauchyEquation
-from sie.certificate.pressure_check import Certificate
 from sie.contact.edges import Edges
 from sie.contact.normal import refuse_out_of_scale
-from sie.contact.small_strains import BESIDE, notes
 from sie.errors import ContactError
-from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.traction.base import Density, on_surface
 
 Array = NDArray[Any]
 Complex = NDArray[np.complex128]
-
-GRADED = 0.25 ** np.arange(27.0, 0.0, -1.0)  # panels towards the edges, to rounding
-NODES = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +109,7 @@ class Component(Density):
         )[()]
 
 
-def bonded_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
+def full_stick_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
     """The edges (those of the punch), load, moment and tilt, and φ = p + i q."""
     ends, P = _flat(scene)
     Q, G = scene.tangential_load, 0.5 * scene.Estar
@@ -139,56 +134,13 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
     ends = pieces.domain
     if not (pieces.is_zero.all() and math.isfinite(ends[0]) and math.isfinite(ends[1])):
         raise ContactError(
-            f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: contact that grows under load "
+            f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: "
+            "contact that grows under load "
             "locks in strain; give a flat punch, or a finite friction"
         )
     if scene.normal_load is None:
         raise ContactError(
-            "a bonded punch carries any load on its whole width: give normal_load instead of half_width"
+            "a bonded punch carries any load on its whole width: give normal_load instead of "
+            "half_width"
         )
     return ends, scene.normal_load
-
-
-def bonded_certificate(edges: Edges, found: JacobiDensity, scene: Scene, tol: float) -> Certificate:
-    """Residual of both equations between the nodes of a graded quadrature, and equilibrium; the gap is zero, tension allowed."""
-    (part,) = found.parts
-    width, (x1, _) = 2.0 * edges.contact.r, edges.contact[:2]
-    cuts = (
-        np.unique(
-            np.concatenate(
-                (
-                    [0.0],
-                    0.25 * GRADED,
-                    np.linspace(0.25, 0.75, 17),
-                    1.0 - 0.25 * GRADED[::-1],
-                    [1.0],
-                )
-            )
-        )
-        * np.pi
-    )
-    g, w = chebyshev.gauss_legendre(NODES)
-    psi = np.concatenate([a + (b - a) * g for a, b in pairwise(cuts)])
-    weight = np.concatenate([(b - a) * w for a, b in pairwise(cuts)]) * 0.5 * width * np.sin(psi)
-    right, left = width * np.sin(0.5 * psi) ** 2, width * np.cos(0.5 * psi) ** 2
-    phi = part.value(right, left)
-    at = width * np.cos(0.5 * cuts[28:-28]) ** 2  # from the left edge
-    values = part.value(width - at, at)
-    principal = ((phi - values[:, None]) / (at[:, None] - left)) @ weight + values * np.log(
-        at / (width - at)
-    )
-    residual = principal / np.pi + 1j * scene.beta * values - 0.5 * scene.Estar * edges.tilt
-    P, peak = complex(edges.normal_load, scene.tangential_load), np.abs(values).max()
-    moment = weight @ (phi * left) + x1 * (weight @ phi)
-    highest = float(phi.real[np.minimum(right, left) > BESIDE * edges.contact.r].max())
-    return Certificate(
-        residual=float(np.abs(residual).max() / peak),
-        implied=found.error,
-        force=float(abs(weight @ phi - P) / abs(P)),
-        moment=float(abs(moment.real - edges.moment) / (abs(P) * 0.5 * width)),
-        lowest_pressure=0.0,
-        lowest_gap=0.0,
-        abscissae=0.0,
-        tol=tol,
-        notes=notes(np.array([edges.tilt]), highest / scene.Estar),
-    )

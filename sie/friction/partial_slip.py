@@ -1,102 +1,74 @@
-"""From a pressure and a load step to zones of stick and slip, shear and slip, at β = 0.
+"""Partial slip: from a pressure and a load step to stick zones, slip zones and shear, at β = 0.
 
-After the normal load P, at constant P, the tangential load Q and the bulk stress σ (τ = `Scene.tau`, σ/4 for similar bodies) are applied:
+After the normal load P, at constant P, the tangential load Q and the bulk stress σ are applied
+(τ = `Scene.tau`, σ/4 for similar bodies):
 
-    |q| <= f p,      1/π PV∫q/(x - t) dt = τ  and slip 0 in the stick zone,      q = ± f p, in the direction of slip, beside it
+    |q| <= f p,      1/π PV∫q/(x - t) dt = τ and slip 0 in the stick zone,
+    q = ± f p, in the direction of slip, in the slip zones
+ slip(x) is the tangential displacement of the indenter relative to the body, positive along +x.
+Where it is positive so is q, which acts on the body. Loads and inequalities tell four states apart:
 
-slip(x) is the tangential displacement of the indenter relative to the body, positive along +x: where it is positive so is q, which acts on
-the body. There are five states, told apart by the loads and by the inequalities:
+    stick               Q = 0 = σ                       no shear
+    incipient sliding   |Q| = f P                       q = ± f p, no second solve
+    one-signed slip     π r |τ| <= |Q|, or if it fits   q = ± f (p - p̂), slip = ± f gap^
+    two-signed slip     otherwise                       opposite slip beside the two edges
 
-    stick       Q = 0 = σ                            no shear
-    sliding     |Q| = f P                            q = ± f p, no second solve
-    one sign    π r |τ| <= |Q|, or if it fits        q = ± f (p - p̂), slip = ± f gap^:  p̂ is the pressure of the same profile, tilted by
-                                                     -2τ/(± f E*), under the load P - |Q|/f, and gap^ the gap beside that contact
-    two signs   otherwise                            slip to the left on one side, to the right on the other (`zones`)
+In one-signed slip p̂, the corrective pressure, is that of the same profile, tilted by -2τ/(± f E*),
+under the reduced load P - |Q|/f, and gap^ is the gap beside that contact. This is Cattaneo's and
+Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998): subtracting the equations (1)
+and (12) leaves the normal problem for p̂ and for the slip. It holds where the contact of p̂ lies
+within that of p and p̂ <= 2p there. In two-signed slip the ends of the slip zones have equations of
+their own (`slip_zones`, and `narrow_stick_zone` for a large bulk stress).
 
-"One sign" is Cattaneo's and Mindlin's superposition for any profile (Ciavarella 1998; Jäger 1998): subtracting the equations (1) and (12)
-leaves the normal problem for p̂ and for the slip. It holds where the contact of p̂ lies within that of p and p̂ <= 2p there. Along the
-step itself dq = [dQ/π - dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone, so that with π r |τ| <= |Q|, r the half-width of the contact, it
-always does, and the zones of slip only grow. Where they would have to retreat on the way (r replaced by ρ, the wrong sign), the state given
-is that of the friction law in total displacements, as in Nowell & Hills (1987), and `advancing` is False.
+Along the step dq = [dQ/π - dτ (x - c)]/sqrt(ρ² - (x - c)²) in the stick zone of half-width ρ. With
+π r |τ| <= |Q|, r the half-width of the contact, slip is one-signed and the slip zones only grow.
+Where they would have to retreat on the way (r replaced by ρ, the wrong sign), the state given is
+that of the friction law in total displacements, as in Nowell & Hills (1987), and `advancing` is
+False.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import numpy as np
 
 from sie.contact.edge_integrals import moments
 from sie.contact.normal import contact_under
 from sie.errors import ContactError, LoadError
-from sie.numerics.interval import EPS, two_product
-from sie.problem.scene import Scene
+from sie.numerics.interval import EPS
 from sie.profiles.resolution import refined
-from sie.traction.of_slope import PanelDensity
+from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
-from .narrow_zones import narrow_zones
-from .slip_zones import Drive, zones
-from .states import OneWay, Sliding, Slip, Step, Stuck, TwoWays, rims
+from .load_limit import refuse_sliding, remaining
+from .narrow_stick_zone import narrow_stick_zone
+from .slip_zones import Drive, slip_zones
+from .states import NoSlip, OneSignedSlip, Sliding, Slip, Step, TwoSignedSlip, edge_frames
 
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
-# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it lies between two doubles.
+# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it
+# lies between two doubles.
 BESIDE = 16.0 * EPS
-# Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they would underflow.
+# Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they
+# would underflow.
 SMALLEST = 1e-60
-# Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of P: nothing, but it is solved for.
+# Where "sliding" is switched off in the economy, the corrective pressure carries this fraction of
+# P: nothing, but it is solved for.
 HARDLY = 1e-40
 
 
-def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
-    """Raises LoadError if friction cannot carry Q."""
-    limit = friction * normal_load
-    if abs(Q) > limit:
-        digits = next(
-            n for n in range(6, 18) if n == 17 or f"{abs(Q):.{n}g}" != _within(limit, n, -1)
-        )
-        raise LoadError(
-            f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies slide; "
-            f"lower tangential_load to at most that, or raise normal_load to {_within(abs(Q) / friction, digits, 1)} or friction",
-            limit=limit,
-        )
-
-
-def _within(value: float, digits: int, side: int) -> str:
-    """A positive value to so many digits, not above it (side -1) or not below it (1), so that who follows an advice stays within it."""
-    shown = f"{value:.{digits}g}"
-    if side * float(shown) < side * value:
-        rounding = ROUND_CEILING if side > 0 else ROUND_FLOOR
-        shown = f"{float(Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):.{digits}g}"
-    return shown
-
-
-def remaining(friction: float, normal_load: float, Q: float) -> float:
-    """P - |Q|/f, from (f P - |Q|)/f without cancellation."""
-    product, rest = two_product(friction, normal_load)
-    return ((product - abs(Q)) + rest) / friction
-
-
-def sheared(scene: Scene, economy: Collection[str]) -> bool:
-    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is switched off) without Q and σ."""
-    return scene.friction != 0.0 and (
-        scene.tangential_load != 0.0
-        or scene.sliding != 0
-        or scene.tau != 0.0
-        or "shear" not in economy
-    )
-
-
 def slip(step: Step) -> Slip:
-    """The state of a scene's contact after its Q and σ. Raises ContactError where no single stick zone answers."""
+    """The state of a scene's contact after its Q and σ.
+
+    Raises ContactError where no single stick zone answers.
+    """
     P, f, Q, tau = step.normal_load, step.scene.friction, step.Q, step.tau
     if f == 0.0 or (Q == 0.0 == tau and "shear" in step.economy):
-        return Stuck(step.pressure.contact, f)
+        return NoSlip(step.pressure.contact, f)
     refuse_sliding(f, P, Q)
     if (
         max(abs(Q), math.pi * step.pressure.contact.r * abs(tau)) < SMALLEST * f * P
@@ -109,13 +81,14 @@ def slip(step: Step) -> Slip:
     if abs(Q) == f * P and "sliding" in step.economy:
         return sliding(step)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):
-        return _one_way(step, math.copysign(1.0, Q))
-    # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip is on the other side
+        return _one_signed(step, math.copysign(1.0, Q))
+    # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip
+    # is on the other side
     for sign in (math.copysign(1.0, Q), -math.copysign(1.0, Q)):
         tried = _fitting(step, sign)
         if tried is not None:
             return tried
-    return _two_ways(step)
+    return _two_signed(step)
 
 
 def sliding(step: Step) -> Sliding:
@@ -130,24 +103,28 @@ def _tilt_of_strain(step: Step, sign: float) -> float:
     return -2.0 * step.tau / (sign * step.scene.friction * step.scene.Estar)
 
 
-def _one_way(step: Step, sign: float) -> OneWay:
-    """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced load."""
+def _one_signed(step: Step, sign: float) -> OneSignedSlip:
+    """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced
+    load.
+    """
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
     found = contact_under(
         load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen
     )
-    state = OneWay(step.pressure, step.slope, f, step, sign, found)
+    state = OneSignedSlip(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once
     return state
 
 
-def _fitting(step: Step, sign: float) -> OneWay | None:
-    """Slip in one direction although the strain is large, if it fits: the stick zone within the contact, |q| <= f p there."""
+def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
+    """Slip in one direction although the strain is large, if it fits: the stick zone within the
+    contact, |q| <= f p there.
+    """
     try:
-        tried = _one_way(step, sign)
+        tried = _one_signed(step, sign)
         _ = tried.corrective
     except ContactError:
         return None
@@ -166,14 +143,16 @@ def _fitting(step: Step, sign: float) -> OneWay | None:
     )
 
 
-def _two_ways(step: Step) -> TwoWays:
-    """Slip in both directions: to the left of the stick zone in that of τ, to the right of it against it."""
+def _two_signed(step: Step) -> TwoSignedSlip:
+    """Slip in both directions: to the left of the stick zone in that of τ, to the right of it
+    against it.
+    """
     contact, G = step.pressure.contact, step.pressure.half_modulus
     f, Q, tau = step.scene.friction, step.Q, step.tau
     sign = math.copysign(1.0, tau)
     drive = Drive(Q / f, math.pi * tau / f, sign, -sign)
-    seen_from = rims(step.pressure, step.slope)
-    found = narrow_zones(seen_from, contact, drive) or zones(
+    seen_from = edge_frames(step.pressure, step.slope)
+    found = narrow_stick_zone(seen_from, contact, drive) or slip_zones(
         seen_from, contact, drive, (0.25 * contact.r, 0.25 * contact.r)
     )
     lo, hi = step.slope.domain
@@ -185,4 +164,4 @@ def _two_ways(step: Step) -> TwoWays:
     formal = PanelDensity(
         found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0)
     )
-    return TwoWays(step.pressure, step.slope, f, step, found, formal)
+    return TwoSignedSlip(step.pressure, step.slope, f, step, found, formal)

@@ -1,11 +1,12 @@
-"""Shear tractions in partial slip as densities: with their potential, which is exact up to the surface.
+"""Shear tractions in partial slip as densities, with their potentials up to the surface.
 
-    one sign     q = ± f (p - p̂),         Fq = ± f (Fp - Fp̂)
-    two signs    slip of the sign s next to z and of -s on the other side of the stick zone, N(z) the formal inversion of the slope there:
+    one-signed slip    q = ± f (p - p̂),         Fq = ± f (Fp - Fp̂)
 
-        Fq(z) = s f [Fp(z) - N(z)] + τ ± 2 s f R(z)/π ∫_other side p(t)/(|R(t)| (z - t)) dt        (+ where the other side is the left one)
+    two-signed slip    Fq(z) = s f [Fp(z) - N(z)] + τ ± 2 s f R(z)/π ∫ p(t)/(|R(t)| (z - t)) dt
 
-The integral is over the far zone: what is close to z is in closed form.
+Here slip has the sign s next to z and -s on the other side of the stick zone, N(z) is the formal
+inversion of the slope on the stick zone, and the integral is over the slip zone on the other side
+(+ where that is the left one). What is close to z is in closed form.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from sie.traction.base import Complex, Density, on_surface, refuse_side, shallow
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
-from .slip_zones import Zone, Zones
+from .slip_zones import SlipZone, SlipZones
 
 Array = NDArray[np.float64]
 
@@ -29,14 +30,16 @@ ROWS = 4096  # points at a time
 
 
 @dataclass(frozen=True, eq=False)
-class OneSign(Density):
-    """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip zones' pull instead (`zones`)."""
+class OneSignedShear(Density):
+    """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip
+    zones instead (`SlipZones`).
+    """
 
     pressure: SlopeDensity
     corrective: SlopeDensity
     scale: float
     resultant: float
-    thin: Zones | None = None
+    short: SlipZones | None = None
 
     @cached_property
     def _difference(self) -> Combination:
@@ -48,19 +51,19 @@ class OneSign(Density):
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        if self.thin is not None:
-            return self.scale * self.thin.moment
+        if self.short is not None:
+            return self.scale * self.short.moment
         return self._difference.moment
 
     def __call__(self, x: ArrayLike) -> Array:
-        if self.thin is None:
+        if self.short is None:
             return self._difference(x)
         x = arguments.reals("x", x)
         flat = x.ravel()
-        stick = self.thin.stick
+        stick = self.short.stick
         inside = (stick.from_left(flat) > 0.0) & (stick.from_right(flat) > 0.0)
         q = np.empty(flat.shape)
-        q[inside] = self.scale * self.thin.shear(flat[inside])
+        q[inside] = self.scale * self.short.shear(flat[inside])
         q[~inside] = self.scale * self.pressure(flat[~inside])
         return q.reshape(x.shape)
 
@@ -94,13 +97,13 @@ class OneSign(Density):
 
 
 @dataclass(frozen=True, eq=False)
-class TwoSigns(Density):
+class TwoSignedShear(Density):
     """Slip to one side on the left of the stick zone and to the other on its right."""
 
     pressure: SlopeDensity
     formal: SlopeDensity
     friction: float
-    zones: Zones
+    zones: SlipZones
     resultant: float
     tau: float
 
@@ -123,8 +126,10 @@ class TwoSigns(Density):
         q[~inside] = self.friction * sign * self.pressure(flat[~inside])
         return q.reshape(x.shape)
 
-    def _side(self, right: bool) -> tuple[float, Zone, float]:
-        """(f times the sign of slip next to z, the zone on the other side, the sign of its integral)."""
+    def _side(self, right: bool) -> tuple[float, SlipZone, float]:
+        """(f times the sign of slip next to z, the zone on the other side, the sign of its
+        integral).
+        """
         drive = self.zones.drive
         return (
             (self.friction * drive.right, self.zones.left, 1.0)
@@ -245,19 +250,24 @@ class TwoSigns(Density):
     def _pull(self, z: Complex, right: bool) -> tuple[Complex, Complex]:
         """2 R(z)/π ∫_other side p/(|R| (z - t)) dt and its derivative.
 
-        Lengths are in half-widths of the stick zone: a pressure over the square of a length may exceed all doubles.
+        Lengths are in half-widths of the stick zone: a pressure over the square of a length may
+        exceed all doubles.
         """
         _, other, _ = self._side(right)
         stick = self.zones.stick
         r = stick.r
-        left, right_, inwards = stick.from_left(z) / r, -stick.from_right(z) / r, other.inwards / r
-        weight = other.force / r / np.sqrt(inwards * (inwards + 2.0))
-        # z - t for t at the distance `inwards` from the stick zone's end
+        left, right_, from_stick = (
+            stick.from_left(z) / r,
+            -stick.from_right(z) / r,
+            other.from_stick / r,
+        )
+        weight = other.force / r / np.sqrt(from_stick * (from_stick + 2.0))
+        # z - t for t at the distance `from_stick` from the stick zone's end
         base, step = (left, 1.0) if right else (right_, -1.0)
         tail, falling = np.empty((2, *z.shape), dtype=complex)
         for start in range(0, len(z), ROWS):
             rows = slice(start, start + ROWS)
-            inverse = np.reciprocal(base[rows, None] + step * inwards)
+            inverse = np.reciprocal(base[rows, None] + step * from_stick)
             tail[rows] = inverse @ weight
             falling[rows] = -(inverse * inverse) @ weight
         root = 2.0 / np.pi * np.sqrt(left) * np.sqrt(right_)

@@ -1,29 +1,34 @@
-"""Slip zones at both ends of a stick zone: where they end, and the shear between them, from the pressure alone.
-
-On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1; inside, 1/π PV∫q/(x - t) dt = τ, the strain
-that a bulk stress causes, as a stress. With c = (c1 + c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), w = |R| on the stick zone,
-(Fq - τ)/R is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
+"""Slip zones at both ends of a stick zone: where they end, and the shear between them.
+ On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1.
+Inside, 1/π PV∫q/(x - t) dt = τ, the strain that a bulk stress causes, as a stress. Let c = (c1 +
+c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), and w = |R| on the stick zone. (Fq - τ)/R
+is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
 
     Fq(z) = τ + R(z)/π ∫_slip q(s) / (R(s) (z - s)) ds
-    q(x)  = f w(x)/π [ s1 ∫_left p/(|R| |s - x|) ds + s2 ∫_right p/(|R| |s - x|) ds ]          in the stick zone
 
-and what this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the combinations that belong to one end each:
+and in the stick zone
 
-    s2 ∫_right p sqrt((s - c1)/(s - c2)) ds + s1 ∫_left  p sqrt((c1 - s)/(c2 - s)) ds = (Q - π ρ τ)/f
-    s1 ∫_left  p sqrt((c2 - s)/(c1 - s)) ds + s2 ∫_right p sqrt((s - c2)/(s - c1)) ds = (Q + π ρ τ)/f
+    q(x)  = f w(x)/π [ s1 ∫_left p/(|R| |s - x|) ds + s2 ∫_right p/(|R| |s - x|) ds ]
 
-With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f the difference of two pressures (`slip`); with s1 = -s2 slip is reversed
-on one side by a large bulk stress (Nowell & Hills 1987). All integrands are positive: nothing cancels, however thin the zones are. The
-pressure next to an edge is needed as a function of the distance from it, which a double x no longer tells: it is evaluated in coordinates
-whose origin is that edge.
+What this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the
+combinations that belong to one end each:
 
-The same argument gives what a further load step does while nothing else slips, dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): zones of
-slip grow at both ends as long as s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
+    s2 ∫_right p sqrt((s-c1)/(s-c2)) ds + s1 ∫_left  p sqrt((c1-s)/(c2-s)) ds = (Q - π ρ τ)/f
+    s1 ∫_left  p sqrt((c2-s)/(c1-s)) ds + s2 ∫_right p sqrt((s-c2)/(s-c1)) ds = (Q + π ρ τ)/f
+
+With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f is the difference of two pressures
+(`partial_slip`). With s1 = -s2 slip is reversed on one side by a large bulk stress (Nowell & Hills
+1987). All integrands are positive: nothing cancels, however short the zones are. The pressure next
+to an edge is needed as a function of the distance from it, which a double x no longer tells: it is
+evaluated in coordinates whose origin is that edge (`EdgeFrame`).
+
+The same argument gives what a further load step does while nothing else slips,
+dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): slip zones grow at both ends as long as
+s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -34,8 +39,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import increasing_root
 from sie.profiles.slope import Slope
-from sie.traction.of_slope import PanelDensity, PowerDensity, SlopeDensity
+from sie.traction.of_slope import SlopeDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
@@ -43,24 +50,23 @@ Array = NDArray[np.float64]
 
 NODES = 16  # on panels that are a quarter as long as the distance to what is singular
 GRADING = 0.25
-LEVELS = 26  # GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+# GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+LEVELS = 26
 ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
-MAX_STEPS = 200
 MAX_SWEEPS = 60
-FIRST_STEP = 16.0
-SHORTEST = 1e-120  # of the contact: at a sharp edge, where p is infinite, a zone of slip may not open at all
 SETTLED = 8.0 * EPS
 
 
-# -- the contact seen from one of its edges -----------------------------------------------------------------------------
+# -- the contact seen from one of its edges --------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
-class Rim:
+class EdgeFrame:
     """The contact in coordinates of one of its edges: distance inwards, to relative accuracy.
 
-    `density` and `slope` are the contact's, moved so that the edge is at 0; `side` is +1 for the right edge.
+    `density` and `slope` are the contact's, moved so that the edge is at 0; `side` is +1 for the
+    right edge.
     """
 
     density: SlopeDensity
@@ -82,12 +88,12 @@ class Rim:
         return 2.0 * self.density.contact.r
 
 
-def rim(density: SlopeDensity, slope: Slope, side: float) -> Rim:
+def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
     contact = density.contact
     edge, tail = (contact.x2, contact.tail2) if side > 0.0 else (contact.x1, contact.tail1)
     width = 2.0 * contact.r
     seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
-    return Rim(
+    return EdgeFrame(
         moved(density, seen, -edge, -tail),
         slope.shifted(-edge).shifted(-tail),
         side,
@@ -113,36 +119,40 @@ def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> S
     )
 
 
-# -- one zone -----------------------------------------------------------------------------------------------------------
+# -- one zone --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
-class Zone:
-    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of contact, and the forces p ds there."""
+class SlipZone:
+    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of
+    contact, and the forces p ds there.
+    """
 
     length: float
-    inwards: Array
-    outwards: Array
+    from_stick: Array
+    from_edge: Array
     weight: Array
     force: Array
 
     def strong(self, rho: float) -> float:
         """∫p sqrt((s - c_far)/(s - c_near)) ds."""
-        return float(self.force @ (np.sqrt(self.inwards + 2.0 * rho) / np.sqrt(self.inwards)))
+        return float(self.force @ (np.sqrt(self.from_stick + 2.0 * rho) / np.sqrt(self.from_stick)))
 
     def weak(self, rho: float) -> float:
         """∫p sqrt((s - c_near)/(s - c_far)) ds."""
-        return float(self.force @ np.sqrt(self.inwards / (self.inwards + 2.0 * rho)))
+        return float(self.force @ np.sqrt(self.from_stick / (self.from_stick + 2.0 * rho)))
 
     def pull(self, distance: Array, rho: float) -> Array:
-        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its side away from the zone."""
-        weight = self.force / np.sqrt(self.inwards * (self.inwards + 2.0 * rho))
+        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its
+        side away from the zone.
+        """
+        weight = self.force / np.sqrt(self.from_stick * (self.from_stick + 2.0 * rho))
         out = np.empty(distance.shape)
         far = distance >= self.length
-        places, strength = self._gathered(weight) if far.any() else (self.inwards, weight)
+        places, strength = self._gathered(weight) if far.any() else (self.from_stick, weight)
         for at, nodes, charge in (
             (np.flatnonzero(far), places, strength),
-            (np.flatnonzero(~far), self.inwards, weight),
+            (np.flatnonzero(~far), self.from_stick, weight),
         ):
             for start in range(0, len(at), ROWS):
                 rows = at[start : start + ROWS]
@@ -150,23 +160,26 @@ class Zone:
         return out
 
     def _gathered(self, weight: Array) -> tuple[Array, Array]:
-        """A few places in the zone and the weights there that act beyond its length like all: 1/(d + s) is a short series in s."""
+        """A few places in the zone and the weights there that act beyond its length like all: 1/(d
+        + s) is a short series in s.
+        """
         u = chebyshev.points(GATHERED)
-        series = chebyshev.polynomials(GATHERED, 2.0 * self.inwards / self.length - 1.0)
+        series = chebyshev.polynomials(GATHERED, 2.0 * self.from_stick / self.length - 1.0)
         series *= np.where(np.arange(GATHERED) == 0, 1.0, 2.0)[:, None] / GATHERED
         strength: Array = chebyshev.polynomials(GATHERED, u).T @ (series @ weight)
         return 0.5 * self.length * (1.0 + u), strength
 
 
-def zone(rim: Rim, length: float) -> Zone:
-    """The slip zone of this length at a rim: s = edge - length cos²(ψ/2), graded towards the stick zone and towards breaks.
+def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
+    """The slip zone of this length at an edge: s = edge - length cos²(ψ/2), graded towards the
+    stick zone and towards breaks.
 
     In ψ a smooth edge and a sharp one are both harmless.
     """
     if length <= 0.0:
         none = np.zeros(0)
-        return Zone(0.0, none, none, none, none)
-    inner = rim.breaks[rim.breaks < length]
+        return SlipZone(0.0, none, none, none, none)
+    inner = frame.breaks[frame.breaks < length]
     at_breaks = 2.0 * np.arctan2(np.sqrt(length - inner), np.sqrt(inner))[::-1]
     marks = np.concatenate(([0.0], at_breaks, [np.pi]))
     ratios = GRADING ** np.arange(LEVELS, 0, -1)
@@ -179,18 +192,20 @@ def zone(rim: Rim, length: float) -> Zone:
     g, w = chebyshev.gauss_legendre(NODES)
     step = np.diff(ends)
     half = 0.5 * (ends[:-1, None] + step[:, None] * g).ravel()
-    inwards, outwards = length * np.sin(half) ** 2, length * np.cos(half) ** 2
+    from_stick, from_edge = length * np.sin(half) ** 2, length * np.cos(half) ** 2
     weight = (step[:, None] * w).ravel() * length * np.sin(half) * np.cos(half)
-    p = rim.pressure(outwards)
-    return Zone(length, inwards, outwards, weight, weight * np.where(np.isfinite(p), p, 0.0))
+    p = frame.pressure(from_edge)
+    return SlipZone(
+        length, from_stick, from_edge, weight, weight * np.where(np.isfinite(p), p, 0.0)
+    )
 
 
-# -- both zones ---------------------------------------------------------------------------------------------------------
+# -- both zones ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Drive:
-    """What the zones answer to: Q/f, π τ/f and the signs of slip at the left and at the right edge."""
+    """What moves the ends of the slip zones: Q/f, π τ/f, and the signs of slip at both edges."""
 
     load: float
     strain: float
@@ -199,16 +214,14 @@ class Drive:
 
 
 @dataclass(frozen=True, eq=False)
-class Zones:
+class SlipZones:
     """The stick zone and the slip zones beside it."""
 
     stick: Interval
-    left: Zone
-    right: Zone
+    left: SlipZone
+    right: SlipZone
     drive: Drive
-    spare: float = (
-        0.0  # of π τ/f: what a stick zone that has no width does not hold back (`narrow`)
-    )
+    unheld: float = 0.0  # of π τ/f: what a stick zone that has no width does not hold back
 
     def shear(self, x: Array) -> Array:
         """q/f inside the stick zone, x 1-d."""
@@ -224,26 +237,28 @@ class Zones:
         c, d = self.stick, self.drive
         total = 0.0
         for sign, zone, outward in ((d.left, self.left, -1.0), (d.right, self.right, 1.0)):
-            lever = c.r + zone.inwards
+            lever = c.r + zone.from_stick
             # Σ q (lever² - ρ²/2)/R with R = outward |R|
-            weight = zone.force / np.sqrt(zone.inwards * (zone.inwards + 2.0 * c.r))
+            weight = zone.force / np.sqrt(zone.from_stick * (zone.from_stick + 2.0 * c.r))
             total += outward * sign * float(weight @ (lever * lever - 0.5 * c.r * c.r))
         return total + c.m * d.load
 
 
-def zones(
-    rims: tuple[Rim, Rim], contact: Interval, drive: Drive, guess: tuple[float, float]
-) -> Zones:
-    """The zones that the drive opens, from a guess of their lengths (left, right). Raises ContactError if there are none.
+def slip_zones(
+    frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive, guess: tuple[float, float]
+) -> SlipZones:
+    """The zones that the drive opens, from a guess of their lengths (left, right). Raises
+    ContactError if there are none.
 
-    Each end has an equation of its own, in which the other one matters only to second order: they are solved in turn.
+    Each end has an equation of its own, in which the other one matters only to second order: they
+    are solved in turn.
     """
     lengths = list(guess)
     previous = np.inf
     for _ in range(MAX_SWEEPS):
         before = tuple(lengths)
         for k in (0, 1):
-            lengths[k] = _length(rims, contact.r, drive, lengths, k)
+            lengths[k] = _length(frames, contact.r, drive, lengths, k)
         change = max(abs(new - old) / new for new, old in zip(lengths, before, strict=True))
         if change <= SETTLED or (change >= 0.5 * previous and change < 1e-12):
             break
@@ -253,51 +268,21 @@ def zones(
             "the ends of the stick zone do not settle: another zone of slip opens inside it",
             lengths=tuple(lengths),
         )
-    left, right = (zone(r, length) for r, length in zip(rims, lengths, strict=True))
-    return Zones(contact.moved(lengths[0], -lengths[1]), left, right, drive)
+    left, right = (slip_zone(r, length) for r, length in zip(frames, lengths, strict=True))
+    return SlipZones(contact.moved(lengths[0], -lengths[1]), left, right, drive)
 
 
-def _length(rims: tuple[Rim, Rim], r: float, drive: Drive, lengths: list[float], k: int) -> float:
+def _length(
+    frames: tuple[EdgeFrame, EdgeFrame], r: float, drive: Drive, lengths: list[float], k: int
+) -> float:
     """The length of zone k (0 left, 1 right) for the other one as it is."""
-    other = zone(rims[1 - k], lengths[1 - k])
+    other = slip_zone(frames[1 - k], lengths[1 - k])
     sign, others, outward = (drive.right, drive.left, -1.0) if k else (drive.left, drive.right, 1.0)
 
     def excess(length: float) -> float:
         rho = r - 0.5 * (length + other.length)
-        return zone(rims[k], length).strong(rho) + sign * (
+        return slip_zone(frames[k], length).strong(rho) + sign * (
             others * other.weak(rho) - drive.load - outward * rho * drive.strain
         )
 
-    return root(excess, lengths[k], 2.0 * r - other.length)
-
-
-def root(function: Callable[[float], float], guess: float, limit: float) -> float:
-    """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
-    low, high = 0.0, limit
-    u, step = min(guess, 0.5 * limit), np.inf
-    before: tuple[float, float] | None = None
-    for _ in range(MAX_STEPS):
-        f = function(u)
-        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
-            return u
-        low, high = (u, high) if f < 0.0 else (low, u)
-        new = (
-            u - f * (u - before[0]) / (f - before[1])
-            if before is not None and f != before[1]
-            else -1.0
-        )
-        if not low < new < high:
-            new = 0.5 * (low + high)
-            if f < 0.0 and high == limit:
-                new = min(u * FIRST_STEP, 0.5 * (u + limit))
-            elif low == 0.0:
-                new = u / FIRST_STEP
-        before = (u, f)
-        if (
-            abs(new - u) <= EPS * u
-            or high - low <= 2.0 * EPS * high
-            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
-        ):
-            return new
-        step, u = new - u, new
-    return u
+    return increasing_root(excess, lengths[k], 2.0 * r - other.length)

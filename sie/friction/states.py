@@ -1,4 +1,8 @@
-"""The states of a contact under tangential load: where it sticks, where it slips, what it carries. `slip` says which one it is."""
+"""The states of a contact under tangential load: where it sticks, where it slips, and the shear.
+
+`partial_slip.slip` decides which of them a contact is in. The file is longer than 400 lines because
+the four states are one family, and are read side by side.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +15,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.certificate.pressure_check import verify_inequalities
 from sie.contact.edge_integrals import moments
 from sie.contact.gap import gap
-from sie.contact.normal import Normal, pressure
+from sie.contact.inequalities import verify_inequalities
+from sie.contact.pressure import Normal, pressure
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
 from sie.profiles.lowest_points import lowest_points, raised
@@ -24,22 +28,31 @@ from sie.traction.base import ZERO, Density
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
-from .dissipation import Growth
-from .memory import Overwritten
-from .shear_density import OneSign, TwoSigns
-from .slip_zones import Drive, Rim, Zone, Zones, moved, rim, zone, zones
+from .shear_density import OneSignedShear, TwoSignedShear
+from .slip_zones import (
+    Drive,
+    EdgeFrame,
+    SlipZone,
+    SlipZones,
+    edge_frame,
+    moved,
+    slip_zone,
+    slip_zones,
+)
 
 Array = NDArray[np.float64]
 
-# Below this fraction of sliding the shear is not taken as a difference of two pressures, which are then nearly the same.
-THIN = 1e-2
+# Below this fraction of sliding the shear is not taken as a difference of two pressures, which are
+# then nearly the same.
+SHORT = 1e-2
 
 
 @dataclass(frozen=True)
 class Step:
-    """What slips: a contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
+    """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
 
-    `near` is a stick zone that the one asked for may be close to: it saves work, and changes nothing.
+    `near` is a stick zone that the one asked for may be close to: it saves work, and changes
+    nothing.
     """
 
     scene: Scene
@@ -61,9 +74,16 @@ class Step:
 
 
 class Slip(ABC):
-    """Zones of stick and slip of a contact, and the shear there.
+    """A state of stick and slip.
 
-    stick    the stick zones (lo, hi);     shear    q, a Density;     slip(x)    see the module;     kind    which of the states it is
+    kind         name of the state
+    contact      the contact
+    friction     f
+    stick        stick zones (lo, hi)
+    shear        shear traction q
+    slip(x)      relative slip
+    advancing    whether the slip zones grow along the whole step
+    condition    relative error of the load on the stick zone over one of P or Q
     """
 
     kind: str
@@ -81,23 +101,24 @@ class Slip(ABC):
 
     @abstractmethod
     def slip(self, x: Array) -> Array:
-        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the contact."""
-
-    @property
-    @abstractmethod
-    def energy(self) -> float:
-        """∫|q| |slip| dx over the slip zones: what the step turned into heat, per unit length and thickness."""
+        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the
+        contact.
+        """
 
     @property
     @abstractmethod
     def shift(self) -> float:
-        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would, had nothing slipped."""
+        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would,
+        had nothing slipped.
+        """
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order of time; |q| = f p in those in contact.
+        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order
+        of time; |q| = f p in those in contact.
 
-        Where slip turned while P fell, the zones of the first direction lie beside the contact, which has left them.
+        Where slip turned while P fell, the zones of the first direction lie beside the contact,
+        which has left them.
         """
         return ()
 
@@ -117,7 +138,7 @@ class Slip(ABC):
 
 
 @dataclass(frozen=True, eq=False)
-class Stuck(Slip):
+class NoSlip(Slip):
     """Nothing slips and nothing is sheared."""
 
     contact: Interval
@@ -136,17 +157,15 @@ class Stuck(Slip):
         return np.zeros(x.shape)
 
     @property
-    def energy(self) -> float:
-        return 0.0
-
-    @property
     def shift(self) -> float:
         return 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class _Slipping(Slip):
-    """What the states with slip share: slip is sign f opening(x) on each side, integrated over zones seen from their rims."""
+class Slipping(Slip):
+    """What the states with slip share: slip is sign f opening(x) on each side, integrated over
+    zones seen from the edges.
+    """
 
     pressure: SlopeDensity
     slope: Slope
@@ -167,12 +186,12 @@ class _Slipping(Slip):
     def lengths(self) -> tuple[float, float]: ...
 
     @abstractmethod
-    def _opening(self, distance: Array, rim: Rim) -> Array:
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
         """|slip|/f at these distances from the edge."""
 
     @cached_property
-    def rims(self) -> tuple[Rim, Rim]:
-        return rims(self.pressure, self.slope)
+    def frames(self) -> tuple[EdgeFrame, EdgeFrame]:
+        return edge_frames(self.pressure, self.slope)
 
     def slip(self, x: Array) -> Array:
         out = np.zeros(x.shape)
@@ -181,7 +200,7 @@ class _Slipping(Slip):
         from_edge = self.contact.from_left(x), self.contact.from_right(x)
         nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
         for r, distance, sign, side in zip(
-            self.rims, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
+            self.frames, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
         ):
             at = side & (distance >= 0.0)
             if at.any():
@@ -189,36 +208,33 @@ class _Slipping(Slip):
         return out
 
     @property
-    def zones(self) -> tuple[Zone, Zone]:
-        left, right = (zone(r, length) for r, length in zip(self.rims, self.lengths, strict=True))
+    def zones(self) -> tuple[SlipZone, SlipZone]:
+        left, right = (
+            slip_zone(r, length) for r, length in zip(self.frames, self.lengths, strict=True)
+        )
         return left, right
 
     @cached_property
     def _integrals(self) -> tuple[float, float]:
         f, width = self.friction, 2.0 * self.contact.r
         energy = shift = 0.0
-        for r, z, sign in zip(self.rims, self.zones, self.signs, strict=True):
+        for r, z, sign in zip(self.frames, self.zones, self.signs, strict=True):
             if z.length > 0.0:
-                opening = self._opening(z.outwards, r)
+                opening = self._opening(z.from_edge, r)
                 energy += f * f * float(z.force @ opening)
-                from_other_edge = (width - z.length) + z.inwards
+                from_other_edge = (width - z.length) + z.from_stick
                 shift += (
                     sign
                     * f
                     / math.pi
-                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.outwards * from_other_edge)))
+                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.from_edge * from_other_edge)))
                 )
         return energy, shift
 
-    @cached_property
-    def energy(self) -> float:
-        step = self.step
-        if step.tau:
-            return self._integrals[0]
-        growth = Growth(step.scene, step.normal, step.tol, step.economy)
-        return float(
-            growth.heat([step.normal_load], [Overwritten(0.0, abs(step.Q), 1.0)], self.friction)[0]
-        )
+    @property
+    def work(self) -> float:
+        """∫|q| |slip| dx over the slip zones."""
+        return self._integrals[0]
 
     @property
     def shift(self) -> float:
@@ -234,13 +250,16 @@ class _Slipping(Slip):
         return tuple(z for z, length in zip(both, lengths, strict=True) if length > 0.0)
 
 
-def rims(density: SlopeDensity, slope: Slope) -> tuple[Rim, Rim]:
-    return rim(density, slope, -1.0), rim(density, slope, 1.0)
+def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFrame]:
+    return edge_frame(density, slope, -1.0), edge_frame(density, slope, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Sliding(_Slipping):
-    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go. `unloaded` is the slope of that limit."""
+class Sliding(Slipping):
+    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go.
+
+    `unloaded` is the slope of that limit.
+    """
 
     sign: float
     unloaded: Slope
@@ -261,7 +280,9 @@ class Sliding(_Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may pull the lowest point of the whole profile out of it, and the last to let go is an edge."""
+        """On the contact alone: a strain may pull the lowest point of the whole profile out of it,
+        and the last to let go is an edge.
+        """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
 
@@ -272,20 +293,23 @@ class Sliding(_Slipping):
             max(self.contact.from_right(z2), 0.0), width
         )
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
         edge, tail = (
             (self.contact.x2, self.contact.tail2)
-            if rim.side > 0.0
+            if frame.side > 0.0
             else (self.contact.x1, self.contact.tail1)
         )
         slope = self._resolved.shifted(-edge).shifted(-tail)
         z1, z2 = ((z - edge) - tail for z in self._touch)
-        return raised(slope, (z1, z2), -rim.side * distance)
+        return raised(slope, (z1, z2), -frame.side * distance)
 
 
 @dataclass(frozen=True, eq=False)
-class OneWay(_Slipping):
-    """Slip in one direction at both edges: q = sign f (p - p̂). Only the edges of the reduced contact are known from the start."""
+class OneSignedSlip(Slipping):
+    """Slip in one direction at both edges: q = sign f (p - p̂).
+
+    Only the edges of the reduced contact are known from the start.
+    """
 
     sign: float
     found: Normal
@@ -297,24 +321,26 @@ class OneWay(_Slipping):
         return ((max(inner.x1, outer.x1), min(inner.x2, outer.x2)),)
 
     @cached_property
-    def thin(self) -> Zones | None:
-        """The zones from their own equations, where the difference of two pressures would lose digits."""
+    def short(self) -> SlipZones | None:
+        """The zones from their own equations, where the difference of two pressures would lose
+        digits.
+        """
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
-        small = 0.0 < abs(Q) < THIN * f * step.normal_load and math.pi * contact.r * abs(
+        small = 0.0 < abs(Q) < SHORT * f * step.normal_load and math.pi * contact.r * abs(
             tau
         ) <= abs(Q)
         if not small or any(step.normal.edges.sharp):
             return None
         drive = Drive(self.sign * Q / f, self.sign * math.pi * tau / f, 1.0, 1.0)
-        return zones(self.rims, contact, drive, _guess(step, self.sign))
+        return slip_zones(self.frames, contact, drive, _guess(step, self.sign))
 
     @cached_property
     def corrective(self) -> SlopeDensity:
         """p̂."""
         step, found = self.step, self.found
-        if self.thin is not None:
-            found = replace(found, edges=replace(found.edges, contact=self.thin.stick))
+        if self.short is not None:
+            found = replace(found, edges=replace(found.edges, contact=self.short.stick))
         density = pressure(found, step.scene, step.tol, step.economy)
         if not (step.scene.profile.convex and "convexity" in step.economy):
             verify_inequalities(density, self._tilted)
@@ -327,8 +353,8 @@ class OneWay(_Slipping):
 
     @cached_property
     def shear(self) -> Density:
-        return OneSign(
-            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.thin
+        return OneSignedShear(
+            self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.short
         )
 
     @property
@@ -346,39 +372,43 @@ class OneWay(_Slipping):
 
     @cached_property
     def lengths(self) -> tuple[float, float]:
-        if self.thin is not None:
-            return self.thin.left.length, self.thin.right.length
+        if self.short is not None:
+            return self.short.left.length, self.short.right.length
         outer, inner = self.contact, self.corrective.contact
         left = (inner.x1 - outer.x1) + (inner.tail1 - outer.tail1)
         right = (outer.x2 - inner.x2) + (outer.tail2 - inner.tail2)
         return max(left, 0.0), max(right, 0.0)
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
-        corrective, slope = seen(self.corrective, self._tilted, self.lengths, rim)
-        return gap(-rim.side * distance, corrective, slope)
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
+        corrective, slope = in_frame(self.corrective, self._tilted, self.lengths, frame)
+        return gap(-frame.side * distance, corrective, slope)
 
 
 @dataclass(frozen=True, eq=False)
-class TwoWays(_Slipping):
+class TwoSignedSlip(Slipping):
     """Slip in opposite directions at the two edges: `sign` at the left one."""
 
-    found: Zones
-    formal: SlopeDensity  # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish at both ends
+    found: SlipZones
+    # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish
+    # at both ends
+    formal: SlopeDensity
     kind = "two signs"
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         found = self.found
         return (
-            (found.stick.m, found.stick.m) if found.spare else (found.stick.x1, found.stick.x2),
+            (found.stick.m, found.stick.m) if found.unheld else (found.stick.x1, found.stick.x2),
         )
 
     @cached_property
     def shear(self) -> Density:
         held = self.step.tau - math.copysign(
-            self.friction * self.found.spare / math.pi, self.step.tau
+            self.friction * self.found.unheld / math.pi, self.step.tau
         )
-        return TwoSigns(self.pressure, self.formal, self.friction, self.found, self.step.Q, held)
+        return TwoSignedShear(
+            self.pressure, self.formal, self.friction, self.found, self.step.Q, held
+        )
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
@@ -393,15 +423,17 @@ class TwoWays(_Slipping):
         return self.found.left.length, self.found.right.length
 
     @property
-    def zones(self) -> tuple[Zone, Zone]:
+    def zones(self) -> tuple[SlipZone, SlipZone]:
         return self.found.left, self.found.right
 
-    def _opening(self, distance: Array, rim: Rim) -> Array:
-        formal, slope = seen(self.formal, self.slope, self.lengths, rim)
-        return gap(-rim.side * distance, formal, slope, self._more(formal.contact))
+    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
+        formal, slope = in_frame(self.formal, self.slope, self.lengths, frame)
+        return gap(-frame.side * distance, formal, slope, self._more(formal.contact))
 
     def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
-        """What the other zone's shear, and strain that nothing holds back, add to the outward derivative of slip/f."""
+        """What the other zone's shear, and strain that nothing holds back, add to the outward
+        derivative of slip/f.
+        """
         G, rho = self.pressure.half_modulus, stick.r
 
         def more(x: Array, side: float) -> Array:
@@ -413,14 +445,16 @@ class TwoWays(_Slipping):
             other = self.found.left if side > 0.0 else self.found.right
             near = np.maximum(from_near, 0.0)
             pull = 2.0 * np.sqrt(from_far * near) * other.pull(from_far, rho)
-            opening: Array = (pull + self.found.spare) / (math.pi * G)
+            opening: Array = (pull + self.found.unheld) / (math.pi * G)
             return opening
 
         return more
 
 
-def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
-    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ)."""
+def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
+    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q
+    - π ρ τ) >= 0 <= s1 (Q + π ρ τ).
+    """
     Q, tau = step.Q, step.tau
     return all(
         length == 0.0
@@ -429,21 +463,21 @@ def _advancing(state: _Slipping, step: Step, half_widths: tuple[float, float]) -
     )
 
 
-def seen(
-    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], rim: Rim
+def in_frame(
+    density: SlopeDensity, slope: Slope, lengths: tuple[float, float], frame: EdgeFrame
 ) -> tuple[SlopeDensity, Slope]:
-    """A density on the stick zone and its slope in the coordinates of a rim."""
-    near = lengths[rim.side > 0.0]
+    """A density on the stick zone and its slope in the frame of an edge."""
+    near = lengths[frame.side > 0.0]
     far, rest = two_sum(
         -near, -2.0 * density.contact.r
     )  # from the width of the stick zone, which the other length may not tell
-    ends = Interval(far, -near, rest, 0.0) if rim.side > 0.0 else Interval(near, -far, 0.0, -rest)
-    dx, tail = rim.origin
+    ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
+    dx, tail = frame.origin
     return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
 
 
 def _guess(step: Step, sign: float) -> tuple[float, float]:
-    """Lengths of thin zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
+    """Lengths of short zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
     contact, G, f = step.pressure.contact, step.pressure.half_modulus, step.scene.friction
     slope = refined(step.slope, contact.x1, contact.x2, EPS)
     k = moments(slope, contact)

@@ -1,27 +1,36 @@
 """An answer for other programs: CSV and JSON.
 
-    CSV    4 comment lines (#): title and version, scene, units, edges and load;  then  x,p,gap  and one row per point
-           with shear also the columns q and slip
-           pandas.read_csv(file, comment="#")      numpy.loadtxt(file, delimiter=",", skiprows=5)
+CSV has four comment lines (#): title and version; scene; units; edges and load. Then follow the
+line x,p,gap and one row for each point; with shear there are also the columns q and slip. It is
+read by pandas.read_csv(file, comment="#") and numpy.loadtxt(file, delimiter=",", skiprows=5).
 
-    JSON   sie, title, units {length, force, stress, moment}, scene (the code that rebuilds it), modulus E*, dundurs β        always
-           edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]                   always
-           patches [[x1, x2], ..], patch_loads [number, ..]                    where there are several
-           pressure {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}                                         if wanted
-           gap {x: [..], gap: [..]}                                                                                  if wanted
-           shear {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment, energy_lost if known, x: [..], q: [..],
-                  slip: [..]}                                                                                        if wanted
-           path [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]                       if the scene has one
-           check {residual, force, moment, lowest_pressure, lowest_gap, abscissae, resolution, edges, tol, tension, overlap,
-                  notes, error, ok}                                                                                  if wanted
-           traces [{points, smoothing, averaged, separated, misfit, outliers [[x, off], ..],
-                  gaps [{lo, hi, missing}, ..], mended {left_out, averaged, sorted}, tilt, aside,
-                  pressure_error, inner_error, edge_errors [x1, x2]}, ..]          if check is wanted, of measured traces
-           stress {x, xx, yy, xy: [..]} on the surface                                                               if wanted
-           yield {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion};  tension {value, x}              if wanted
+JSON always holds
 
-Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the string "Infinity" or "-Infinity", which
-Python's float(), NumPy and JavaScript's Number() read as the number; in CSV it is inf.
+    sie, title, units {length, force, stress, moment}
+    scene (the code that rebuilds it), modulus E*, dundurs β
+    edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
+    patches [[x1, x2], ..], patch_loads [number, ..] where there are several
+
+and, where they are wanted,
+
+    pressure    {peak {p, x: [..]}, resultant, moment, x: [..], p: [..]}
+    gap         {x: [..], gap: [..]}
+    shear       {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment,
+                 energy_lost if known, x: [..], q: [..], slip: [..]}
+    check       {residual, force, moment, lowest_pressure, lowest_gap, abscissae, resolution, edges,
+                 tol, tension, overlap, notes, error, ok}
+    stress      {x, xx, yy, xy: [..]} on the surface
+    yield       {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion}
+    tension     {value, x}
+    path        of load paths: [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]
+    traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
+                 outliers [[x, off], ..], gaps [{lo, hi, missing}, ..],
+                 mended {left_out, averaged, sorted}, tilt, aside,
+                 pressure_error, inner_error, edge_errors [x1, x2]}, ..]
+
+Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the
+string "Infinity" or "-Infinity", which Python's float(), NumPy and JavaScript's Number() read as
+the number; in CSV it is inf.
 """
 
 from __future__ import annotations
@@ -36,16 +45,14 @@ from numpy.typing import NDArray
 from sie import __version__
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.history import Followed
-from sie.plan import UNASKED
+from sie.history import PathSolution
+from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
 from .sample_points import POINTS, abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
-
-NEED_SHEAR = {"shear", "stress", "yield", "tension", "check"}
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
@@ -112,7 +119,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
-    if isinstance(solution, Followed):
+    if isinstance(solution, PathSolution):
         out["path"] = turning_points(solution)
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
@@ -163,7 +170,10 @@ def _gap(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
-    """The slip at x, {} where a path leaves it open (points that came into contact while slipping)."""
+    """The slip at x; {} where a path does not determine it.
+
+    It is not determined for points that came into contact while the bodies slipped.
+    """
     try:
         return {"slip": solution.slip(x)}
     except ContactError:
@@ -171,7 +181,10 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The energy lost, {} where it is not known: dissimilar bodies that slide have slipped in part before."""
+    """The dissipated energy; {} for dissimilar bodies in full sliding.
+
+    They slipped in part before, and what they dissipated then is not known.
+    """
     return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
 
 
@@ -203,19 +216,17 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
     )
 
 
-def turning_points(solution: Followed) -> list[dict[str, Any]]:
-    """The loads of each point of a path, where the bodies stick there, and the energy lost on the way to it."""
+def turning_points(solution: PathSolution) -> list[dict[str, Any]]:
+    """The loads of each point of a path, its stick zones, and the energy dissipated up to it."""
     names = ("normal_load", "tangential_load", "bulk_stress")
     points = zip(solution.history.path.points, solution.history, strict=True)
-    return [
-        dict(zip(names, loads, strict=True))
-        | (
-            {"stick": [list(zone) for zone in at.stick], "energy_lost": at.energy_lost}
-            if loads[0]
-            else {"stick": [], "energy_lost": 0.0}
-        )
-        for loads, at in points
-    ]
+    rows = []
+    for loads, point in points:
+        stick = [list(zone) for zone in point.stick] if loads[0] else []
+        energy = point.energy_lost if loads[0] else 0.0
+        row = dict(zip(names, loads, strict=True))
+        rows.append(row | {"stick": stick, "energy_lost": energy})
+    return rows
 
 
 def _check(solution: Solution, _points: int) -> dict[str, Any]:
@@ -229,14 +240,13 @@ def _stress(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def _yield(solution: Solution, _points: int) -> dict[str, Any]:
-    found = solution.elastic_limit()
-    places = [list(place) for place in found.places]
+    limit = solution.elastic_limit()
     return {
-        "ratio": found.ratio,
-        "load": found.load,
-        "sqrt_j2": found.stress,
-        "places": places,
-        "criterion": found.criterion,
+        "ratio": limit.ratio,
+        "load": limit.load,
+        "sqrt_j2": limit.stress,
+        "places": [list(place) for place in limit.places],
+        "criterion": limit.criterion,
     }
 
 
@@ -252,8 +262,6 @@ def _finite(value: Any) -> Any:
         return [_finite(v) for v in value]
     if isinstance(value, np.generic):
         value = value.item()
-    return (
-        ("Infinity" if value > 0.0 else "-Infinity")
-        if isinstance(value, float) and math.isinf(value)
-        else value
-    )
+    if isinstance(value, float) and math.isinf(value):
+        return "Infinity" if value > 0.0 else "-Infinity"
+    return value

@@ -1,17 +1,21 @@
 """A mesh result beside the exact answer: error norms, and the shift in x that fits best.
 
-With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them (over points scattered in the body,
-sums with equal weights)
+With e = f_mesh - f at the points of the file, and integrals over x by the trapezoidal rule on them
+(over points scattered in the body, sums with equal weights)
 
     l1 = ∫|e| / ∫|f|,      l2 = (∫e² / ∫f²)^(1/2),      largest = max|e| / max|f|
     resultant = ∫f_mesh over that of f on the whole contact, less 1
-    shift     the d for which f(x - d) is nearest to f_mesh in l2: a mesh whose origin is elsewhere, or a contact that creeps
-    factor    the c for which c f is nearest to f_mesh in l2: told where it is no matter of accuracy, but of units or of signs
+    shift     the d for which f(x - d) is nearest to f_mesh in l2: another origin of the mesh, or
+              a contact that creeps
+    factor    the c for which c f is nearest to f_mesh in l2; given where it shows other units or
+              signs, and not a lack of accuracy
 
-A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges, corners) are left out and counted.
+A comparison passes if l2 <= tol for every quantity. Points where f is infinite (sharp edges,
+corners) are left out and counted.
 
-Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth is y >= 0, as everywhere here. In a file
-whose y points out of the body (none is positive) depth is -y, and σ_xy has the other sign.
+Tractions p and q are compared on the surface, y = 0; stresses wherever the file has points. Depth
+is y >= 0, as everywhere here. In a file whose y points out of the body (none is positive) depth is
+-y, and σ_xy has the other sign.
 """
 
 from __future__ import annotations
@@ -24,16 +28,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.profiles.trace_files import MESH, header_of, read_columns
+from sie.messages import nearest
+from sie.profiles.trace_files import MESH, Table, read_table
 from sie.solution import Solution
-
-from .toml_values import nearest
 
 Array = NDArray[np.float64]
 
 Exact = Callable[[Solution, Array, Array], Array]
 
-# The columns of a file that can be compared: their names, and the exact values at points (x, depth).
+# The columns of a file that can be compared: their names, and the exact values at points (x,
+# depth).
 TRACTIONS: dict[str, Exact] = {
     "p": lambda solution, x, y: solution.pressure(x),
     "q": lambda solution, x, y: solution.shear(x),
@@ -79,15 +83,13 @@ FARTHEST_SHIFT = 0.5  # half-widths
 SHIFTS = 41  # in the first look
 REFINED = 1e-9  # half-widths
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
-FACTORS = (
-    0.5,
-    2.0,
-)  # between these a mesh is bad; beyond, if c f is like it at all, it speaks of other units or signs
+# Between these factors a mesh is inaccurate; beyond them its units or signs differ.
+FACTORS = (0.5, 2.0)
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """The columns of a file: x, depth y (0 on the surface), and the quantities that were found in it, by ascending x.
+    """The columns of a file, by ascending x: x, depth y (0 on the surface) and its quantities.
 
     `others` are the columns that were passed over, by name, or by number where there is no header.
     """
@@ -111,7 +113,10 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Difference:
-    """What a mesh result differs by from the exact one, relative; `at` and `depth` are where most, `infinite` points were left out."""
+    """How much a mesh result differs from the exact one, relative.
+
+    The difference is largest at x = `at`, y = `depth`; `infinite` points were left out.
+    """
 
     points: int
     infinite: int
@@ -128,7 +133,7 @@ class Difference:
 
     @property
     def suspicion(self) -> str:
-        """What a factor far from 1 asks for, if it explains more than half of what the mesh holds."""
+        """What a factor far from 1 suggests, if it explains more than half of the difference."""
         if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
             return ""
         return (
@@ -136,6 +141,25 @@ class Difference:
             if -FACTORS[1] <= self.factor <= -FACTORS[0]
             else "are the units of load and length the same?"
         )
+
+    def lines(self, name: str, file: str) -> list[str]:
+        """The difference of the quantity `name` as lines of a report."""
+        left_out = f" ({self.infinite} left out, where {name} is infinite)" if self.infinite else ""
+        depth = f", y = {self.depth:.6g}" if self.depth else ""
+        lines = [
+            f"{name}: {self.points} points of {file}{left_out}",
+            f"  l1     {self.l1:.3e}",
+            f"  l2     {self.l2:.3e}",
+            f"  max    {self.largest:.3e} of the largest, at x = {self.at:.6g}{depth}",
+        ]
+        if self.resultant is not None:
+            lines.append(f"  load   {self.resultant:+.3e}")
+        best = "fits best, and leaves l2 ="
+        lines.append(f"  shift  {self.shift:+.6g} {best} {self.l2_shifted:.3e}")
+        if self.suspicion:
+            text = f"{self.factor:+.6g} {best} {self.l2_scaled:.3e}: {self.suspicion}"
+            lines.append(f"  factor {text}")
+        return lines
 
 
 @dataclass(frozen=True)
@@ -148,38 +172,23 @@ class Comparison:
 
     @property
     def ok(self) -> bool:
+        """Whether the l2 error of every quantity is within the tolerance."""
         return all(d.l2 <= self.tol for d in self.differences.values())
 
     def as_dict(self) -> dict[str, Any]:
-        found = {name: asdict(d) for name, d in self.differences.items()}
+        """All differences, as JSON can hold them."""
         return {
             "file": self.mesh.name,
             "tol": self.tol,
             "ok": self.ok,
-            "differences": found,
+            "differences": {name: asdict(d) for name, d in self.differences.items()},
             "not_compared": list(self.mesh.others),
         }
 
     def __str__(self) -> str:
-        lines = []
-        for name, d in self.differences.items():
-            left_out = f" ({d.infinite} left out, where {name} is infinite)" if d.infinite else ""
-            lines += [
-                f"{name}: {d.points} points of {self.mesh.name}{left_out}",
-                f"  l1     {d.l1:.3e}",
-                f"  l2     {d.l2:.3e}",
-                f"  max    {d.largest:.3e} of the largest, at x = {d.at:.6g}"
-                + (f", y = {d.depth:.6g}" if d.depth else ""),
-                *([f"  load   {d.resultant:+.3e}"] if d.resultant is not None else []),
-                f"  shift  {d.shift:+.6g} fits best, and leaves l2 = {d.l2_shifted:.3e}",
-                *(
-                    [
-                        f"  factor {d.factor:+.6g} fits best, and leaves l2 = {d.l2_scaled:.3e}: {d.suspicion}"
-                    ]
-                    if d.suspicion
-                    else []
-                ),
-            ]
+        lines: list[str] = []
+        for name, difference in self.differences.items():
+            lines += difference.lines(name, self.mesh.name)
         if self.mesh.others:
             lines.append(
                 f"not compared: the columns {', '.join(self.mesh.others)} of {self.mesh.name}"
@@ -189,50 +198,47 @@ class Comparison:
 
 
 def read_mesh(path: str | Path) -> Mesh:
-    """The columns x, y and whatever of QUANTITIES the header names; without a header the first two are x and p."""
-    path = Path(path)
-    header, width = header_of(path, most=MESH)
-    names = [NAMES.get(name, name) for name in header] or ["x", "p"]
-    known = [name for name in names[:width] if name in ("x", "y", *QUANTITIES)]
-    found = [name for name in known if name in QUANTITIES]
-    if "x" not in known or not found:
-        near = next((name for name in header if nearest(name, ("x", *QUANTITIES, *NAMES))), "")
-        hint = f' (is "{near}" one of them?)' if near else ""
-        raise ValueError(
-            f"{path.name} has the columns {', '.join(header)}{hint}: name one x and one {' or '.join(QUANTITIES)}, on the first line"
-        )
-    columns = dict(
-        zip(
-            known,
-            read_columns(path, tuple(names.index(name) for name in known), most=MESH),
-            strict=True,
-        )
-    )
-    for name, values in columns.items():
-        largest = float(np.abs(values).max())
-        if largest > LARGEST:
-            raise ValueError(
-                f"{path.name} has {name} up to {largest:g}, as what is missing may be marked: delete such lines"
-            )
-    y = _depths(path.name, columns)
+    """The columns x, y and those of QUANTITIES that the header names; x and p without a header."""
+    table = read_table(path, MESH)
+    names = [NAMES.get(name, name) for name in table.header] or ["x", "p"]
+    names += map(str, range(len(names), table.width))  # of columns without a name
+    columns = _columns(table, names)
+    y = _depths(table.file, columns)
     order = np.lexsort((y, columns["x"]))
-    passed = names[:width] if header else [*names, *map(str, range(len(names), width))]
-    others = tuple(name for name in passed if name and name not in columns)
-    mesh = Mesh(
-        path.name,
-        columns["x"][order],
-        y[order],
-        {name: columns[name][order] for name in found},
-        others,
-    )
-    for name in found:
+    values = {name: columns[name][order] for name in columns if name in QUANTITIES}
+    others = tuple(name for name in names if name and name not in columns)
+    mesh = Mesh(table.file, columns["x"][order], y[order], values, others)
+    for name in values:
         x, _, _ = mesh.points(name)
         if len(x) < 2 or (name in TRACTIONS and x[0] == x[-1]):
             where = " on the surface, y = 0, where it is compared" if name in TRACTIONS else ""
             raise ValueError(
-                f"{path.name} holds {len(x)} points of {name}{where}: a comparison needs at least two"
+                f"{table.file} holds {len(x)} points of {name}{where}: "
+                "a comparison needs at least two"
             )
     return mesh
+
+
+def _columns(table: Table, names: list[str]) -> dict[str, Array]:
+    """The columns that can be compared, by name. ValueError unless there are x and a quantity."""
+    known = [name for name in names if name in ("x", "y", *QUANTITIES)]
+    if "x" not in known or not any(name in QUANTITIES for name in known):
+        words = ("x", *QUANTITIES, *NAMES)
+        near = next((name for name in table.header if nearest(name, words)), "")
+        hint = f' (is "{near}" one of them?)' if near else ""
+        raise ValueError(
+            f"{table.file} has the columns {', '.join(table.header)}{hint}: "
+            f"name one x and one {' or '.join(QUANTITIES)}, on the first line"
+        )
+    columns = dict(zip(known, table.columns(tuple(map(names.index, known))), strict=True))
+    for name, values in columns.items():
+        largest = float(np.abs(values).max())
+        if largest > LARGEST:
+            raise ValueError(
+                f"{table.file} has {name} up to {largest:g}, as what is missing may be marked: "
+                "delete such lines"
+            )
+    return columns
 
 
 def _depths(name: str, columns: dict[str, Array]) -> Array:
@@ -242,7 +248,8 @@ def _depths(name: str, columns: dict[str, Array]) -> Array:
         return np.zeros(len(columns["x"]))
     if y.min() < 0.0 < y.max():
         raise ValueError(
-            f"{name} has y from {y.min():.6g} to {y.max():.6g}: the body is on one side of y = 0, leave the other out"
+            f"{name} has y from {y.min():.6g} to {y.max():.6g}: "
+            "the body is on one side of y = 0, leave the other out"
         )
     if y.min() < 0.0 and "sxy" in columns:
         columns["sxy"] = -columns["sxy"]
@@ -250,12 +257,13 @@ def _depths(name: str, columns: dict[str, Array]) -> Array:
 
 
 def compare(solution: Solution, mesh: Mesh, tol: float) -> Comparison:
-    """Every quantity of the mesh against the exact one. Raises ValueError where the points miss the contact."""
+    """Every quantity of the mesh against the exact one. ValueError if no point is in contact."""
     x1, x2 = solution.edges
     if np.count_nonzero((mesh.x > x1) & (mesh.x < x2)) < 2:
         raise ValueError(
             f"fewer than two points of {mesh.name} are in the contact [{x1:.6g}, {x2:.6g}], "
-            f"x runs from {mesh.x[0]:.6g} to {mesh.x[-1]:.6g}: are the units of length, or the origins, the same?"
+            f"x runs from {mesh.x[0]:.6g} to {mesh.x[-1]:.6g}: "
+            "are the units of length, or the origins, the same?"
         )
     return Comparison(mesh, tol, {name: _difference(name, solution, mesh) for name in mesh.values})
 
@@ -270,9 +278,8 @@ def _difference(name: str, solution: Solution, mesh: Mesh) -> Difference:
     exact = exact_at(0.0)
     finite = np.isfinite(exact)
     f, e, w = exact[finite], (values - exact)[finite], weight[finite]
-    measure = (
-        f if f.any() else solution.pressure(x[finite])
-    )  # what ought to be zero is measured by the pressure
+    # A quantity that is zero everywhere is measured by the pressure.
+    measure = f if f.any() else solution.pressure(x[finite])
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
     shift = _best_shift(exact_at, values, weight, solution.half_width)
     below = w @ measure**2
@@ -313,13 +320,12 @@ def _best_shift(
     grid = np.linspace(-FARTHEST_SHIFT * r, FARTHEST_SHIFT * r, SHIFTS)
     best = int(np.argmin([misfit(d) for d in grid.tolist()]))
     around = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, SHIFTS - 1)])
-    found = float(
-        minimize_scalar(misfit, bounds=around, method="bounded", options={"xatol": REFINED * r}).x
-    )
-    return found if np.isfinite(misfit(0.0)) and misfit(found) < misfit(0.0) else 0.0
+    options = {"xatol": REFINED * r}
+    shift = float(minimize_scalar(misfit, bounds=around, method="bounded", options=options).x)
+    return shift if np.isfinite(misfit(0.0)) and misfit(shift) < misfit(0.0) else 0.0
 
 
 def _weights(x: Array) -> Array:
-    """Of the trapezoidal rule."""
+    """Weights of the trapezoidal rule."""
     step = np.diff(x)
     return 0.5 * (np.append(step, 0.0) + np.append(0.0, step))

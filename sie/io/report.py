@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
-from sie.history import Followed
+from sie.history import PathSolution
 from sie.solution import Solution
 
 from .export import energy_of, notes_of, slipping, turning_points, wanted
 from .sample_points import SAME_PEAK, ceiling, peak
 from .scene_file import SceneFile, Units
 
-SAME_PLACE = 1e-7  # of the half-width: where a smooth peak is, rounding of p does not tell closer
-NOTHING = 1e-13  # of its scale: below it a printed number is rounding, and 0 is what is meant
+SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
+NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 COLUMNS, ROWS = 60, 8  # of the text picture
 
 
@@ -34,15 +34,14 @@ def summary(solution: Solution, file: SceneFile) -> str:
     parts = [
         section(solution, file.units) for name, section in sections.items() if name in wanted(file)
     ]
-    noted = (
-        [] if "check" in wanted(file) else ["\n".join(notes_of(solution, file))]
-    )  # the certificate says them itself
-    return "\n\n".join(
-        [f"{file.title}\n{scene}" if file.title else scene, *parts, *filter(None, noted)]
-    )
+    # The certificate contains the notes.
+    notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
+    head = f"{file.title}\n{scene}" if file.title else scene
+    return "\n\n".join([head, *parts, *filter(None, [notes])])
 
 
 def edges_summary(solution: Solution, units: Units) -> str:
+    """Edges, width, load, moment and tilt."""
     r, P = solution.half_width, solution.normal_load
     x1, x2 = (
         f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}"
@@ -75,6 +74,7 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
 
 
 def pressure_summary(solution: Solution, units: Units) -> str:
+    """The peak pressure, the mean pressure, and the pressure as a picture in text."""
     largest, where = peak(solution)
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
@@ -95,19 +95,12 @@ def gap_summary(solution: Solution, units: Units) -> str:
         f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter"
         for g in solution.gap(x).tolist()
     )
-    return _rows(
-        (
-            "gap",
-            ";  ".join(
-                f"{value} at x = {_number(at)}"
-                for value, at in zip(values, x.tolist(), strict=True)
-            ),
-        )
-    )
+    places = [f"{gap} at x = {_number(u)}" for gap, u in zip(values, x.tolist(), strict=True)]
+    return _rows(("gap", ";  ".join(places)))
 
 
 def shear_summary(solution: Solution, units: Units) -> str:
-    """Stick and slip zones, shear and what it costs; a table of the turning points of a path."""
+    """Stick zones, slip zones and dissipated energy; the turning points of a path as a table."""
     if not solution.carries_shear:
         return _rows(("shear", "none"))
     scene, r = solution.scene, solution.half_width
@@ -115,31 +108,24 @@ def shear_summary(solution: Solution, units: Units) -> str:
         "; bonded" if scene.bonded else f"; f P = {_number(scene.friction * solution.normal_load)}"
     )
     rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
-    rows += (
-        [("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}")]
-        if scene.bulk_stress
-        else []
-    )
+    if scene.bulk_stress:
+        rows.append(("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}"))
     rows += [
         ("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}")
         for lo, hi in solution.stick
     ] or [("stick", "none")]
     for lo, hi, sign in slipping(solution):
-        rows.append(
-            (
-                "slip",
-                f"from {_number(lo, r)} to {_number(hi, r)} {units.length}, q = {'+' if sign > 0.0 else '-'}f p",
-            )
-        )
+        zone = f"from {_number(lo, r)} to {_number(hi, r)} {units.length}"
+        rows.append(("slip", f"{zone}, q = {'+' if sign > 0.0 else '-'}f p"))
     rows += [
         ("energy lost", f"{_number(energy)} {units.moment}")
         for energy in energy_of(solution).values()
     ]
-    table = [_path_table(solution, units)] if isinstance(solution, Followed) else []
+    table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
     return "\n\n".join([_rows(*rows), *table])
 
 
-def _path_table(solution: Followed, units: Units) -> str:
+def _path_table(solution: PathSolution, units: Units) -> str:
     head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
     for point in turning_points(solution):
@@ -152,49 +138,36 @@ def _path_table(solution: Followed, units: Units) -> str:
 
 def stress_summary(solution: Solution, units: Units) -> str:
     """The stress under the centre of the contact, on the surface and half a half-width below."""
-    r = solution.half_width
-    lines: list[tuple[str, str]] = []
-    for where, y in (
-        ("on the surface", 0.0),
-        (f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r),
+    r, rows = solution.half_width, []
+    for name, where, y in (
+        ("stress", "on the surface", 0.0),
+        ("", f"at a depth of {_number(0.5 * r)} {units.length}", 0.5 * r),
     ):
         s = solution.stress(solution.centre, y)
-        scale = solution.normal_load / r
         parts = (
-            f"{name} = {_number(float(v), scale)}"
-            for name, v in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
+            f"{component} = {_number(float(value), solution.normal_load / r)}"
+            for component, value in (("σ_xx", s.xx), ("σ_yy", s.yy), ("σ_xy", s.xy))
         )
-        lines.append(
-            (
-                "stress" if not lines else "",
-                f"{', '.join(parts)} {units.stress} at the centre, {where}",
-            )
-        )
-    return _rows(*lines)
+        rows.append((name, f"{', '.join(parts)} {units.stress} at the centre, {where}"))
+    return _rows(*rows)
 
 
 def yield_summary(solution: Solution, units: Units) -> str:
-    found, r = solution.elastic_limit(), solution.half_width
-    if math.isinf(found.stress):
-        return _rows(
-            (
-                "elastic limit",
-                f"0: the stress is infinite at x = {_number(found.x, r)} {units.length} on the surface",
-            )
-        )
+    """The load at which the body yields first, and where."""
+    limit, r = solution.elastic_limit(), solution.half_width
+    if math.isinf(limit.stress):
+        place = f"x = {_number(limit.x, r)} {units.length} on the surface"
+        return _rows(("elastic limit", f"0: the stress is infinite at {place}"))
     places = (
-        f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in found.places
+        f"x = {_number(x, r, SAME_PLACE)}, y = {_number(y)} {units.length}" for x, y in limit.places
     )
-    return _rows(
-        (
-            "elastic limit",
-            f"P/(bk) = {_number(found.ratio)} (von Mises): this contact yields if k < {_number(found.stress)} {units.stress}",
-        ),
-        ("weakest point", " and ".join(places)),
-    )
+    ratio = f"P/(bk) = {_number(limit.ratio)} (von Mises)"
+    stress = f"this contact yields if k < {_number(limit.stress)} {units.stress}"
+    return _rows(("elastic limit", f"{ratio}: {stress}"), ("weakest point", " and ".join(places)))
 
 
 def tension_summary(solution: Solution, units: Units) -> str:
+    """The largest tension on the surface, and where."""
     value, x = solution.peak_tension()
     size = (
         f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
@@ -207,7 +180,7 @@ def tension_summary(solution: Solution, units: Units) -> str:
 
 
 def check_summary(solution: Solution, _units: Units) -> str:
-    """The certificate of the equations, and of each trace what its noise leaves open."""
+    """The certificate, and for each trace the error that its noise implies."""
     return "\n\n".join(map(str, (solution.check(), *solution.trace_reports())))
 
 
@@ -226,10 +199,8 @@ def text_picture(solution: Solution, units: Units) -> str:
     )
     labels = [_number(top), *[""] * (ROWS - 1)]
     margin = len(labels[0])
-    left, right = (
-        _number(x1, solution.half_width),
-        f"{_number(x2, solution.half_width)} {units.length}",
-    )
+    r = solution.half_width
+    left, right = _number(x1, r), f"{_number(x2, r)} {units.length}"
     lines = [f"{label:>{margin}} │{row}" for label, row in zip(labels, rows, strict=True)]
     axis = [
         f"{0:>{margin}} └{'─' * COLUMNS}",

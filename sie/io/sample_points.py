@@ -1,4 +1,4 @@
-"""Where to look at an answer: points that miss no rim and no peak, and the heights that a picture needs."""
+"""Sample points of an answer, which miss no rim and no peak, and the height of a picture."""
 
 from __future__ import annotations
 
@@ -12,26 +12,30 @@ from sie.solution import Solution
 
 Array = NDArray[np.float64]
 
-POINTS = 401  # in the contact, unless told otherwise
-# Points beside the contact, on each side, as a fraction of those in it, and how far out they reach, in half-widths.
+POINTS = 401  # in the contact, by default
+# Points beside the contact, on each side, as a fraction of those in it, and how far out they reach,
+# in half-widths.
 BESIDE = 0.25
 REACH = 0.6
-# Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is below the flat top that rounding leaves.
+# Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is
+# below the flat top that rounding leaves.
 PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
 ZOOMS = 8
 ZOOM_POINTS = 41
 LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
 SAME_PEAK = 1e-9  # relative: a symmetric pressure has its peak twice
-# A spike is cut out of a picture if it is so many times what 95 % of the contact stays below; the picture then ends a little above that.
+# A spike is cut out of a picture if it is so many times what 95 % of the contact stays below; the
+# picture then ends a little above that.
 SPIKE = 3.0
 ABOVE_ORDINARY = 1.4
 
 
 def inside(solution: Solution, points: int = POINTS) -> Array:
-    """About `points` abscissae from x1 to x2, ascending, among them the edges and the breaks of the slope.
+    """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
-    Points gather at edges and breaks like Chebyshev's. Half of them are shared out by length (in the angle of the contact), half equally,
-    so that a narrow rim has its own. Of very many breaks, as a trace has, none is a place of its own.
+    Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
+    by length (in the angle of the contact), half equally, so that a narrow rim has its own. The
+    breaks of a trace are too many, and are passed over.
     """
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
@@ -45,12 +49,12 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
 
 
 def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
-    """Abscissae left and right of the contact, ascending, without the edges, out to REACH half-widths or the end of the indenter."""
-    (x1, x2), (lo, hi), reach = (
-        solution.edges,
-        solution.scene.profile.domain,
-        REACH * solution.half_width,
-    )
+    """Positions left and right of the contact, ascending, without the edges.
+
+    They end REACH half-widths away, or where the indenter ends.
+    """
+    (x1, x2), (lo, hi) = solution.edges, solution.scene.profile.domain
+    reach = REACH * solution.half_width
     left, right = max(x1 - reach, lo), min(x2 + reach, hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
     x = np.unique(
@@ -84,7 +88,7 @@ class Summit:
 
 
 def summits(solution: Solution) -> tuple[Summit, ...]:
-    """The local maxima of the pressure, from left to right; lesser ones only as closely as they were sampled."""
+    """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
     x = np.union1d(inside(solution), [solution.centre])
     p = solution.pressure(x)
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
@@ -93,20 +97,19 @@ def summits(solution: Solution) -> tuple[Summit, ...]:
     x[high], p[high] = _narrowed(
         solution, x[high], x[np.maximum(high - 1, 0)], x[np.minimum(high + 1, len(x) - 1)]
     )
-    return tuple(Summit(*found) for found in zip(x[top].tolist(), p[top].tolist(), strict=True))
+    return tuple(map(Summit, x[top].tolist(), p[top].tolist()))
 
 
 def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
     """(largest pressure, where): at more than one x if the pressure is as large there."""
-    found = summits(solution)
-    largest = max(s.p for s in found)
-    return largest, tuple(
-        s.x for s in found if s.p == largest or s.p >= largest * (1.0 - SAME_PEAK)
-    )
+    maxima = summits(solution)
+    largest = max(s.p for s in maxima)
+    least = largest * (1.0 - SAME_PEAK)
+    return largest, tuple(s.x for s in maxima if s.p == largest or s.p >= least)
 
 
 def ceiling(solution: Solution) -> float:
-    """The largest pressure that a picture should show: the peak, unless it is infinite or a spike over a small part of the contact."""
+    """The largest pressure that a picture shows: the peak, unless it is infinite or narrow."""
     x1, x2 = solution.edges
     p = solution.pressure(x1 + (x2 - x1) * (np.arange(400) + 0.5) / 400.0)
     ordinary = float(np.quantile(p, 0.95, method="lower"))
@@ -115,7 +118,7 @@ def ceiling(solution: Solution) -> float:
 
 
 def _narrowed(solution: Solution, x: Array, lo: Array, hi: Array) -> tuple[Array, Array]:
-    """(where, value) of the largest pressures in [lo, hi], from x on: moved only for a gain beyond rounding."""
+    """(x, value) of the largest pressures in [lo, hi]; x moves only for a gain beyond rounding."""
     p, every = solution.pressure(x), np.arange(len(x))
     for _ in range(ZOOMS):
         near = np.linspace(lo, hi, ZOOM_POINTS, axis=1)

@@ -2,9 +2,11 @@
 
     .csv    4 comment lines (#), then  x,y,xx,yy,xy,zz,j2  and one row per point, x fastest
     .npz    arrays x (nx), y (ny), xx, yy, xy, zz, j2 (ny, nx):  numpy.load(file)["j2"]
-    .vti    VTK image data that ParaView opens: the tensor "stress" (XX YY ZZ XY YZ XZ) and the scalars "j2" and "mises"
+    .vti    VTK image data that ParaView opens: the tensor "stress" (XX YY ZZ XY YZ XZ) and the
+            scalars "j2" and "mises"
 
-The axes are those of the package: x along the surface, y the depth, 0 on the surface. What is infinite, at a sharp edge, stays inf.
+The axes are those of the package: x along the surface, y the depth, 0 on the surface. What is
+infinite, at a sharp edge, stays inf.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ FORBIDDEN = "[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """The stress of a solution at nx × ny points of a window around the contact, both ends included; arrays (ny, nx)."""
+    """The stress of a solution at nx × ny points around the contact, in arrays (ny, nx)."""
 
     solution: Solution
     nx: int = SIZE[0]
@@ -43,20 +45,26 @@ class Grid:
 
     @cached_property
     def x(self) -> Array:
+        """Positions along the surface, (nx,)."""
         (x1, x2), r = self.solution.edges, self.solution.half_width
         return np.linspace(x1 - BESIDE * r, x2 + BESIDE * r, self.nx)
 
     @cached_property
     def y(self) -> Array:
+        """Depths, (ny,)."""
         return np.linspace(0.0, DEPTH * self.solution.half_width, self.ny)
 
     @cached_property
     def stress(self) -> Stress:
+        """The stress at all points."""
         return self.solution.stress(self.x, self.y[:, None])
 
 
 def file_bytes(grid: Grid, suffix: str, head: tuple[str, ...] = ()) -> bytes:
-    """The grid as a file of that suffix; `head` are lines of comment. ValueError for a suffix that is not known."""
+    """The grid as a file of that suffix, with `head` as lines of comment.
+
+    ValueError for a suffix that is not known.
+    """
     writers = {"csv": _csv, "npz": _npz, "vti": _vti}
     if suffix not in writers:
         raise ValueError(f'a grid cannot be written as ".{suffix}": choose .{", .".join(SUFFIXES)}')
@@ -103,9 +111,9 @@ def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
   <ImageData WholeExtent="{extent}" Origin="{float(grid.x[0])!r} 0.0 0.0" Spacing="{spacing} 1.0">
     <Piece Extent="{extent}">
       <PointData Scalars="j2" Tensors="stress">
-        <DataArray type="Float64" Name="stress" NumberOfComponents="6" format="binary">{_encoded(tensor)}</DataArray>
-        <DataArray type="Float64" Name="j2" format="binary">{_encoded(s.j2)}</DataArray>
-        <DataArray type="Float64" Name="mises" format="binary">{_encoded(s.mises)}</DataArray>
+        {_data_array("stress", tensor, components=6)}
+        {_data_array("j2", s.j2)}
+        {_data_array("mises", s.mises)}
       </PointData>
     </Piece>
   </ImageData>
@@ -113,7 +121,9 @@ def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
 """.encode()
 
 
-def _encoded(values: Array) -> str:
-    """The number of bytes as 64 bits, then the bytes, in base 64: VTK's inline binary format."""
+def _data_array(name: str, values: Array, components: int = 1) -> str:
+    """VTK's inline binary format: the number of bytes as 64 bits, then the bytes, in base 64."""
     data = np.ascontiguousarray(values).tobytes()
-    return base64.b64encode(np.uint64(len(data)).tobytes() + data).decode()
+    text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode()
+    count = f' NumberOfComponents="{components}"' if components > 1 else ""
+    return f'<DataArray type="Float64" Name="{name}"{count} format="binary">{text}</DataArray>'

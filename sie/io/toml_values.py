@@ -1,20 +1,24 @@
-"""Entries of a scene file, each with the sentence that refuses it, and the nearest to a name that is not known."""
+"""Readers of the entries of a scene file.
+
+Each returns the value of the entry that `where` names, or raises ValueError with the remedy.
+"""
 
 from __future__ import annotations
 
-import difflib
-import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
+from sie.messages import shortened
+
 Reader = Callable[[str, Any], Any]
-LONGEST = 60  # letters of a value that are shown
 
 
 def number(where: str, value: Any) -> float:
+    """A number, as a float."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ValueError(
-            f"{where} = {shown(value)} is not a number: write a plain number, without quotes or units"
+            f"{where} = {shown(value)} is not a number: "
+            "write a plain number, without quotes or units"
         )
     try:
         return float(value)
@@ -25,16 +29,19 @@ def number(where: str, value: Any) -> float:
 
 
 def text(where: str, value: Any) -> str:
+    """One line of text."""
     if not isinstance(value, str):
         raise ValueError(f'{where} = {shown(value)} is not text: put it in quotes, "..."')
     if not value.isprintable():
         raise ValueError(
-            f"{where} = {shown(value)} is not one line of plain text: leave out line ends and control characters"
+            f"{where} = {shown(value)} is not one line of plain text: "
+            "leave out line ends and control characters"
         )
     return value
 
 
 def flag(where: str, value: Any) -> bool:
+    """A truth value."""
     if not isinstance(value, bool):
         raise ValueError(
             f"{where} = {shown(value)} is neither true nor false: write one of them, without quotes"
@@ -43,34 +50,41 @@ def flag(where: str, value: Any) -> bool:
 
 
 def listed(where: str, value: Any) -> list[Any]:
+    """A list."""
     if not isinstance(value, list):
         raise ValueError(f"{where} = {shown(value)} is not a list: put it in square brackets")
     return value
 
 
 def numbers(where: str, value: Any) -> tuple[float, ...]:
+    """A list of numbers."""
     if isinstance(value, list) and all(type(v) is float for v in value):
         return tuple(value)  # a trace, without a name for each of its numbers
     return tuple(number(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """A list of lists of numbers."""
     return tuple(numbers(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def texts(where: str, value: Any) -> tuple[str, ...]:
+    """A list of texts."""
     return tuple(text(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
 def number_or_text(where: str, value: Any) -> float | str:
+    """A number or a text."""
     return value if isinstance(value, str) else number(where, value)
 
 
 def number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
+    """A number or a list of numbers."""
     return numbers(where, value) if isinstance(value, list) else number(where, value)
 
 
 def whole(where: str, value: Any) -> int:
+    """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError(
             f"{where} = {shown(value)} is not a whole number: write one, without quotes"
@@ -79,6 +93,7 @@ def whole(where: str, value: Any) -> int:
 
 
 def columns(where: str, value: Any) -> tuple[int | str, ...]:
+    """A pair of column numbers or names."""
     if len(listed(where, value)) != 2:
         raise ValueError(f"{where} = {shown(value)} is not a pair: give the columns of x and of h")
     return tuple(
@@ -86,7 +101,8 @@ def columns(where: str, value: Any) -> tuple[int | str, ...]:
     )
 
 
-def table(where: str, value: Any) -> dict[str, Any]:
+def table_of(where: str, value: Any) -> dict[str, Any]:
+    """A table."""
     if isinstance(value, dict):
         return value
     if isinstance(value, list):
@@ -111,38 +127,3 @@ def shown(value: Any) -> str:
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))
-
-
-def shortened(text: str) -> str:
-    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
-
-
-def told(sentence: object) -> str:
-    """A sentence without words that nobody reads: a key or a formula may be as long as a file."""
-    return re.sub(r"\S{256,}", lambda word: shortened(word[0]), str(sentence))
-
-
-# -- names that are not known ------------------------------------------------------------------------------------------
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that `name` was most likely meant to be, "" if none is near.
-
-    >>> nearest("normal_laod", ["normal_load", "tangential_load"])
-    'normal_load'
-    """
-    if len(name) > LONGEST:
-        return ""
-    by_letters = {k.lower().replace("_", "-"): k for k in known}
-    found = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
-    return by_letters[found[0]] if found else ""
-
-
-def suggestion(name: str, known: Iterable[str]) -> str:
-    near = nearest(name, known)
-    return f'did you mean "{near}"?' if near else f"choose {choices(known)}"
-
-
-def choices(names: Iterable[str]) -> str:
-    quoted = [f'"{name}"' for name in names]
-    return f"{', '.join(quoted[:-1])} or {quoted[-1]}" if len(quoted) > 1 else quoted[0]

@@ -1,20 +1,25 @@
-"""Fast sums of Cauchy kernels, Σ_j q_j / (t_j - z) for many sources on the line and many targets in the plane.
+"""Fast sums of Cauchy kernels, Σ_j q_j / (t_j - z) for many sources on the line and many targets in
+the plane.
 
-The sources come in rows, one for each piece of a slope, that ascend and do not overlap. Rows are gathered in leaves, leaves in pairs, and
-so on up to one root: a tree whose every node is an interval with centre c and half-length a. With u = (t - c)/a, s = (z - c)/a and
-ρ = s + sqrt(s-1) sqrt(s+1) the kernel is a geometric series outside the interval,
+The sources come in rows, one for each piece of a slope, that ascend and do not overlap. Rows are
+gathered in leaves, leaves in pairs, and so on up to one root: a tree whose every node is an
+interval with centre c and half-length a. With u = (t - c)/a, s = (z - c)/a and ρ = s + sqrt(s-1)
+sqrt(s+1) the kernel is a geometric series outside the interval,
 
-    Σ q_j / (z - t_j) = 2 / (a sqrt(s-1) sqrt(s+1)) [A_0/2 + Σ_{n>=1} A_n ρ^-n],         A_n = Σ_j q_j T_n(u_j)
+    Σ q_j / (z - t_j) = 2 / (a sqrt(s-1) sqrt(s+1)) [A_0/2 + Σ_{n>=1} A_n ρ^-n]
+    A_n = Σ_j q_j T_n(u_j)
 
-of which TERMS terms leave rounding where |ρ| >= SEPARATION (s = ±2 on the line). A target takes every node's sum at the first level at
-which it is that far; what is left at the leaves are pairs (row, target), few for each target, that the caller knows exactly. So the cost
-grows like (sources + targets) log(sources), in a handful of array operations for each level and term.
+of which TERMS terms leave rounding where |ρ| >= SEPARATION (s = ±2 on the line). A target takes
+every node's sum at the first level at which it is that far; what is left at the leaves are pairs
+(row, target), few for each target, that the caller knows exactly. So the cost grows like (sources +
+targets) log(sources), in a handful of array operations for each level and term.
 
-Moments of a node come from its children's as from sources: a child's moments up to TERMS are those of TERMS charges on its Chebyshev
-points.
+Moments of a node come from its children's as from sources: a child's moments up to TERMS are those
+of TERMS charges on its Chebyshev points.
 
-Greengard & Rokhlin (1987), Barnes & Hut (1986) for the tree; Dutt, Gu & Rokhlin (1996) for Chebyshev series in one dimension;
-Mason & Handscomb, Chebyshev Polynomials (2003), eq. (1.51), for the series: ∫ over sources of the generating function of T_n.
+Greengard & Rokhlin (1987), Barnes & Hut (1986) for the tree; Dutt, Gu & Rokhlin (1996) for
+Chebyshev series in one dimension; Mason & Handscomb, Chebyshev Polynomials (2003), eq. (1.51), for
+the series: ∫ over sources of the generating function of T_n.
 """
 
 from __future__ import annotations
@@ -44,7 +49,9 @@ class KernelSums:
     """The tree of one set of sources."""
 
     def __init__(self, lo: Array, length: Array, offset: Array, charge: Array) -> None:
-        """Rows [lo, lo + length], shape (K,); sources at lo + offset with their charges, shape (K, n)."""
+        """Rows [lo, lo + length], shape (K,); sources at lo + offset with their charges, shape (K,
+        n).
+        """
         self.rows = len(lo)
         spare = -self.rows % LEAF
         lo, length = (np.concatenate((a, np.repeat(a[-1:], spare))) for a in (lo, length))
@@ -76,7 +83,9 @@ class KernelSums:
             self.levels.append((centre, half, A))
 
     def far(self, z: Any) -> tuple[Any, Index, Index]:
-        """(Σ q/(t - z) over all that is far from each target, rows k, targets i): the pairs (k, i), of rows near a target, are left out."""
+        """(Σ q/(t - z) over all that is far from each target, rows k, targets i): the pairs (k, i),
+        of rows near a target, are left out.
+        """
         total = np.zeros_like(z)
         near = (np.zeros(len(z), dtype=np.int64), np.arange(len(z)))
         for branch in self._branches(z, near):
@@ -95,7 +104,9 @@ class KernelSums:
         return total, steep, *self._pairs(*near)
 
     def _branches(self, z: Any, start: tuple[Index, Index]) -> Iterator[_Branch]:
-        """Level by level from the root: the targets that a level serves, and the (node, target) that are left for the next."""
+        """Level by level from the root: the targets that a level serves, and the (node, target)
+        that are left for the next.
+        """
         node, target = start
         for level in range(len(self.levels) - 1, -1, -1):
             centre, half, A = self.levels[level]
@@ -119,7 +130,9 @@ class KernelSums:
 
 
 class _Branch(NamedTuple):
-    """Moments of a level's nodes; the nodes `of` that serve the targets `at`, s and sqrt(s² - 1) there, half-lengths; what is left."""
+    """Moments of a level's nodes; the nodes `of` that serve the targets `at`, s and sqrt(s² - 1)
+    there, half-lengths; what is left.
+    """
 
     A: Array
     of: Index
@@ -134,7 +147,7 @@ class _Branch(NamedTuple):
         return _series(self.A, self.of, 1.0 / (self.s + self.root)) / (self.half * self.root)
 
     def derivative(self) -> Any:
-        """Σ q/(t - z)²: with S(w) the series, w = 1/(s + root), -(w S' + S s/root) / (half root)²."""
+        """Σ q/(t - z)²: -(w S' + S s/root) / (half root)², S(w) the series, w = 1/(s + root)."""
         w = 1.0 / (self.s + self.root)
         S, steep = _series(self.A, self.of, w), _steep_series(self.A, self.of, w)
         size = self.half * self.root
@@ -160,7 +173,9 @@ def _gathered(targets: Index, values: Any, size: int) -> Any:
 
 
 def _root(s: Any) -> Any:
-    """sqrt(s - 1) sqrt(s + 1), with the sign of s on the line; zero inside the interval, where nothing is served."""
+    """sqrt(s - 1) sqrt(s + 1), with the sign of s on the line; zero inside the interval, where
+    nothing is served.
+    """
     if np.iscomplexobj(s):
         return np.sqrt(s - 1.0) * np.sqrt(s + 1.0)
     return np.copysign(np.sqrt(np.maximum(s * s - 1.0, 0.0)), s)
@@ -194,9 +209,11 @@ def _moments(u: Array, charge: Array) -> Array:
 
 
 def _charges() -> Array:
-    """Those on `POINTS` whose moments up to TERMS are A: Q_i = 2/TERMS Σ' A_n T_n(v_i), as a matrix (n, i).
+    """Those on `POINTS` whose moments up to TERMS are A: Q_i = 2/TERMS Σ' A_n T_n(v_i), as a matrix
+    (n, i).
 
-    T_n(v_i) = cos(n (i + 1/2) π / TERMS) with the angle reduced as an integer: a recurrence would lose n² ulp at the ends, in every level.
+    T_n(v_i) = cos(n (i + 1/2) π / TERMS) with the angle reduced as an integer: a recurrence would
+    lose n² ulp at the ends, in every level.
     """
     quarter = np.outer(np.arange(TERMS), 2 * np.arange(TERMS, 0, -1) - 1) % (4 * TERMS)
     Q: Array = np.cos(np.pi / (2 * TERMS) * quarter) * (2.0 / TERMS)

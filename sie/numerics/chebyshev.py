@@ -1,9 +1,11 @@
 """Chebyshev series: points, transforms, evaluation, chopping. No physics.
 
-A series c stands for Σ c_n T_n(s), s in [-1, 1]; arrays of series have the degree along the last axis. The points are those
-of the first kind, s_k = cos((k + 1/2) π / N), which avoid the ends: a slope may be singular there.
+A series c stands for Σ c_n T_n(s), s in [-1, 1]; arrays of series have the degree along the last
+axis. The points are those of the first kind, s_k = cos((k + 1/2) π / N), which avoid the ends: a
+slope may be singular there.
 
-Sources: Mason & Handscomb, Chebyshev Polynomials (2003); Trefethen, Approximation Theory and Approximation Practice (2013).
+Sources: Mason & Handscomb, Chebyshev Polynomials (2003); Trefethen, Approximation Theory and
+Approximation Practice (2013).
 """
 
 from __future__ import annotations
@@ -28,7 +30,9 @@ def points(n: int) -> Array:
 
 
 def transform(values: Array) -> Array:
-    """Coefficients of the interpolant through `values` at `points(n)`, along the last axis (a DCT by one complex FFT of length n)."""
+    """Coefficients of the interpolant through `values` at `points(n)`, along the last axis (a DCT
+    by one complex FFT of length n).
+    """
     n = values.shape[-1]
     if n <= SHORT:
         short: Array = values @ _matrix(n)
@@ -68,7 +72,9 @@ def evaluate(c: Array, s: Any) -> Any:
 
 
 def evaluate_second_kind(c: Array, s: Any) -> Any:
-    """Σ c_n U_n(s) by Clenshaw's recurrence; s real or complex, any shape; a constant comes back as a scalar."""
+    """Σ c_n U_n(s) by Clenshaw's recurrence; s real or complex, any shape; a constant comes back as
+    a scalar.
+    """
     if len(c) <= 1:
         return c[0] if len(c) else 0.0
     twice = 2.0 * s
@@ -102,7 +108,9 @@ def antiderivative(c: Array) -> Array:
 
 
 def divided(c: Array, end: float) -> Array:
-    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis: 2 U_{n-1-j}(end) of T_n, the first halved."""
+    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis: 2
+    U_{n-1-j}(end) of T_n, the first halved.
+    """
     n = c.shape[-1]
     U = np.arange(1, n) * end ** np.arange(n - 1)
     d = np.zeros((*c.shape[:-1], max(n - 1, 0)))
@@ -113,7 +121,9 @@ def divided(c: Array, end: float) -> Array:
 
 
 def second_kind_derivative(q: Array) -> Array:
-    """U-coefficients of the derivative of Σ q_m U_m, along the last axis: that of U_m is 2 Σ (j + 1) U_j over j = m - 1, m - 3, ..."""
+    """U-coefficients of the derivative of Σ q_m U_m, along the last axis: that of U_m is 2 Σ (j +
+    1) U_j over j = m - 1, m - 3, ...
+    """
     d = np.zeros((*q.shape[:-1], max(q.shape[-1] - 1, 0)))
     for j in range(d.shape[-1]):
         d[..., j] = 2.0 * (j + 1) * q[..., j + 1 :: 2].sum(axis=-1)
@@ -127,7 +137,9 @@ def chopped_length(c: Array, floor: float) -> int:
 
 
 def reach(c: Array, growth: float) -> Array:
-    """How far each series (K, N) can be continued beyond [-1, 1]: the largest Bernstein parameter ρ with Σ|c_n| ρ^n <= growth max|c|."""
+    """How far each series (K, N) can be continued beyond [-1, 1]: the largest Bernstein parameter ρ
+    with Σ|c_n| ρ^n <= growth max|c|.
+    """
     size = np.abs(c)
     candidates, powers = _candidates(c.shape[-1], growth)
     fits = powers @ size.T <= growth * size.max(axis=-1)
@@ -149,7 +161,8 @@ def _candidates(n: int, growth: float) -> tuple[Array, Array]:
 def gauss_legendre(n: int) -> tuple[Array, Array]:
     """Gauss-Legendre nodes g in (0, 1), ascending, and weights that sum to 1, both to rounding.
 
-    Newton on the recurrence in extended precision: NumPy's weights are off by up to 1e-12 where they are small.
+    Newton on the recurrence in extended precision: NumPy's weights are off by up to 1e-12 where
+    they are small.
     """
     k = np.arange(1, n + 1, dtype=np.longdouble)
     x = -np.cos(np.pi * (k - 0.25) / (n + 0.5))
@@ -170,7 +183,8 @@ def gauss_legendre(n: int) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=64)
 def differentiation(n: int) -> tuple[Array, Array]:
-    """From values f at the n Gauss-Legendre nodes g: matrices D, E with D f = f'(g) and E f = (f(0), f(1)).
+    """From values f at the n Gauss-Legendre nodes g: matrices D, E with D f = f'(g) and E f =
+    (f(0), f(1)).
 
     Barycentric (Berrut & Trefethen 2004), exact for polynomials of degree n - 1.
     """

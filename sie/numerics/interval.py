@@ -1,9 +1,10 @@
 """A contact [x1, x2] whose edges are known beyond double precision.
 
-Each edge is an unevaluated sum `x + tail` of two doubles, because the numerics need *distances* from an edge to relative accuracy: the
-rounded rim of a nearly flat punch, b - a = 1e-12 a, has only four digits left in the double nearest to b.
+Each edge is an unevaluated sum `x + tail` of two doubles, because the numerics need *distances*
+from an edge to relative accuracy: the rounded rim of a nearly flat punch, b - a = 1e-12 a, has only
+four digits left in the double nearest to b.
 
-    t = m + r sin φ,        -π/2 <= φ <= π/2,        dt / w(t) = dφ,        w(t) = sqrt((t - x1)(x2 - t))
+    t = m + r sin φ,     -π/2 <= φ <= π/2,     dt / w(t) = dφ,     w(t) = sqrt((t - x1)(x2 - t))
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EPS = float(np.finfo(float).eps)
-# A tail is kept where rounding the edge to a double would change its distance to the nearest break, or
-# to the other edge, by more than this.
+# A tail is kept where rounding the edge to a double would change its distance to the nearest break,
+# or to the other edge, by more than this.
 TAIL_MATTERS = 4.0 * EPS
 
 
@@ -82,7 +83,9 @@ class Interval(NamedTuple):
         return Interval(-self.x2, -self.x1, -self.tail2, -self.tail1)
 
     def rounded(self, breaks: tuple[float, ...]) -> Interval:
-        """The same with the tails dropped where no distance to a break notices: what is printed is then what is used."""
+        """The same with the tails dropped where no distance to a break notices: what is printed is
+        then what is used.
+        """
         tails = [0.0, 0.0]
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
             if tail:
@@ -103,3 +106,22 @@ def interval_about(centre: float, half_width: float) -> Interval:
     x1, tail1 = two_sum(centre, -half_width)
     x2, tail2 = two_sum(centre, half_width)
     return Interval(x1, x2, tail1, tail2)
+
+
+def inner(contact: Interval, x: Array) -> Array:
+    """Those x that lie strictly inside the contact."""
+    within: Array = x[(contact.from_left(x) > 0.0) & (contact.from_right(x) > 0.0)]
+    return within
+
+
+def angles(contact: Interval, x: Array) -> Array:
+    """Angles ψ of ascending x from the right edge, x = m + r cos ψ, ascending."""
+    psi: Array = 2.0 * np.arctan2(np.sqrt(contact.from_right(x)), np.sqrt(contact.from_left(x)))
+    return psi[::-1]
+
+
+def position(contact: Interval, angle: Array) -> Array:
+    """x = m + r cos ψ, counted from the nearer edge."""
+    right = (contact.x2 - 2.0 * contact.r * np.sin(0.5 * angle) ** 2) + contact.tail2
+    left = (contact.x1 + 2.0 * contact.r * np.cos(0.5 * angle) ** 2) + contact.tail1
+    return np.where(angle < 0.5 * np.pi, right, left)

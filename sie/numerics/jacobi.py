@@ -1,16 +1,19 @@
-"""Jacobi polynomials for the weights of Cauchy equations, real exponents or complex ones. No physics.
+"""Jacobi polynomials for the weights of Cauchy equations, real exponents or complex ones. No
+physics.
 
-The weight w(s) = (1 - s)^α (1 + s)^β on [-1, 1] with α + β = -κ in {-1, 0, 1}: then (z - 1)^α (z + 1)^β has no cut but [-1, 1], and
-everything about w is elementary. With orthonormal p_n = π_n / ν_n (∫ w p_j p_k = δ_jk; π_n monic) and p̃_n those of 1/w,
+The weight w(s) = (1 - s)^α (1 + s)^β on [-1, 1] with α + β = -κ in {-1, 0, 1}: then (z - 1)^α (z +
+1)^β has no cut but [-1, 1], and everything about w is elementary. With orthonormal p_n = π_n / ν_n
+(∫ w p_j p_k = δ_jk; π_n monic) and p̃_n those of 1/w,
 
     1/π PV∫ w p_n/(s - t) dt  =  cosec(πα) p̃_{n-κ}(s) - cot(πα) w(s) p_n(s)
     1/π ∫ w p_n/(z - t) dt    =  cosec(πα) (p̃_{n-κ}(z) - (z - 1)^α (z + 1)^β p_n(z))
 
-p̃_{-1} = 0. The four Chebyshev weights are the case α, β = ±1/2. For complex exponents the products are bilinear, not Hermitian, and the
-Gauss nodes leave the real axis: polynomials may be integrated there, a user's function may not, so that `analysis` samples on real nodes.
+p̃_{-1} = 0. The four Chebyshev weights are the case α, β = ±1/2. For complex exponents the products
+are bilinear, not Hermitian, and the Gauss nodes leave the real axis: polynomials may be integrated
+there, a user's function may not, so that `analysis` samples on real nodes.
 
-Sources: Tricomi (1957); Erdogan, Gupta & Cook, in Methods of Analysis and Solutions of Crack Problems (1973); Gautschi (1981) for
-the continued fraction; Mason & Handscomb (2003).
+Sources: Tricomi (1957); Erdogan, Gupta & Cook, in Methods of Analysis and Solutions of Crack
+Problems (1973); Gautschi (1981) for the continued fraction; Mason & Handscomb (2003).
 """
 
 from __future__ import annotations
@@ -28,13 +31,15 @@ from .interval import EPS
 Array = NDArray[Any]
 Exponent = float | complex
 
-# A series is continued off its interval while it grows by less than this factor; from there the continued fraction takes over.
+# A series is continued off its interval while it grows by less than this factor; from there the
+# continued fraction takes over.
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
 FAINT = 0.25  # exponents below it: cosec(πα) > √2, and what it multiplies is to cancel by formula
 PHASE = 4.0 * EPS  # an imaginary part of a/b below it is rounding of constants of one phase
-MOST_STEPS = 20_000  # of the continued fraction: it is asked only where a series of that many terms would grow
+# Of the continued fraction: it is asked only where a series of that many terms would grow
+MOST_STEPS = 20_000
 
 
 class Weight(NamedTuple):
@@ -43,7 +48,8 @@ class Weight(NamedTuple):
     alpha: Exponent
     beta: Exponent
     kappa: int  # the index
-    tail: Exponent = 0.0  # for κ = 0: what rounding left of α, less of β; next to ±1 it is all that tells how far
+    # For κ = 0: what rounding left of α, less of β; next to ±1 it is all that tells how far
+    tail: Exponent = 0.0
 
     @property
     def inverse(self) -> Weight:
@@ -72,7 +78,9 @@ class Weight(NamedTuple):
 
     @property
     def is_faint(self) -> bool:
-        """Close to 1, as |a| >> |b| makes it: cosec(πα) is then so large that the terms it multiplies cancel."""
+        """Close to 1, as |a| >> |b| makes it: cosec(πα) is then so large that the terms it
+        multiplies cancel.
+        """
         return self.kappa == 0 and abs(self.alpha) < FAINT
 
     @property
@@ -114,10 +122,11 @@ def _sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
 
 
 def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | None:
-    """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval, bounded or singular at (left, right); None if there is none.
+    """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval, bounded or singular at (left,
+    right); None if there is none.
 
-    α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi = -atan(b/a)/π and integers N, M that make Re α, Re β positive (bounded)
-    or negative. Of a and b only the ratio counts.
+    α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi = -atan(b/a)/π and integers N, M that
+    make Re α, Re β positive (bounded) or negative. Of a and b only the ratio counts.
     """
     ratio: Exponent = a / b
     if abs(ratio.imag) <= PHASE * abs(ratio):
@@ -150,7 +159,9 @@ def _end(theta: Exponent, bounded: bool) -> Exponent | None:
 
 
 class Recurrence(NamedTuple):
-    """b_{k+1} p_{k+1} = (s - a_k) p_k - b_k p_{k-1}, p_0 = first: a_0 ... a_n, b_0 = 0, b_1 ... b_n; in extended precision."""
+    """b_{k+1} p_{k+1} = (s - a_k) p_k - b_k p_{k-1}, p_0 = first: a_0 ... a_n, b_0 = 0, b_1 ...
+    b_n; in extended precision.
+    """
 
     a: Array
     b: Array
@@ -199,7 +210,9 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
 
 @lru_cache(maxsize=64)
 def second_sign(weight: Weight) -> float:
-    """p̃_{n-κ} of the docstring over that of the inverse weight's own recurrence, +1 or -1: complex square roots have two branches."""
+    """p̃_{n-κ} of the docstring over that of the inverse weight's own recurrence, +1 or -1: complex
+    square roots have two branches.
+    """
     low, high = (weight, weight.inverse) if weight.kappa >= 0 else (weight.inverse, weight)
     first = recurrence(low, 1)
     norm = first.b[1] / first.first if weight.kappa else 1.0 / first.first
@@ -265,12 +278,14 @@ def conjugate(weight: Weight, c: Array) -> Array:
     return sign * np.concatenate((np.zeros(-weight.kappa, dtype=c.dtype), c))
 
 
-# -- Gauss quadrature -------------------------------------------------------------------------------------------------
+# -- Gauss quadrature ------------------------------------------------------------------------------
 
 
 @lru_cache(maxsize=64)
 def gauss(weight: Weight, n: int) -> tuple[Array, Array]:
-    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding; both complex for complex exponents."""
+    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding; both complex
+    for complex exponents.
+    """
     s, w = _extended_gauss(weight, n)
     nodes, weights = s.astype(weight.kind), w.astype(weight.kind)
     nodes.flags.writeable = weights.flags.writeable = False
@@ -281,8 +296,8 @@ def gauss(weight: Weight, n: int) -> tuple[Array, Array]:
 def _extended_gauss(weight: Weight, n: int) -> tuple[Array, Array]:
     """The same before rounding.
 
-    Asymptotic guesses; Ehrlich-Aberth sweeps, in which no two can fall on the same root; a last Newton step and Christoffel's weights
-    1 / Σ p_k² in extended precision.
+    Asymptotic guesses; Ehrlich-Aberth sweeps, in which no two can fall on the same root; a last
+    Newton step and Christoffel's weights 1 / Σ p_k² in extended precision.
     """
     if weight.is_chebyshev:
         return _chebyshev(weight, n)
@@ -305,7 +320,9 @@ def _extended_gauss(weight: Weight, n: int) -> tuple[Array, Array]:
 
 
 def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
-    """The four Chebyshev rules: zeros at equal angles, as sines so that they are symmetric where the weight is."""
+    """The four Chebyshev rules: zeros at equal angles, as sines so that they are symmetric where
+    the weight is.
+    """
     a, b = weight.alpha.real, weight.beta.real
     step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
     from_left, from_middle = (
@@ -334,11 +351,14 @@ def _value_and_slope(r: Recurrence, n: int, s: Array) -> tuple[Array, Array, Arr
 
 @lru_cache(maxsize=32)
 def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
-    """Real nodes s_i and the matrix A (n, n) with  ∫ w f p_k ds = Σ_i f(s_i) A_ik  for polynomials f up to degree n - 1.
+    """Real nodes s_i and the matrix A (n, n) with  ∫ w f p_k ds = Σ_i f(s_i) A_ik  for polynomials
+    f up to degree n - 1.
 
-    The same sums are the coefficients of the interpolant, f = Σ_k p_k Σ_i f(s_i) A_ik. For real exponents A_ik = w_i p_k(s_i), of Gauss.
-    For complex ones the nodes are those of |w|, and complex Gauss quadrature turns the one family of polynomials into the other.
-    Nodes and polynomials are rounded at the end only: next to an end a rounded node costs n² digits of p_n, but none of f.
+    The same sums are the coefficients of the interpolant, f = Σ_k p_k Σ_i f(s_i) A_ik. For real
+    exponents A_ik = w_i p_k(s_i), of Gauss. For complex ones the nodes are those of |w|, and
+    complex Gauss quadrature turns the one family of polynomials into the other. Nodes and
+    polynomials are rounded at the end only: next to an end a rounded node costs n² digits of p_n,
+    but none of f.
     """
     s, w = _extended_gauss(weight.real, n)
     A = (w[:, None] * polynomials(weight.real, n, s).T).astype(float)
@@ -355,7 +375,7 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
     return nodes, A
 
 
-# -- Cauchy integrals -------------------------------------------------------------------------------------------------
+# -- Cauchy integrals ------------------------------------------------------------------------------
 
 
 def second(weight: Weight, c: Array, s: Array) -> Array:
@@ -365,7 +385,9 @@ def second(weight: Weight, c: Array, s: Array) -> Array:
 
 
 def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Array:
-    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends, at distances from them, for a weight that is close to 1."""
+    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends, at distances from them, for a weight that is
+    close to 1.
+    """
     power, half = weight.alpha * np.log(right / left), _sin_pi(0.5 * weight.alpha)
     return _faint(
         weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power)
@@ -373,9 +395,11 @@ def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Arra
 
 
 def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
-    """Σ c_n (p̃_n + excess p_n) / sin πα, 1 + excess the factor of p_n in the module's docstring with its sign turned.
+    """Σ c_n (p̃_n + excess p_n) / sin πα, 1 + excess the factor of p_n in the module's docstring
+    with its sign turned.
 
-    For κ = 0 the two families differ in a_0 = -α alone, so that p̃_n - p_n = -2α p_0 v_n with v_n of their recurrence, v_0 = 0, v_1 = 1/b_1.
+    For κ = 0 the two families differ in a_0 = -α alone, so that p̃_n - p_n = -2α p_0 v_n with v_n
+    of their recurrence, v_0 = 0, v_1 = 1/b_1.
     """
     n = len(c)
     r = recurrence(weight, n)
@@ -393,7 +417,9 @@ def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
 
 
 def cut(weight: Weight, value: Array, side: int) -> Array:
-    """cot(πα) φ + i side φ: what is subtracted from it on the interval, from y > 0 (side 1), y < 0 (-1), or for the principal value (0)."""
+    """cot(πα) φ + i side φ: what is subtracted from it on the interval, from y > 0 (side 1), y < 0
+    (-1), or for the principal value (0).
+    """
     factor = weight.cotangent + 1j * side if side else weight.cotangent
     return _product(factor, value) if factor else np.zeros_like(value)
 
@@ -409,17 +435,20 @@ def _product(factor: Exponent, value: Array) -> Array:
 
 
 def infinite(direction: Array) -> Array:
-    """Infinity in each part, real and imaginary, of `direction` that is not zero: a product would make nan of the others."""
+    """Infinity in each part, real and imaginary, of `direction` that is not zero: a product would
+    make nan of the others.
+    """
     parts = np.ascontiguousarray(direction).view(float)
     out: Array = np.where(parts == 0.0, 0.0, np.copysign(np.inf, parts)).view(direction.dtype)
     return out
 
 
 def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Array:
-    """1/π ∫ w Σ c_n p_n/(z - t) dt off the interval; right = z - 1 and left = z + 1, given apart for their accuracy.
+    """1/π ∫ w Σ c_n p_n/(z - t) dt off the interval; right = z - 1 and left = z + 1, given apart
+    for their accuracy.
 
-    Near the interval by the closed form of the module's docstring; further out, where that cancels, by the continued fraction of
-    the functions of the second kind.
+    Near the interval by the closed form of the module's docstring; further out, where that cancels,
+    by the continued fraction of the functions of the second kind.
     """
     out = np.empty(z.shape, dtype=complex)
     rho = bernstein(z, right, left)
@@ -438,13 +467,18 @@ def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Arr
 
 
 def bernstein(z: Array, right: Array, left: Array) -> Array:
-    """The parameter ρ > 1 of the ellipse with foci ±1 through z. A ratio is negative on the interval only, whatever the signs of zeros."""
+    """The parameter ρ > 1 of the ellipse with foci ±1 through z.
+
+    A ratio is negative on the interval only, whatever the signs of zeros.
+    """
     rho: Array = np.abs(z + left * np.sqrt(right / left))
     return rho
 
 
 def _continued_fraction(weight: Weight, c: Array, z: Array, rho: float) -> Array:
-    """Σ c_n q_n, q_n = ∫ w p_n/(z - t) dt, the minimal solution of the recurrence: backwards from where rounding hides the rest."""
+    """Σ c_n q_n, q_n = ∫ w p_n/(z - t) dt, the minimal solution of the recurrence: backwards from
+    where rounding hides the rest.
+    """
     extra = math.log(1.0 / EPS) / (2.0 * math.log(rho))
     steps = len(c) + min(math.ceil(extra), MOST_STEPS) + 2
     r = recurrence(weight, steps)

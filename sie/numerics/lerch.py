@@ -1,15 +1,18 @@
-"""What the logarithms and arctangents of the square root become for the exponents of frictional edges.
+"""What the logarithms and arctangents of the square root become for the exponents of frictional
+edges.
 
-    log(a):     Λ_a(r) = ∫_0^r t^(a-1)/(1 - t) dt = Σ r^(k+a)/(k+a)             (2 artanh sqrt(r) at a = 1/2; r^a times Lerch's Φ(r, 1, a))
-    arctan(a):  A_a(r) = ∫_0^r t^(a-1)/(1 + t) dt = Σ (-1)^k r^(k+a)/(k+a)       (2 arctan sqrt(r) at a = 1/2)
+    log(a):     Λ_a(r) = ∫_0^r t^(a-1)/(1 - t) dt = Σ r^(k+a)/(k+a)
+    arctan(a):  A_a(r) = ∫_0^r t^(a-1)/(1 + t) dt = Σ (-1)^k r^(k+a)/(k+a)
 
-for |r| <= 1, 0 < a < 1. With d = -ln r both are r^a times a power series in r where Re d >= SWITCH, and Taylor series in d nearer to 1,
-whose coefficients are Bernoulli's and Euler's polynomials:
+These are r^a times Lerch's Φ(±r, 1, a); at a = 1/2, 2 artanh sqrt(r) and 2 arctan sqrt(r). They are
+for |r| <= 1, 0 < a < 1. With d = -ln r both are r^a times a power series in r where Re d >= SWITCH,
+and Taylor series in d nearer to 1, whose coefficients are Bernoulli's and Euler's polynomials:
 
     Λ_a = -ln d + const - Σ B_n(a) (-d)^n / (n n!),        |d| < 2π
     A_a = const - 1/2 Σ E_n(1-a) d^(n+1) / ((n+1) n!),     |d| < π
 
-Erdélyi et al., Higher Transcendental Functions I (1953), §§ 1.11 (9), 1.13, 1.14. The constants come from the other series, at SWITCH.
+Erdélyi et al., Higher Transcendental Functions I (1953), §§ 1.11 (9), 1.13, 1.14. The constants
+come from the other series, at SWITCH.
 """
 
 from __future__ import annotations
@@ -39,7 +42,7 @@ def _powers(a: float, sign: float) -> Array:
 
 @lru_cache(maxsize=64)
 def _bernoulli(a: float) -> Array:
-    """-B_n(a) (-1)^n / (n n!) for n >= 1, after a constant that matches the power series at SWITCH."""
+    """-B_n(a) (-1)^n / (n n!) for n >= 1, after a constant that matches the series at SWITCH."""
     n = np.arange(TERMS_COMPLEX + 1)
     # B_n / n! from t / (e^t - 1) = 1 / Σ t^k / (k + 1)!
     inverse = np.array([1.0 / factorial(int(k) + 1) for k in n])
@@ -62,7 +65,9 @@ def _bernoulli(a: float) -> Array:
 
 @lru_cache(maxsize=64)
 def _euler(a: float) -> Array:
-    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant that matches the power series at SWITCH."""
+    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant that matches
+    the power series at SWITCH.
+    """
     n = np.arange(TERMS_EULER)
     denominator = np.array([1.0 / factorial(int(k)) for k in n])
     denominator[0] = 2.0
@@ -81,7 +86,9 @@ def _euler(a: float) -> Array:
 
 
 def log(a: float, r: Array, y: Array) -> Array:
-    """Λ_a(r) for |r| <= 1, real or complex, given y = 1 - r too: near r = 1 that is what counts. Infinite at y = 0."""
+    """Λ_a(r) for |r| <= 1, real or complex, given y = 1 - r too: near r = 1 that is what counts.
+    Infinite at y = 0.
+    """
     far = np.abs(r) <= np.exp(-SWITCH)
     out = np.empty_like(r)
     if far.any():
@@ -115,12 +122,15 @@ def _arctan_inside(a: float, r: Array) -> Array:
 
 
 def log1p(u: Array) -> Array:
-    """ln(1 + u); NumPy's complex one loses the digits of a small u."""
+    """ln(1 + u), real or complex: NumPy's for complex numbers rounds 1 + u first."""
     if not np.iscomplexobj(u):
         real: Array = np.log1p(u)
         return real
-    squared = u.real * (2.0 + u.real) + u.imag * u.imag
-    return 0.5 * np.log1p(np.maximum(squared, -1.0)) + 1j * np.arctan2(u.imag, 1.0 + u.real)
+    out = np.empty_like(u)
+    squared = u.real * (2.0 + u.real) + u.imag * u.imag  # |1 + u|² - 1
+    out.real = 0.5 * np.log1p(np.maximum(squared, -1.0))
+    out.imag = np.arctan2(u.imag, 1.0 + u.real)
+    return out
 
 
 def _horner(c: Array, x: Array) -> Array:

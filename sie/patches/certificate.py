@@ -69,6 +69,11 @@ class PatchCertificate:
     notes: tuple[str, ...] = ()
 
     @property
+    def shear(self) -> Any:
+        """None: what a shear is made of is measured together with the pressure."""
+        return None
+
+    @property
     def error(self) -> float:
         """The estimated relative error of the pressure."""
         return max(LEAST, self.residual, self.force, self.moment)

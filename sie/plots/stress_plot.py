@@ -1,7 +1,8 @@
-"""The picture of the stress in the body: contours of √J2, with the contact, the stick zone and the weakest point marked.
+"""The picture of the stress in the body: contours of √J2, and where it is largest.
 
-Depth runs downwards. Above the surface a bar says where the bodies touch, a thicker one where they stick; a cross stands where √J2 is
-largest, at every place where it is. Levels are tenths of the largest value, so that pictures of different contacts compare.
+Depth runs downwards. Above the surface a bar says where the bodies touch, a thicker one where they
+stick; a cross stands where √J2 is largest, at every place where it is. Levels are tenths of the
+largest value, so that pictures of different contacts compare.
 """
 
 from __future__ import annotations
@@ -17,18 +18,7 @@ from sie.io.scene_file import UNITS, Units
 from sie.io.stress_grid import Grid
 from sie.solution import Solution
 
-from .contact_plot import (
-    DPI,
-    FAMILY,
-    INK,
-    TITLE_COLUMNS,
-    VERMILLION,
-    WIDTH,
-    _font,
-    _plain,
-    _quantity,
-    _scaled,
-)
+from . import style
 
 LEVELS = np.arange(1, 11) / 10.0
 NX, NY = 321, 161
@@ -36,7 +26,6 @@ HEIGHT, LINE = 2.25, 0.2  # inches; of a line of the title
 BAR, STICK_BAR = 2.2, 4.5  # points
 ABOVE = 0.14  # of the depth: room above the surface for the bars
 COLOURS = "YlGnBu"
-SMALL = 7.0
 
 
 def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
@@ -48,39 +37,32 @@ def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figur
         if math.isfinite(weakest.stress)
         else float(np.quantile(root[np.isfinite(root)], 0.999))
     )
-    factor, length = _scaled(solution.half_width, units.length)
-    heading = textwrap.fill(title, TITLE_COLUMNS)
-    figure = Figure(
-        figsize=(WIDTH, HEIGHT + LINE * len(heading.splitlines())), dpi=DPI, layout="constrained"
-    )
+    factor, length = style.scaled(solution.half_width, units.length)
+    height = HEIGHT + LINE * len(textwrap.wrap(title, style.TITLE_COLUMNS))
+    figure = Figure(figsize=(style.WIDTH, height), dpi=style.DPI, layout="constrained")
     axes = figure.subplots()
     x, y = grid.x * factor, grid.y * factor
     filled = axes.contourf(x, y, np.minimum(root, top) / top, levels=[0.0, *LEVELS], cmap=COLOURS)
-    axes.contour(x, y, np.minimum(root, top) / top, levels=LEVELS[:-1], colors=INK, linewidths=0.35)
-    _mark(axes, solution, factor, float(y[-1]))
-    axes.plot(
-        *(np.array(weakest.places).T * factor),
-        "x",
-        color=VERMILLION,
-        markersize=5.0,
-        markeredgewidth=1.3,
-        clip_on=False,
-        zorder=6,
+    axes.contour(
+        x, y, np.minimum(root, top) / top, levels=LEVELS[:-1], colors=style.INK, linewidths=0.35
     )
-    axes.set_xlabel(f"$x$ ({length})", fontproperties=_font())
-    axes.set_ylabel(f"depth $y$ ({length})", fontproperties=_font())
+    _mark(axes, solution, factor, float(y[-1]))
+    cross: dict[str, Any] = {"color": style.VERMILLION, "markersize": 5.0, "markeredgewidth": 1.3}
+    axes.plot(*(np.array(weakest.places).T * factor), "x", **cross, clip_on=False, zorder=6)
+    axes.set_xlabel(f"$x$ ({length})", fontproperties=style.font())
+    axes.set_ylabel(f"depth $y$ ({length})", fontproperties=style.font())
     axes.set_aspect("equal")
-    _plain(axes)
+    style.plain(axes)
     bar = figure.colorbar(
         filled, ax=axes, shrink=0.8, pad=0.02, ticks=[0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
     )
-    bar.ax.tick_params(labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5)
+    bar.ax.tick_params(labelsize=style.SMALL, labelfontfamily=style.FAMILY, width=0.6, length=2.5)
     bar.set_label(
-        rf"$\sqrt{{J_2}}$ / {_quantity(top, top, units.stress)}", fontproperties=_font(SMALL)
+        rf"$\sqrt{{J_2}}$ / {style.quantity(top, top, units.stress)}",
+        fontproperties=style.font(style.SMALL),
     )
-    axes.set_title(_caption(weakest.ratio), fontproperties=_font(SMALL), loc="left")
-    if title:
-        figure.suptitle(heading, fontproperties=_font(), parse_math=False)
+    axes.set_title(_caption(weakest.ratio), fontproperties=style.font(style.SMALL), loc="left")
+    style.heading(figure, title)
     return figure
 
 
@@ -95,22 +77,12 @@ def _caption(ratio: float) -> str:
 def _mark(axes: Any, solution: Solution, factor: float, depth: float) -> None:
     """The surface, and above it the contact and where it sticks."""
     level = -0.4 * ABOVE * depth
-    axes.axhline(0.0, color=INK, linewidth=0.6)
-    axes.plot(
-        np.array(solution.edges) * factor,
-        [level] * 2,
-        color=INK,
-        linewidth=BAR,
-        solid_capstyle="butt",
-        label="contact",
-    )
-    for lo, hi in getattr(solution, "stick", ()):
-        axes.plot(
-            np.array([lo, hi]) * factor,
-            [level] * 2,
-            color=VERMILLION,
-            linewidth=STICK_BAR,
-            solid_capstyle="butt",
-            label="stick",
-        )
+    axes.axhline(0.0, color=style.INK, linewidth=0.6)
+    bars = [(solution.edges, style.INK, BAR, "contact")]
+    bars += [
+        (zone, style.VERMILLION, STICK_BAR, "stick") for zone in getattr(solution, "stick", ())
+    ]
+    for ends, color, width, label in bars:
+        bar: dict[str, Any] = {"color": color, "linewidth": width, "solid_capstyle": "butt"}
+        axes.plot(np.array(ends) * factor, [level] * 2, **bar, label=label)
     axes.set_ylim(depth, -ABOVE * depth)

@@ -1,9 +1,9 @@
 """Elastic constants, and the two numbers of a pair of bodies that plane contact depends on.
 
-    1/E* = (κ1 + 1)/(8 μ1) + (κ2 + 1)/(8 μ2)                                   plane strain: (1 - ν1²)/E1 + (1 - ν2²)/E2
-    β    = [ (κ1 - 1)/μ1 - (κ2 - 1)/μ2 ] / [ (κ1 + 1)/μ1 + (κ2 + 1)/μ2 ]        1: the body, y > 0;  2: the indenter
-
-with Kolosov's κ = 3 - 4ν in plane strain and (3 - ν)/(1 + ν) in plane stress (Dundurs 1969; Johnson 1985, § 5.4).
+    1/E* = (κ1 + 1)/(8 μ1) + (κ2 + 1)/(8 μ2)
+    β    = [ (κ1 - 1)/μ1 - (κ2 - 1)/μ2 ] / [ (κ1 + 1)/μ1 + (κ2 + 1)/μ2 ]
+ 1 is the body, y > 0, and 2 the indenter. Kolosov's κ = 3 - 4ν in plane strain, where 1/E* is (1 -
+ν1²)/E1 + (1 - ν2²)/E2, and (3 - ν)/(1 + ν) in plane stress (Dundurs 1969; Johnson 1985, § 5.4).
 """
 
 from __future__ import annotations
@@ -22,8 +22,24 @@ Plane = Literal["strain", "stress"]
 
 @dataclass(frozen=True)
 class Elastic:
-    """An isotropic elastic body: Young's modulus (stress), Poisson's ratio in (-1, 0.5], plane "strain" or "stress".
+    """An isotropic elastic body.
 
+    Parameters
+    ----------
+    young : float
+        Young's modulus, stress.
+    poisson : float
+        Poisson's ratio, -1 < ν <= 0.5.
+    plane : {"strain", "stress"}, optional
+        Plane strain or plane stress.
+
+    Raises
+    ------
+    ValueError
+        For constants of no stable solid.
+
+    Examples
+    --------
     >>> Elastic(young=210e3, poisson=0.3).shear_modulus
     80769.23076923077
     """
@@ -37,7 +53,8 @@ class Elastic:
         nu = arguments.finite("poisson", self.poisson)
         if not -1.0 < nu <= 0.5:
             raise ValueError(
-                f"poisson = {nu:g} is outside (-1, 0.5]: no stable isotropic solid has it; metals are near 0.3"
+                f"poisson = {nu:g} is outside (-1, 0.5]: no stable isotropic solid has it; metals "
+                "are near 0.3"
             )
         object.__setattr__(self, "poisson", nu)
         if self.plane not in ("strain", "stress"):
@@ -45,10 +62,12 @@ class Elastic:
 
     @property
     def shear_modulus(self) -> float:
+        """Shear modulus μ = E/(2(1 + ν)), stress."""
         return self.young / (2.0 * (1.0 + self.poisson))
 
     @property
     def kolosov(self) -> float:
+        """Kolosov's constant κ."""
         nu = self.poisson
         return 3.0 - 4.0 * nu if self.plane == "strain" else (3.0 - nu) / (1.0 + nu)
 

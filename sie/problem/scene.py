@@ -1,4 +1,7 @@
-"""The question: a profile, two bodies, loads, friction. A value that refuses nonsense when it is built."""
+"""The question: a profile, two bodies, loads and friction.
+
+A scene refuses what makes no contact problem when it is built.
+"""
 
 from __future__ import annotations
 
@@ -21,19 +24,52 @@ def refuse_no_scene(scene: Any) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A plane contact problem, per unit length, in any consistent units.
+    """A plane contact problem per unit length of the line of contact, in any consistent units.
 
-    profile            the gap h(x) between the undeformed indenter and the flat surface
-    body, indenter     `Elastic` or `RIGID` (the indenter defaults to the same material as the body);
-                       or, in their place, modulus = E*, dundurs = β, poisson = ν
-    dundurs            beside body and indenter: 0 neglects their β, all else stays theirs; |β| < 1e-12 is 0 without asking
-    normal_load        P, force per length;  or half_width, length: exactly one of the two
-    tilt               added to the slope of the profile;  or moment = ∫p x dx about x = 0, and the tilt is found
-    friction           Coulomb's coefficient f; infinite: the bodies stick wherever they touch (a flat punch, bonded)
-    tangential_load    Q, force per length;  bulk_stress: tension σ along x in the body. Both grow in proportion, after P is applied
-    sliding            +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows; 0: Q is given
+    Parameters
+    ----------
+    profile : Profile
+        The gap h(x) between the undeformed indenter and the flat surface of the body.
+    body, indenter : Elastic or RIGID
+        The two bodies; the indenter is of the body's material if it is not given.
+    normal_load : float
+        P > 0, force per length. Exactly one of `normal_load` and `half_width` is given.
+    half_width : float
+        Half-width of the contact, length.
+    tilt : float, optional
+        Angle that is added to the slope of the profile.
+    moment : float, optional
+        ∫p x dx about x = 0 in place of `tilt`, which is then found.
+    friction : float, optional
+        Coulomb's coefficient f; inf for full stick (a flat punch).
+    tangential_load : float, optional
+        Q, force per length.
+    bulk_stress : float, optional
+        Tension σ along x in the body, stress. Q and σ grow in proportion, after P is applied.
+    sliding : {-1, 0, 1}, optional
+        +1 or -1: the indenter slides in the direction of ±x, so that q = ±f p and Q follows.
+    modulus : float
+        E* in place of the bodies, stress.
+    dundurs : float, optional
+        Dundurs' β beside `modulus`; |β| < 1e-12 is taken for 0. Beside bodies, 0 neglects their β.
+    poisson : float, optional
+        Poisson's ratio of the body beside `modulus`, for σ_zz.
 
-    Raises ValueError, with the value and the remedy, for anything that does not make a contact problem.
+    Raises
+    ------
+    ValueError
+        For anything that does not make a contact problem, with the value and what to give instead.
+
+    Notes
+    -----
+    A scene is a value: equal, hashable, picklable, and printed as the code that rebuilds it.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0)
+    >>> round(sie.solve(scene).half_width, 6)
+    0.282095
     """
 
     profile: Profile
@@ -54,7 +90,8 @@ class Scene:
     def __post_init__(self) -> None:
         if not isinstance(self.profile, Profile):
             raise ValueError(
-                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), sie.RoundedFlat(...) or another"
+                f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), "
+                "sie.RoundedFlat(...) or another"
             )
         self._check_bodies()
         self._check_loads()
@@ -63,7 +100,8 @@ class Scene:
         if (self.body is None) == (self.modulus is None):
             what = "neither" if self.body is None else "both"
             raise ValueError(
-                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or modulus = E*"
+                f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or "
+                "modulus = E*"
             )
         if self.body is not None:
             if self.poisson is not None:
@@ -72,29 +110,34 @@ class Scene:
                 self._set("dundurs", arguments.finite("dundurs", self.dundurs))
                 if self.dundurs != 0.0:
                     raise ValueError(
-                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, or give 0 to neglect β"
+                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, "
+                        "or give 0 to neglect β"
                     )
             if self.indenter is None:
                 self._set("indenter", self.body)
             for name in ("body", "indenter"):
                 if not isinstance(getattr(self, name), (Elastic, Rigid)):
                     raise ValueError(
-                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, poisson) or sie.RIGID"
+                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, "
+                        "poisson) or sie.RIGID"
                     )
             if self.body == RIGID == self.indenter:
                 raise ValueError(
-                    "body and indenter are both rigid: nothing can deform; give one of them young and poisson, sie.Elastic(young, poisson)"
+                    "body and indenter are both rigid: nothing can deform; give one of them young "
+                    "and poisson, sie.Elastic(young, poisson)"
                 )
             return
         if self.indenter is not None:
             raise ValueError(
-                "indenter without body: with modulus = E* the indenter's constants are in E* already; leave it out"
+                "indenter without body: with modulus = E* the indenter's constants are in E* "
+                "already; leave it out"
             )
         self._set("modulus", arguments.positive("modulus", self.modulus))
         beta = coupling(arguments.finite("dundurs", 0.0 if self.dundurs is None else self.dundurs))
         if abs(beta) > 0.5:
             raise ValueError(
-                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has it"
+                f"dundurs = {beta:g} is outside [-0.5, 0.5]: no pair of bodies in plane strain has "
+                "it"
             )
         self._set("dundurs", beta)
         if self.poisson is not None:
@@ -117,7 +160,8 @@ class Scene:
             )
             if self.tilt != 0.0:
                 raise ValueError(
-                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the other follows"
+                    f"both tilt = {self.tilt:g} and moment = {self.moment:g} given: give one, the "
+                    "other follows"
                 )
         self._set("friction", arguments.real("friction", self.friction))
         if self.friction != math.inf:
@@ -131,27 +175,32 @@ class Scene:
         self._set("bulk_stress", arguments.measure("bulk_stress", self.bulk_stress))
         if self.tangential_load != 0.0 and self.friction == 0.0:
             raise ValueError(
-                f"tangential_load = {self.tangential_load:g} without friction: a frictionless contact carries none; give friction > 0"
+                f"tangential_load = {self.tangential_load:g} without friction: a frictionless "
+                "contact carries none; give friction > 0"
             )
         self._check_sliding()
 
     def _check_sliding(self) -> None:
         if not arguments.among(self.sliding, (-1, 0, 1)):
             raise ValueError(
-                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter slides, or 0"
+                f"sliding = {self.sliding!r}: give +1 or -1, the direction in which the indenter "
+                "slides, or 0"
             )
         self._set("sliding", int(self.sliding))
         if self.sliding and self.tangential_load:
             raise ValueError(
-                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} given: in full sliding Q = ±f P follows"
+                f"both sliding = {self.sliding} and tangential_load = {self.tangential_load:g} "
+                "given: in full sliding Q = ±f P follows"
             )
         if self.sliding and self.friction == math.inf:
             raise ValueError(
-                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite friction"
+                f"sliding = {self.sliding} with infinite friction: nothing slides; give a finite "
+                "friction"
             )
         if self.sliding and self.friction == 0.0:
             raise ValueError(
-                f"sliding = {self.sliding} without friction: there is no shear traction; leave it 0, or give friction > 0"
+                f"sliding = {self.sliding} without friction: there is no shear traction; leave it "
+                "0, or give friction > 0"
             )
 
     def _set(self, name: str, value: Any) -> None:
@@ -176,7 +225,10 @@ class Scene:
 
     @property
     def epsilon(self) -> float:
-        """The exponents of the edges are 1/2 + ε on the left and 1/2 - ε on the right, tan πε = -β f in full sliding."""
+        """ε of the edge exponents in full sliding, 1/2 + ε on the left and 1/2 - ε on the right.
+
+        tan πε = -β f for sliding along +x.
+        """
         slides = self.slides
         return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
 
@@ -198,9 +250,9 @@ class Scene:
 
     @property
     def tau(self) -> float:
-        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress: σ/4 for similar bodies.
-
-        What 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)); with modulus = E* the bodies are taken as similar.
+        """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress.
+         It is what 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)): σ/4 for
+        similar bodies. With modulus = E* the bodies are taken as similar.
         """
         if self.body is None or self.indenter is None:
             return 0.25 * self.bulk_stress

@@ -1,8 +1,11 @@
 """Profiles as values: equal, hashable, picklable, printed as the code that rebuilds them.
 
-A profile is the gap h(x) between the undeformed indenter and the flat surface, growing away from the contact. Each states its height and
-its slope H = h' piece by piece (`slope.Slope`); the numerics see only the latter. Here: what all profiles can do, and what is made of other
-profiles by tilting, shifting, mirroring and adding. The kinds themselves are in `indenters`.
+A profile is the gap h(x) between the undeformed indenter and the flat surface; it grows away from
+the contact. A profile states its height, and its slope H = h' piece by piece (`slope.Slope`), which
+is all that the solver uses. The kinds of profile are listed in `kinds`.
+
+This module holds what all profiles can do, and the profiles that are tilted, shifted, mirrored or
+added. Both are here because they refer to each other: `Profile.tilted` makes a `Tilted`.
 """
 
 from __future__ import annotations
@@ -26,7 +29,11 @@ Parity = Literal["even", "none"]
 
 
 def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
-    """A height that is defined at finite x, everywhere: nan at nan, infinite far away as its slope says, inf where it overflows."""
+    """Extend a height from finite x to all x.
+
+    It is nan at nan, inf where it overflows, and infinite far away, with the sign that the slope
+    has there.
+    """
 
     @wraps(height)
     def everywhere(profile: Profile, x: ArrayLike) -> Array:
@@ -44,69 +51,195 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
 
 
 class Profile(ABC):
-    """An indenter. Lengths in any unit; slopes are pure numbers (radians, small)."""
+    """The undeformed indenter: its gap h(x) to the flat surface.
+
+    A new kind of profile derives from this class and defines `pieces` and `height`; CONTRIBUTING.md
+    says how. Lengths have any unit. Slopes are pure numbers, small against 1.
+
+    Notes
+    -----
+    The pressure p and the contact [x1, x2] follow from the slope H = h':
+
+        E*/2 H(x) = 1/π PV∫ p(t)/(x - t) dt,    x1 < x < x2
+
+    Examples
+    --------
+    >>> import sie
+    >>> worn = sie.RoundedFlat(1.0, 50.0).tilted(1e-3) + sie.Parabola(1e4)
+    >>> worn.breaks
+    (-1.0, 1.0)
+    """
+
+    def _require_positive(self, *names: str, largest: float = arguments.LARGEST) -> None:
+        """Replace fields of a profile that is being built by floats. ValueError unless > 0."""
+        for name in names:
+            value = arguments.positive(name, getattr(self, name), largest)
+            object.__setattr__(self, name, value)
 
     @property
     @abstractmethod
     def pieces(self) -> Slope:
-        """H on its declared breaks (degrees of functions not yet resolved)."""
+        """H on its declared breaks; functions are resolved when a contact is known."""
 
     @abstractmethod
     def height(self, x: ArrayLike) -> Array:
-        """h(x), same shape as x; inf beyond the ends of the indenter."""
+        """The gap h(x) before loading.
+
+        Parameters
+        ----------
+        x : array_like
+            Positions on the surface, lengths.
+
+        Returns
+        -------
+        ndarray or float
+            Lengths, same shape as x; inf beyond the ends of the indenter, nan at nan.
+
+        Raises
+        ------
+        ValueError
+            If x is not made of real numbers.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Wedge(0.5).height([-1.0, 0.0, 4.0])
+        array([0.5, 0. , 2. ])
+        """
 
     @property
     def axis(self) -> float | None:
-        """The x about which the profile is symmetric, None if it is not known to be."""
+        """The x about which h is symmetric, a length; None if it is not known to be symmetric."""
         return None
 
     @property
     def convex(self) -> bool:
-        """Whether the profile is known to be convex: then p > 0 and gap > 0 follow and need not be checked."""
+        """Whether h is known to be convex. Then p > 0 and a gap > 0 follow and are not checked."""
         return False
 
     @property
     def power_law(self) -> PowerLaw | None:
-        """h = A |x - c|^m where the profile is known to be nothing else."""
+        """h = A |x - c|^m, where the profile is known to be nothing else."""
         return None
 
     def slope(self, x: ArrayLike) -> Array:
-        """h'(x), same shape as x: the mean of both sides at a corner, -inf and inf beyond the ends of the indenter."""
+        """The slope h'(x).
+
+        Parameters
+        ----------
+        x : array_like
+            Positions on the surface, lengths.
+
+        Returns
+        -------
+        ndarray or float
+            Pure numbers, same shape as x. At a corner the mean of both sides; beyond the ends of
+            the indenter -inf (left) and inf (right); nan at nan.
+
+        Raises
+        ------
+        ValueError
+            If x is not made of real numbers.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Wedge(0.5).slope([-1.0, 0.0, 4.0])
+        array([-0.5,  0. ,  0.5])
+        """
         x = arguments.reals("x", x)
         with np.errstate(over="ignore"):
             return np.where(np.isnan(x), x, self.pieces(x))[()]
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where h or a derivative of it jumps, inside the domain."""
+        """Where h or a derivative of it jumps, inside the domain; ascending lengths."""
         return tuple(float(b) for b in self.pieces.breaks[1:-1])
 
     @property
     def domain(self) -> tuple[float, float]:
+        """The ends of the indenter, lengths; infinite where it has none."""
         return self.pieces.domain
 
     @property
     def ends_are_corners(self) -> tuple[bool, bool]:
-        """Whether the ends of the domain are the indenter's own, where contact is sharp, and not just where knowledge of it ends."""
+        """Whether an end of the domain is the indenter's own corner, where contact is sharp.
+
+        Otherwise it is where the knowledge of the profile ends, as at the ends of a trace.
+        """
         return True, True
 
     @property
     def parity(self) -> Parity:
-        """ "even" if h(-x) = h(x)."""
+        """Whether h(-x) = h(x) is known: "even", else "none"."""
         return "even" if self.axis == 0.0 else "none"
 
     def tilted(self, slope: float) -> Profile:
-        """h(x) + slope x."""
+        """The profile h(x) + slope x.
+
+        Parameters
+        ----------
+        slope : float
+            The tilt, a pure number, small against 1.
+
+        Returns
+        -------
+        Profile
+
+        Raises
+        ------
+        ValueError
+            If the tilt is no finite number, or larger than 1e150.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Parabola(1.0).tilted(0.5).slope([-0.5, 0.0])
+        array([0. , 0.5])
+        """
         slope = arguments.measure("tilted", slope)
         return self if slope == 0.0 else Tilted(self, slope)
 
     def shifted(self, dx: float) -> Profile:
-        """h(x - dx)."""
+        """The profile h(x - dx).
+
+        Parameters
+        ----------
+        dx : float
+            The shift towards +x, a length.
+
+        Returns
+        -------
+        Profile
+
+        Raises
+        ------
+        ValueError
+            If dx is no finite number, or so large that nothing of the domain is left in doubles.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Parabola(1.0).shifted(2.0).axis
+        2.0
+        """
         dx = arguments.measure("shifted", dx)
         return self if abs(dx) * arguments.LARGEST_COEFFICIENT < 1.0 else Shifted(self, dx)
 
     def mirrored(self) -> Profile:
-        """h(-x)."""
+        """The profile h(-x).
+
+        Returns
+        -------
+        Profile
+            The profile itself if it is known to be even.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Parabola(1.0).shifted(2.0).mirrored().axis
+        -2.0
+        """
         return self if self.parity == "even" else Mirrored(self)
 
     def raised(self, dz: float) -> Profile:
@@ -125,6 +258,7 @@ class Profile(ABC):
         return ()
 
     def __add__(self, other: Profile) -> Profile:
+        """The profile h(x) + other.h(x), on the intersection of both domains."""
         if not isinstance(other, Profile):
             return NotImplemented
         for profile in (self, other):
@@ -135,7 +269,7 @@ class Profile(ABC):
         return Sum(self, other)
 
 
-# -- what is made of other profiles ------------------------------------------------------------------------------------
+# -- profiles made of others ---------------------------------------------------------------------
 
 
 class Placed(NamedTuple):
@@ -148,9 +282,9 @@ class Placed(NamedTuple):
 
 
 class Derived(Profile):
-    """A profile made of others, to any depth: what is asked of it is found without recursion.
+    """A profile made of others, to any depth. Nothing here recurses, so that no depth is too large.
 
-    Reach and axis are passed on from level to level when each is built: n levels are built in O(n).
+    Each level takes `reach` and `axis` from the level below when it is built: O(n) for n levels.
     """
 
     def __post_init__(self) -> None:
@@ -164,7 +298,7 @@ class Derived(Profile):
     @property
     @abstractmethod
     def operands(self) -> tuple[Profile, ...]:
-        """What it is made of; of a sum its terms, none of which is a sum."""
+        """The profiles that it is made of; of a sum the terms, none of which is a sum."""
 
     @property
     @abstractmethod
@@ -173,14 +307,17 @@ class Derived(Profile):
 
     @cached_property
     def steps(self) -> tuple[Any, ...]:
-        """The profiles that it is made of and how, in postfix order: equality, hash and pickle are those of this list."""
-        found: list[Any] = []
+        """The profiles that it is made of and how, in postfix order.
+
+        Equality, hash and pickle are those of this tuple.
+        """
+        steps: list[Any] = []
         todo: list[Profile] = [self]
         while todo:
             node = todo.pop()
-            found.append(node.step if isinstance(node, Derived) else node)
+            steps.append(node.step if isinstance(node, Derived) else node)
             todo += node.operands if isinstance(node, Derived) else ()
-        return tuple(reversed(found))
+        return tuple(reversed(steps))
 
     def with_part(self, old: Profile, new: Profile) -> Profile:
         """The same profile with `new` wherever it is made of `old`, which is not made of others."""
@@ -212,8 +349,8 @@ class Derived(Profile):
 
     @cached_property
     def _parts(self) -> tuple[tuple[Placed, ...], float]:
-        """The profiles that add up to this one, each in its place and with its own tilt; and the tilt of sums of them."""
-        found, tilt = [], 0.0
+        """(profiles that add up to this one, placed, each with its own tilt; the tilt of sums)."""
+        parts, tilt = [], 0.0
         todo: list[Placed] = [Placed(self, 1.0, 0.0, 0.0)]
         while todo:
             part = todo.pop()
@@ -230,8 +367,8 @@ class Derived(Profile):
                 tilt += own
                 todo += [Placed(term, sign, shift, 0.0) for term in reversed(node.terms)]
             else:
-                found.append(part)
-        return tuple(found), tilt
+                parts.append(part)
+        return tuple(parts), tilt
 
     @cached_property
     def pieces(self) -> Slope:
@@ -242,39 +379,34 @@ class Derived(Profile):
             .shifted(part.shift)
             for part in parts
         ]
-        while (
-            len(slopes) > 1
-        ):  # in pairs: no break is merged more often than slopes can be halved in number
+        while len(slopes) > 1:  # in pairs: of n slopes no break is merged more than log2 n times
             pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
             slopes = pairs + slopes[2 * len(pairs) :]
         return slopes[0].tilted(tilt)
 
     @of_any_x
-    def height(self, x: ArrayLike) -> Array:
+    def height(self, x: Array) -> Array:
         total = np.zeros(np.shape(x))
-        todo: list[tuple[Profile, Array]] = [(self, arguments.reals("x", x))]
+        todo: list[tuple[Profile, Array]] = [(self, x)]
         while todo:
-            node, at = todo.pop()
+            node, u = todo.pop()
             if isinstance(node, Raised):
                 total = total + node.dz
             if isinstance(node, Tilted):
-                total = total + node.tilt * at
+                total = total + node.tilt * u
+            if isinstance(node, Shifted):
+                u = u - node.dx
+            elif isinstance(node, Mirrored):
+                u = -u
             if isinstance(node, Derived):
-                at = (
-                    at - node.dx
-                    if isinstance(node, Shifted)
-                    else -at
-                    if isinstance(node, Mirrored)
-                    else at
-                )
-                todo += [(operand, at) for operand in node.operands]
+                todo += [(operand, u) for operand in node.operands]
             else:
-                total = total + node.height(at)
+                total = total + node.height(u)
         return total
 
     @property
     def placed(self) -> tuple[Placed, ...]:
-        """The profiles that add up to this one, each in its place and with the tilt of all of them."""
+        """The profiles that add up to this one, placed, each with the tilt of all of them."""
         parts, tilt = self._parts
         return tuple(part._replace(tilt=part.tilt + tilt) for part in parts)
 
@@ -301,7 +433,7 @@ class Derived(Profile):
 
     @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
-        """Those of the profile that ends first."""
+        """Whether the ends are corners, for the profile whose end comes first."""
         corners = [True, True]
         for profile, sign, shift, _ in self._parts[0]:
             ends = zip(profile.domain, profile.ends_are_corners, strict=True)
@@ -386,7 +518,8 @@ class Shifted(_OfOne):
         lo, hi = _reach(self.profile)
         if not lo + self.dx < hi + self.dx:
             raise ValueError(
-                f"shifted({self.dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), doubles are farther apart there: shift it less"
+                f"shifted({self.dx:g}) leaves nothing of a profile on ({lo:g}, {hi:g}), "
+                "doubles are farther apart there: shift it less"
             )
         return lo + self.dx, hi + self.dx
 
@@ -431,7 +564,7 @@ class Raised(_OfOne):
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Sum(Derived):
-    """The sum of two profiles, on the intersection of their domains. A sum of sums is the sum of all their terms."""
+    """The sum of two profiles, on the intersection of their domains; sums of sums are flattened."""
 
     first: Profile
     second: Profile
@@ -452,15 +585,15 @@ class Sum(Derived):
 
     @cached_property
     def terms(self) -> tuple[Profile, ...]:
-        found: list[Profile] = []
+        terms: list[Profile] = []
         todo: list[Profile] = [self]
         while todo:
             node = todo.pop()
             if isinstance(node, Sum):
                 todo += (node.second, node.first)
             else:
-                found.append(node)
-        return tuple(found)
+                terms.append(node)
+        return tuple(terms)
 
     @property
     def operands(self) -> tuple[Profile, ...]:

@@ -1,4 +1,4 @@
-"""A formula in x as text, like "0.1*sinh(x/2)": a value (equal, hashable, picklable) that a scene file can hold.
+"""A formula in x as text, like "0.1*sinh(x/2)": a value that a scene file can hold.
 
 Python's own parser reads it. Only the operators and names below and x are let through, and each
 becomes one step of a program in postfix order that NumPy's functions carry out, so that a file
@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.io.toml_values import nearest
+from sie.messages import nearest, shortened
 
 Array = NDArray[np.float64]
 
@@ -48,17 +48,21 @@ _ARITY = {name: n for n, names in _ARGUMENTS.items() for name in names}
 _CONSTANTS = {"pi": np.pi, "e": np.e}
 NAMES = (*_ARITY, *_CONSTANTS)
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
-    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide, ast.Pow: np.power,
+    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide,
+    ast.Pow: np.power,
     ast.Mod: np.mod, ast.FloorDiv: np.floor_divide, ast.USub: np.negative, ast.UAdd: np.positive,
-    ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater, ast.GtE: np.greater_equal, ast.Eq: np.equal, ast.NotEq: np.not_equal,
+    ast.Lt: np.less, ast.LtE: np.less_equal, ast.Gt: np.greater, ast.GtE: np.greater_equal,
+    ast.Eq: np.equal, ast.NotEq: np.not_equal,
 }  # fmt: skip
 _ALLOWED = "+ - * / ** % //, comparisons, brackets, numbers, x"
 
 # What others write, and what it is here.
 _MEANT = {
-    "^": "**", "²": "**2", "³": "**3", "·": "*", "×": "*", "−": "-", "π": "pi", "|": "abs(...)", "&": "where(...)",
-    "ln": "log", "asin": "arcsin", "acos": "arccos", "atan": "arctan", "asinh": "arcsinh", "acosh": "arccosh", "atanh": "arctanh",
-    "atan2": "arctan2", "sgn": "sign", "min": "minimum", "max": "maximum", "pow": "**", "fabs": "abs", "if": "where(...)",
+    "^": "**", "²": "**2", "³": "**3", "·": "*", "×": "*", "−": "-", "π": "pi",
+    "|": "abs(...)", "&": "where(...)",
+    "ln": "log", "asin": "arcsin", "acos": "arccos", "atan": "arctan", "asinh": "arcsinh",
+    "acosh": "arccosh", "atanh": "arctanh", "atan2": "arctan2", "sgn": "sign", "min": "minimum",
+    "max": "maximum", "pow": "**", "fabs": "abs", "if": "where(...)",
 }  # fmt: skip
 _STRANGE = re.compile(r"[^A-Za-z0-9_.,()<>=!+\-*/%\s]")
 # Also right after a digit, where Python's parser would warn before it refuses
@@ -75,7 +79,7 @@ _SIMPLER = "use fewer terms and brackets, or give a Python function"
 
 
 class _Step(NamedTuple):
-    """`operands` values in place of which stands function(*values); x itself where there is no function."""
+    """Replaces the last `operands` values by function(*values); without a function it adds x."""
 
     operands: int
     function: Callable[..., Any] | None
@@ -83,7 +87,7 @@ class _Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Expression:
-    """x -> the formula's value, elementwise; a comparison is 1 where it holds and 0 where it does not.
+    """The formula as a function of an array x; a comparison is 1 if it holds and 0 if not.
 
     >>> Expression("x**2 + 1")(np.array([0.0, 2.0]))
     array([1., 5.])
@@ -117,7 +121,7 @@ class Expression:
             raise self._refusal(f"is not a formula ({why}): write it like 0.1*sinh(x/2)") from None
         program: list[_Step] = []
         todo: list[tuple[ast.AST, int]] = [(tree.body, 1)]
-        while todo:  # each node before its operands, from the last to the first: the reverse of postfix order
+        while todo:  # the reverse of postfix order: a node, then its operands from the last one
             node, depth = todo.pop()
             if depth > DEEPEST:
                 raise self._refusal(f"is nested more than {DEEPEST} levels deep: {_SIMPLER}")
@@ -156,7 +160,8 @@ class Expression:
             return _Step(0, None)
         if name in _ARITY:
             raise self._refusal(
-                f"has the function {name} without arguments: write {name}({', '.join('x' * _ARITY[name])})"
+                f"has the function {name} without arguments: "
+                f"write {name}({', '.join('x' * _ARITY[name])})"
             )
         if name not in _CONSTANTS:
             raise self._refusal(f"uses {name!r}: {_advice(name)}")
@@ -178,8 +183,7 @@ class Expression:
         return _Step(_ARITY[name], getattr(np, name))
 
     def _refusal(self, problem: str) -> ValueError:
-        text = self.text if len(self.text) <= 60 else self.text[:57] + "..."
-        return ValueError(f"expression {text!r} {problem}")
+        return ValueError(f"expression {shortened(self.text)!r} {problem}")
 
     def __call__(self, x: Array) -> Array:
         stack: list[Any] = []
@@ -215,7 +219,7 @@ def _written(node: ast.AST) -> str:
         text = ast.unparse(node)
     except RecursionError:
         text = type(node).__name__
-    return repr(text if len(text) <= 60 else text[:57] + "...")
+    return repr(shortened(text))
 
 
 def _advice(name: str) -> str:

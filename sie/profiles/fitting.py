@@ -1,9 +1,10 @@
 """What a trace is like: its gaps, its outliers, the line through it, and the nearest rounded flat.
 
-    h = c + t x + (|x - x0| - a)_+² / (2R)          a flat base of half-length a, arcs of radius R, centre x0, tilt t
+    h = c + t x + (|x - x0| - a)_+² / (2R)    flat |x - x0| <= a, arcs of radius R, tilt t
 
-c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub & Pereyra 1973): a scan of both first,
-since a trace of a nearly flat pad has other minima, then least squares with all five.
+c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub &
+Pereyra 1973): a scan of both first, since a trace of a nearly flat pad has other minima, then least
+squares with all five.
 """
 
 from __future__ import annotations
@@ -53,19 +54,19 @@ def gaps(x: Array) -> tuple[Gap, ...]:
 
 
 def outliers(x: Array, h: Array) -> tuple[int, ...]:
-    """Which points stand out of the noise, ascending; searched again without those, a few times.
+    """Indices of the points that stand out of the noise, ascending.
 
     A point is judged by a cubic through the next points on both sides: it is off if it misses that
     by many times the median. A corner or a kink of a trace without noise does so too. So the point
     must also lie off both parabolas through its neighbours, left and right, to the same side. The
-    points next to an end are not judged.
+    points next to an end are not judged. The search is repeated without the points that it found.
     """
     kept = np.arange(len(x))
     for _ in range(ROUNDS):
-        found = _outstanding(x[kept], h[kept])
-        if not found:
+        outstanding = _outstanding(x[kept], h[kept])
+        if not outstanding:
             break
-        kept = np.delete(kept, found)
+        kept = np.delete(kept, outstanding)
     return tuple(np.setdiff1d(np.arange(len(x)), kept).tolist())
 
 
@@ -87,7 +88,7 @@ def _outstanding(x: Array, h: Array) -> list[int]:
 
 
 def _confirmed(x: Array, h: Array, miss: Array, k: int, usual: float) -> bool:
-    """Whether the neighbours on either side say so too."""
+    """Whether point k is also off the parabolas through its neighbours on either side."""
     for side in _sides(k, np.abs(miss)):
         off, uncertain = _off(x, h, k, side)
         if off * np.sign(miss[k]) <= max(0.5 * abs(miss[k]), CONFIRMED * usual * uncertain):
@@ -103,16 +104,16 @@ def _sides(k: int, size: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, float]:
-    """How far point k is off the parabola through some points, and what noise of 1 does to that."""
+    """(How far point k is off the parabola through some points, what noise of 1 adds to it)."""
     if len(side) < FEWEST_NEIGHBOURS:
         return 0.0, 1.0
     weights = _extrapolation(x[None, side], x[k : k + 1], 2)[0]
     return float(weights @ (h[k] - h[side])), float(np.sqrt(1.0 + weights @ weights))
 
 
-def _extrapolation(x: Array, at: Array, degree: int) -> Array:
-    """Weights (n, m) of heights at x (n, m) in the value at `at` (n,) of a least-squares polynomial."""
-    u = (x - at[:, None]) / np.ptp(x, axis=1)[:, None]
+def _extrapolation(x: Array, target: Array, degree: int) -> Array:
+    """Weights (n, m) of heights at x (n, m) in the least-squares polynomial at `target`."""
+    u = (x - target[:, None]) / np.ptp(x, axis=1)[:, None]
     weights: Array = np.linalg.pinv(u[..., None] ** np.arange(degree + 1))[:, 0]
     return weights
 
@@ -124,7 +125,8 @@ class RoundedFlatFit:
     rms, largest    what is left of h: the root of the mean square, and the largest
     residuals       at every point of the trace
 
-    The profile is `sie.RoundedFlat(fit.half_flat, fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
+    The profile is `sie.RoundedFlat(fit.half_flat,
+    fit.radius).shifted(fit.centre).tilted(fit.tilt)`.
     """
 
     half_flat: float
@@ -166,7 +168,10 @@ def reason_at_an_end(x: Array, h: Array) -> str:
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
         return "the trace is a straight line, to rounding: an indenter has to rise on both sides"
     if _arched(x, left):
-        return "the trace arches upwards: heights of a surface have the other sign, scale = (1, -1) turns them over"
+        return (
+            "the trace arches upwards: heights of a surface have the other sign, "
+            "scale = (1, -1) turns them over"
+        )
     if int(np.argmin(h)) in (0, len(h) - 1):
         return (
             "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
@@ -183,7 +188,7 @@ def _arched(x: Array, left: Array) -> bool:
 
 
 def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
-    """The nearest rounded flat. Raises ValueError where the trace does not rise on both sides of a base."""
+    """The nearest rounded flat. ValueError if the trace does not rise on both sides of a base."""
     from scipy.optimize import least_squares  # noqa: PLC0415
 
     m, r = 0.5 * float(x[0] + x[-1]), 0.5 * float(x[-1] - x[0])
@@ -197,14 +202,14 @@ def rounded_flat(x: Array, h: Array) -> RoundedFlatFit:
 
     start = _scanned(s, y)
     linear = np.linalg.lstsq(model(*start), y, rcond=None)[0]
-    found = least_squares(
+    fit = least_squares(
         lambda v: model(v[0], v[1]) @ v[2:] - y,
         [*start, *linear],
         xtol=1e-14,
         ftol=1e-14,
         gtol=1e-14,
     )
-    s0, a, c, t, curvature = found.x.tolist()
+    s0, a, c, t, curvature = fit.x.tolist()
     a = abs(a)
     rises = np.abs(s - s0) > a
     if curvature <= 0.0 or not (rises & (s < s0)).any() or not (rises & (s > s0)).any():

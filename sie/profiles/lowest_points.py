@@ -1,7 +1,8 @@
 """Where a profile touches first: its lowest points.
 
-A profile is lowest where its slope changes from negative to positive; a flat base is an interval of such points, and the end of an indenter
-can be one. Of several minima the deepest is taken: contact starts there.
+A profile is lowest where its slope changes from negative to positive; a flat base is an interval of
+such points, and the end of an indenter can be one. Of several minima the deepest is taken: contact
+starts there.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from sie.errors import LoadError
 from sie.numerics import chebyshev
+from sie.numerics.root_finding import false_position
 
 from .slope import Slope
 
@@ -19,7 +21,6 @@ Array = NDArray[np.float64]
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
 MANY, FEWER = 100, 3  # of so many polynomials each is sampled less
 SHORTLIST = 16  # of the minima of a rough trace, those which the samples show as lowest
-MAX_STEPS = 2000  # bisection from 1 down to the smallest double takes half of these
 HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
@@ -33,16 +34,19 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
     sign = np.sign(H)
     if sign[0] > 0 and not np.isfinite(slope.breaks[0]):
         raise LoadError(
-            "the profile falls without bound to the left: no lowest point, no contact; prescribe less tilt"
+            "the profile falls without bound to the left: no lowest point, no contact; "
+            "prescribe less tilt"
         )
     if sign[-1] < 0 and not np.isfinite(slope.breaks[-1]):
         raise LoadError(
-            "the profile falls without bound to the right: no lowest point, no contact; prescribe less tilt"
+            "the profile falls without bound to the right: no lowest point, no contact; "
+            "prescribe less tilt"
         )
     for end, outer, name in ((0, slope.breaks[0], "left"), (-1, slope.breaks[-1], "right")):
         if sign[end] == 0 and not np.isfinite(outer):
             raise LoadError(
-                f"the profile is flat without end to the {name}: its contact has no edge there; give a profile that rises"
+                f"the profile is flat without end to the {name}: its contact has no edge there; "
+                "give a profile that rises"
             )
     candidates = _candidates(slope, ends, x, H, piece)
     if len(candidates) == 1:
@@ -54,7 +58,10 @@ def lowest_points(slope: Slope) -> tuple[float, float]:
 
 
 def _finite_ends(slope: Slope) -> Array:
-    """Both ends of every piece (N, 2), infinite ones replaced by points beyond the polynomial's last root (Fujiwara's bound)."""
+    """Both ends of every piece (N, 2); for an infinite one a point beyond all roots.
+
+    Fujiwara's bound of the polynomial's roots gives that point.
+    """
     ends = np.stack((slope.breaks[:-1], slope.breaks[1:]), axis=1)
     for k, j in np.argwhere(~np.isfinite(ends)):
         c = np.abs(slope.coefficients[k])
@@ -110,7 +117,10 @@ def _candidates(
 def _change(
     slope: Slope, ends: Array, before: tuple[float, int], after: tuple[float, int]
 ) -> tuple[float, float]:
-    """Where H stops being negative and starts being positive, between two points (x, piece) with H < 0 < H and no other sign between."""
+    """The last point with H < 0 and the first with H > 0, between two points (x, piece).
+
+    H is negative at the one, positive at the other, and changes its sign once between them.
+    """
     (x, i), (y, j) = before, after
     if i == j:
         z = _root(slope, i, x, y)
@@ -128,38 +138,20 @@ def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: 
 
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
-    """Where H of piece k changes sign in [lo, hi]; the end itself when it does not (the change is the jump at the break).
-
-    Regula falsi with halved weights (Illinois), and bisection whenever two steps have not halved the bracket.
-    """
+    """Where H of piece k changes sign in [lo, hi]; the end, if the sign changes by a jump there."""
     index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
 
     def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly
         return float(slope.local(index, origin, zero, np.array([[y]]))[0, 0])
 
     a, b = lo - float(origin[0]), hi - float(origin[0])
-    at_a, at_b = H(a), H(b)
-    if at_a >= 0.0 or at_b <= 0.0:
-        return lo if at_a >= 0.0 else hi
+    ends = H(a), H(b)
+    if ends[0] >= 0.0 or ends[1] <= 0.0:
+        return lo if ends[0] >= 0.0 else hi
     # At the origin, be it a root or a jump: else the bracket would shrink to the smallest doubles
     if a < -NEXT < NEXT < b and (H(0.0) == 0.0 or H(-NEXT) <= 0.0 <= H(NEXT)):
         return float(origin[0])
-    widths = [np.inf, np.inf]
-    for _ in range(MAX_STEPS):
-        widths.append(b - a)
-        if b - a <= 4.0 * float(np.spacing(max(abs(a), abs(b)))):
-            break
-        y = (a * at_b - b * at_a) / (at_b - at_a)
-        if not a < y < b or widths[-1] > 0.5 * widths[-3]:
-            y = 0.5 * (a + b)
-        value = H(y)
-        if value == 0.0:
-            return float(origin[0]) + y
-        if value < 0.0:
-            a, at_a, at_b = y, value, 0.5 * at_b
-        else:
-            b, at_b, at_a = y, value, 0.5 * at_a
-    return float(origin[0]) + 0.5 * (a + b)
+    return float(origin[0]) + false_position(H, a, b, ends, lambda *_: False)
 
 
 def _height(slope: Slope, ends: Array, z: float) -> float:
@@ -173,7 +165,7 @@ def _height(slope: Slope, ends: Array, z: float) -> float:
 
 
 def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
-    """h(x) over its lowest value, by Gauss-Legendre from the lowest points on every piece: to relative accuracy."""
+    """h(x) less its lowest value, by Gauss-Legendre from its lowest points on."""
     z1, z2 = touch
     pieces = slope.split_at(z1).split_at(z2)
     g, w = chebyshev.gauss_legendre(2 + pieces.degree // 2)

@@ -60,7 +60,7 @@ class PowerLaw:
         return 1.0 < self.exponent <= LARGEST
 
     def load(self, b: float, half_modulus: float) -> float:
-        """P of the half-width b."""
+        """The load P that belongs to the half-width b."""
         return self._load(b, half_modulus, f"half-width {b:.6g}")
 
     def _load(self, b: float, half_modulus: float, given: str) -> float:
@@ -72,7 +72,7 @@ class PowerLaw:
         return half_modulus * (A * b**m) * factor
 
     def half_width(self, P: float, half_modulus: float) -> float:
-        """b under the load P: by logarithms, whose rounding one step of Newton takes away."""
+        """The half-width b under the load P, by logarithms and one step of Newton's method."""
         m, scales = self.exponent, (half_modulus, self.coefficient, self._factor)
         size = (math.log(P) - math.fsum(map(math.log, scales))) / m
         given = f"load {P:.6g}"
@@ -137,11 +137,11 @@ class Corner:
     bend: float
 
     def slope_at(self, y: Array) -> Array:
-        """What h' has on the right of the axis, its mean on it."""
+        """The added h': 0 on the left of the axis, half the jump on it."""
         return (self.jump + self.bend * y) * np.heaviside(y, 0.5)
 
     def pressure(self, y: Array, near: Array, b: float) -> Array:
-        """As of a `PowerLaw`: -(jump + bend y)/π ln|y/b|, inf on the axis under a jump."""
+        """The added p over E*/2: -(jump + bend y)/π ln|y/b|, inf on the axis under a jump."""
         log = np.log(np.maximum(np.abs(y) / b, SMALLEST))
         p: Array = -(self.jump + self.bend * y) / math.pi * log
         if self.jump:
@@ -156,7 +156,7 @@ class Corner:
 
 @dataclass(frozen=True)
 class PowerSlope:
-    """y -> exponent coefficient |y|^(exponent - 1) sign y: the slope, as a function of an array."""
+    """The slope exponent coefficient |y|^(exponent - 1) sign y, as a function of an array y."""
 
     exponent: float
     coefficient: float
@@ -196,9 +196,9 @@ class _AxisTerms(NamedTuple):
         m, even = self.exponent, 2.0 * self.nearest
         apart = abs(m - 1.0 - even)
         log_ratio = np.log(np.maximum(ratio, SMALLEST))
-        by = np.expm1(apart * log_ratio) / apart if apart else log_ratio
+        quotient = np.expm1(apart * log_ratio) / apart if apart else log_ratio
         out: Array = self.power * ratio ** (m - 1.0)
-        out += self.binomial * by * ratio ** min(m - 1.0, even)
+        out += self.binomial * quotient * ratio ** min(m - 1.0, even)
         return out
 
 

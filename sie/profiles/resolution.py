@@ -1,9 +1,13 @@
-"""Pieces on which a function is resolved by Chebyshev series: chop where the coefficients decay, split where they do not.
+"""Pieces on which a function is resolved by Chebyshev series.
 
-All open intervals are sampled in one call of the function, level by level. Halving towards a point where the function behaves like |x|^s
-grades the pieces geometrically by itself; a jump or a kink that was not declared is closed in to rounding. At a break that was declared
-H may vanish like |x|^s. What a series misses there is a small jump, and the pressure at the break is off by ln(length/piece) times as
-much: pieces that touch one are resolved further than rounding of H elsewhere would let others be.
+A series is chopped where its coefficients decay, and the piece is halved where they do not.
+
+All open intervals are sampled in one call of the function, level by level. Halving towards a point
+where the function behaves like |x|^s grades the pieces geometrically by itself; a jump or a kink
+that was not declared is closed in to rounding. At a break that was declared H may vanish like
+|x|^s. What a series misses there is a small jump, and the pressure at the break is off by
+ln(length/piece) times as much: pieces that touch one are resolved further than rounding of H
+elsewhere would let others be.
 """
 
 from __future__ import annotations
@@ -25,7 +29,8 @@ Array = NDArray[np.float64]
 
 SIZES = (17, 33)  # points a piece is tried with before it is split
 TAIL = 3  # the last coefficients that must have decayed
-# Points on no grid, where a settled series must agree with the function: what lies between the points is seen there, if not always.
+# Points on no grid, where a settled series must agree with the function: what lies between the
+# points is seen there, if not always.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
 MISSED = 32.0  # times what the series itself may miss
 NEIGHBOURS, CLOSE = 12, 1e-6
@@ -36,13 +41,13 @@ TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no do
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
 DEEP = 64  # levels, after which x = 0 is such a break
-# After so many levels what has not settled next to a declared break is singular there: so many
-# halvings at once.
+# What has not settled next to a declared break after so many levels is singular there, and is then
+# halved so many times at once.
 PATIENCE, HALVINGS = 3, 8
 
 
 class Tolerance(NamedTuple):
-    """What a series may miss: relative to the largest |value|, and absolute; less next to the inner breaks that were declared."""
+    """What a series may miss: relative to the largest |value|, absolute, and next to breaks."""
 
     relative: float
     absolute: float
@@ -66,10 +71,13 @@ def resolved(
     tol: float,
     cuts: Array | None = None,
 ) -> tuple[Array, NDArray[np.int64]]:
-    """Breaks (a refinement of `breaks`) and the Chebyshev degree that resolves each piece to tol times the largest |value|.
+    """A refinement of `breaks`, and the Chebyshev degree that resolves each piece.
+
+    A series misses at most tol times the largest |value|.
 
     The function is smooth at the `cuts`, from which the refinement starts.
-    `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities, ResolutionError if it does not settle.
+    `function` takes and returns arrays (K, n). Raises ValueError if it returns nan or infinities,
+    ResolutionError if it does not settle.
     """
     ends = breaks
     if cuts is not None:
@@ -90,7 +98,8 @@ def resolved(
         if len(done) + 2 * len(open_) > MAX_PIECES:
             middle = float(0.5 * open_[0].sum())
             raise ResolutionError(
-                f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
+                "the slope does not settle: "
+                f"{MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
                 "declare its breaks, narrow the domain, or smooth the noise",
                 x=middle,
             )
@@ -109,7 +118,7 @@ def resolved(
 
 
 def _split(pieces: Array, graded_towards: Array) -> Array:
-    """Halves of the pieces (K, 2); of those that touch a break towards which they are graded, many halvings at once.
+    """Halves of the pieces (K, 2); many halvings at once of those that touch a graded break.
 
     A piece that has been halved before touches no more than one.
     """
@@ -119,9 +128,9 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
     middle = 0.5 * (lo + hi)
     parts = [np.stack((lo, middle), axis=1), np.stack((middle, hi), axis=1)]
     for end in (0, 1):
-        at, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
+        origin, length = pieces[touches[:, end], end], np.diff(pieces[touches[:, end]])
         away = length * np.append(0.0, 0.5 ** np.arange(HALVINGS, -1, -1.0)) * (1.0 - 2.0 * end)
-        x = at[:, None] + away
+        x = origin[:, None] + away
         parts.append(np.sort(np.stack((x[:, :-1], x[:, 1:]), axis=-1).reshape(-1, 2), axis=1))
     halves = np.concatenate(parts)
     return halves[halves[:, 0] < halves[:, 1]]  # the last halvings may be less than an ulp
@@ -130,7 +139,7 @@ def _split(pieces: Array, graded_towards: Array) -> Array:
 def _degrees(
     function: Callable[[Array], Array], pieces: Array, n: int, tolerance: Tolerance, scale: float
 ) -> tuple[NDArray[np.int64], float]:
-    """The degree that resolves each piece (K, 2), -1 where n points do not; and the largest |value| seen so far."""
+    """(The degree that resolves each piece (K, 2), -1 if n points do not; the largest |value|)."""
     lo, hi = pieces.T
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
     s = np.concatenate((chebyshev.points(n), PROBES))
@@ -160,30 +169,37 @@ def _at_probes(n: int) -> Array:
 
 
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
-    """How rough the function's values are on [lo, hi] by rounding of its own, like exp(x) - 1 near 0: no series can do better.
+    """How rough the function's values are on [lo, hi] by its own rounding, as exp(x) - 1 near 0.
 
-    What is left of its values at NEIGHBOURS points very close together after a parabola through them, the median of several places.
+    No series can do better.
+
+    What is left of its values at NEIGHBOURS points very close together after a parabola through
+    them, the median of several places.
     """
     middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
     s = chebyshev.points(NEIGHBOURS)
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
     refuse_non_finite(middle[:, None] + 0.0 * s, values)
     left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
-    return sorted(np.abs(left).max(axis=1).tolist())[
-        len(PROBES) // 2
-    ]  # np.median imports numpy.ma, which takes longer than a solve
+    # Not np.median: it imports numpy.ma, which takes longer than a solve.
+    return sorted(np.abs(left).max(axis=1).tolist())[len(PROBES) // 2]
 
 
 def refuse_non_finite(x: Array, values: Array) -> None:
+    """ValueError with the place of the first slope that is nan or infinite."""
     bad = ~np.isfinite(values)
     if bad.any():
         raise ValueError(
-            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: it must be finite inside its domain; narrow the domain"
+            f"the slope returned {values[bad][0]} at x = {x[bad][0]:.6g}: "
+            "it must be finite inside its domain; narrow the domain"
         )
 
 
 def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None = None) -> Slope:
-    """The slope on [lo, hi], its functions resolved to tol times the largest |H| there; a slope without functions is returned as it is."""
+    """The slope on [lo, hi], its functions resolved to tol times the largest |H| there.
+
+    A slope without functions is returned as it is.
+    """
     if not slope.functions:
         return slope
     inner = slope.breaks[(slope.breaks > lo) & (slope.breaks < hi)]
@@ -201,7 +217,7 @@ def refined(slope: Slope, lo: float, hi: float, tol: float, cuts: Array | None =
 
 
 def integral(slope: Slope, start: float, x: Array) -> Array:
-    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the ends of the indenter."""
+    """∫ H from start to each x (any shape), by resolved pieces; inf beyond the indenter's ends."""
     lo, hi = slope.domain
     inside = np.clip(x, lo, hi)
     out = np.zeros(np.shape(x))
@@ -224,12 +240,12 @@ def _antiderivative(pieces: Slope, start: float, x: Array) -> Array:
         pieces.local(k, lo, np.zeros(len(k)), 0.5 * length[:, None] * (1.0 + chebyshev.points(n)))
     )
     primitive = chebyshev.antiderivative(c) * (0.5 * length)[:, None]
-    at = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
-    at -= at[int(np.searchsorted(pieces.breaks, start))]
+    before = np.concatenate(([0.0], np.cumsum(primitive.sum(axis=1))))
+    before -= before[int(np.searchsorted(pieces.breaks, start))]
     flat = x.ravel()
     j = np.clip(np.searchsorted(pieces.breaks, flat, side="right") - 1, 0, len(k) - 1)
     s = np.clip(2.0 * ((flat - lo[j]) / length[j]) - 1.0, -1.0, 1.0)
-    values = at[j] + np.array(
+    values = before[j] + np.array(
         [chebyshev.evaluate(primitive[a], b) for a, b in zip(j, s, strict=True)]
     )
     return values.reshape(x.shape)

@@ -1,11 +1,13 @@
 """The slope H = h' of an indenter, piece by piece: what the numerics see of a profile.
 
-On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus functions that are smooth there:
+On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus
+functions that are smooth there:
 
-    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j  +  Σ functions(t),       breaks[k] < t < breaks[k+1]
+    H(t) = Σ_j coefficients[k, j] (t - origins[k])^j + Σ functions(t),   breaks[k] < t < breaks[k+1]
 
-The first and last break are the ends of the indenter and may be infinite. Each piece has its own origin because a profile is often
-small there and nowhere else: (t - a)/R on the rim of a punch whose rim is 1e-12 of its width must not be formed as t/R - a/R.
+The first and last break are the ends of the indenter and may be infinite. Each piece has its own
+origin because a profile is often small there and nowhere else: (t - a)/R on the rim of a punch
+whose rim is 1e-12 of its width must not be formed as t/R - a/R.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ Vectorised = Callable[[Array], Any]
 FEW, LOW = 6, 4
 
 
-# A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump exceeds rounding by this factor.
+# A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump
+# exceeds rounding by this factor.
 JUMP = 256.0 * EPS
 # Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
 SEEN_JUMP = 1e-9
@@ -60,7 +63,7 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True)
 class FunctionTerm:
-    """t -> sign f(sign (t - shift)): a function of the user's, moved and mirrored with its profile."""
+    """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
 
     function: Vectorised
     shift: float = 0.0
@@ -79,9 +82,15 @@ class FunctionTerm:
 
 @dataclass(frozen=True, eq=False)
 class Slope:
-    """H on its breaks. Arrays: breaks (N+1,), origins (N,), coefficients (N, D) low order first, degrees (N,).
+    """H on its breaks.
 
-    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree where there is no function.
+    breaks          (N + 1,), ascending
+    origins         (N,)
+    coefficients    (N, D), low order first
+    degrees         (N,)
+
+    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree
+    where there is no function.
     """
 
     breaks: Array
@@ -91,7 +100,10 @@ class Slope:
     functions: tuple[FunctionTerm, ...] = ()
 
     def local(self, k: Any, start: Array, tail: Array, u: Array) -> Array:
-        """H at t = (start + tail) + u on the pieces k: start and tail (K,), u (K, n); exact differences, no rounding of t."""
+        """H at t = (start + tail) + u on the pieces k, without rounding t.
+
+        start and tail (K,), u (K, n).
+        """
         c = self.coefficients[k]
         values: Array = c[:, -1:]
         if c.shape[1] > 1:
@@ -116,7 +128,7 @@ class Slope:
         return values
 
     def __call__(self, x: Any) -> Array:
-        """H(x): the mean of both sides at a break, -inf and inf beyond the ends of the indenter, which are vertical walls."""
+        """H(x): the mean of both sides at a break; -inf and inf beyond the ends."""
         x = np.asarray(x, dtype=float)
         flat = x.ravel()
         right = np.searchsorted(self.breaks, flat, side="right") - 1
@@ -147,7 +159,7 @@ class Slope:
 
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
-        """Which pieces are flat: they cost nothing."""
+        """Which pieces are flat and need no work."""
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))
@@ -182,7 +194,7 @@ class Slope:
 
     @cached_property
     def few(self) -> bool:
-        """Whether plain floats beat arrays."""
+        """Whether plain floats are faster than arrays."""
         return (
             not self.functions
             and len(self.is_zero) - int(self.is_zero.sum()) <= FEW
@@ -195,7 +207,10 @@ class Slope:
 
     @cached_property
     def continuous(self) -> bool:
-        """Whether H is known to have no jumps at its breaks, but for rounding (a function may have them at declared ones)."""
+        """Whether H is known to be continuous, but for rounding.
+
+        A function may jump at declared breaks.
+        """
         if self.functions:
             return False
         if not self.few:
@@ -223,16 +238,16 @@ class Slope:
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
-        """(break, what H rises by there), of the inner breaks where that is more than rounding."""
-        found = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
+        """(break, rise of H there) of the inner breaks where H jumps by more than rounding."""
+        sides = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
         return tuple(
             (b, above - below)
-            for b, below, above in found
+            for b, below, above in sides
             if abs(above - below) > JUMP * max(abs(below), abs(above))
         )
 
     def corner(self, x: float) -> tuple[float, float]:
-        """What H and H' jump by at a break x; of functions H alone, one ulp beside it."""
+        """Jumps of H and H' at a break x; of functions only that of H, one ulp beside it."""
         j = int(np.searchsorted(self.breaks, x))
         if not 0 < j < len(self.origins):
             return 0.0, 0.0
@@ -275,7 +290,7 @@ class Slope:
 
     @cached_property
     def corners(self) -> Array:
-        """What jumps at the inner breaks: Taylor coefficients of the polynomials there, from the right less from the left, (N - 1, D)."""
+        """Jumps of the polynomials' Taylor coefficients at the inner breaks, (N - 1, D)."""
         k, inner, width = (
             np.arange(len(self.origins)),
             self.breaks[1:-1],
@@ -309,7 +324,7 @@ class Slope:
         )
 
     def within(self, lo: float, hi: float) -> Slope:
-        """The same slope on [lo, hi] alone, with walls there."""
+        """The same slope on [lo, hi], whose ends become the ends of the indenter."""
         split = self.split_at(lo).split_at(hi)
         kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
         ends = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
@@ -343,7 +358,8 @@ class Slope:
         lo, hi = max(self.breaks[0], other.breaks[0]), min(self.breaks[-1], other.breaks[-1])
         if not lo < hi:
             raise ValueError(
-                f"profiles on {self.domain} and {other.domain} do not overlap: shift one of them before adding"
+                f"profiles on {self.domain} and {other.domain} do not overlap: "
+                "shift one of them before adding"
             )
         merged = np.union1d(self.breaks, other.breaks)
         breaks = merged[(merged >= lo) & (merged <= hi)]
@@ -381,7 +397,9 @@ def polynomial_slope(
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
-    """How far each origin is from its piece: 0 inside a bounded one, from the end of a half-bounded one, from x = 0 on an endless one.
+    """How far each origin is from its piece.
+
+    It is 0 inside a bounded piece; else the distance from the one end, or from x = 0 without ends.
 
     Contact is near the finite breaks; a far origin makes large coefficients that cancel there.
     """
@@ -396,7 +414,7 @@ def _distance(origins: Array, breaks: Array) -> Array:
 
 
 def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins (Horner's synthetic division, exact where the origin stays)."""
+    """Coefficients of the pieces k about new origins, by synthetic division (Horner)."""
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
     step = origins - slope.origins[k]

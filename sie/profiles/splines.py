@@ -1,26 +1,29 @@
 """Cubic splines through a trace, and the smoothing spline of a noisy one.
 
-The smoothing spline minimises, over all functions f on the trace's interval (Reinsch 1967, SciPy's `make_smoothing_spline`),
+The smoothing spline minimises, over all functions f on the trace's interval (Reinsch 1967, SciPy's
+`make_smoothing_spline`),
 
     Σ_i (h_i - f(x_i))² + λ ∫ f''² dx,          λ in units of length³
 
-It is a natural cubic spline with a knot at every point, and averages over a length of about (λ Δ)^(1/4), Δ the mean spacing. With
-thousands of points within that length a knot at every point costs digits (the equations' condition is the fourth power of the number) and
-buys nothing: then KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as in R's
-`smooth.spline`).
+It is a natural cubic spline with a knot at every point, and averages over a length of about (λ
+Δ)^(1/4), Δ the mean spacing. With thousands of points within that length a knot at every point
+costs digits (the equations' condition is the fourth power of the number) and buys nothing: then
+KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as
+in R's `smooth.spline`).
 
-With few points in that length (few enough for a knot at each) the second derivatives γ at the points are solved for, and f follows
-(Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines would lose f between the points as λ → 0.
+With few points in that length (few enough for a knot at each) the second derivatives γ at the
+points are solved for, and f follows (Reinsch's own form; Green & Silverman 1994, § 2.3): B-splines
+would lose f between the points as λ → 0.
 
     (R + λ Q'Q) γ = Q'h,       f = h - λ Q γ,       Q'h second differences, R their mass matrix
 
-λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² / (n - tr A)², A the matrix from h to
-f(x).
-Its trace is exact for a short trace; for a long one it is z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
+λ is chosen by generalised cross validation (Craven & Wahba 1979): the smallest n Σ(h_i - f(x_i))² /
+(n - tr A)², A the matrix from h to f(x). Its trace is exact for a short trace; for a long one it is
+z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
 
 What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
-s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance
-s² (B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance s²
+(B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
 (Nychka 1988).
 """
 
@@ -54,7 +57,10 @@ REFINED = 0.02  # of the logarithm of the averaging length
 
 
 def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
-    """(breaks, coefficients (N, 4), low order first, about the left end of each piece): not-a-knot, so that a cubic is reproduced."""
+    """(breaks, coefficients (N, 4), low order first, about the left end of each piece).
+
+    Not-a-knot at the ends, so that a cubic is reproduced.
+    """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 -- heavy, and for traces only
 
     c: Array = CubicSpline(x, h).c.T[:, ::-1].copy()
@@ -62,7 +68,7 @@ def interpolating_spline(x: Array, h: Array) -> tuple[Array, Array]:
 
 
 def smoothing_spline(x: Array, h: Array, lam: float) -> tuple[Array, Array]:
-    """The same of the smoothing spline with λ = lam > 0; breaks at its knots."""
+    """(breaks, coefficients) of the smoothing spline with λ = lam > 0; breaks at its knots."""
     problem = _Problem(x, h)
     return problem.spline(lam / problem.length**3)
 
@@ -73,7 +79,7 @@ def longest_lambda(x: Array) -> float:
 
 
 def cross_validated(x: Array, h: Array) -> float:
-    """λ of the smallest score."""
+    """The λ of the smallest score of generalised cross validation."""
     from scipy.optimize import minimize_scalar  # noqa: PLC0415
 
     problem = _Problem(x, h)
@@ -91,7 +97,7 @@ def cross_validated(x: Array, h: Array) -> float:
 
 
 def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float, float]) -> bool:
-    """Whether the misfit there exceeds that of a smaller λ by no more than noise does (an F-test)."""
+    """Whether the misfit there exceeds that of a smaller λ by no more than noise (an F-test)."""
     problem = _Problem(x, h)
     part, unit = _local(x, *between), problem.length**3
     rss, left = problem.misfit(lam / unit, part)
@@ -104,8 +110,8 @@ def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float,
 def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
     """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
 
-    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points: without
-    bias its sum of squares has the expectation s² tr (I - A)².
+    weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points:
+    without bias its sum of squares has the expectation s² tr (I - A)².
     """
     from scipy.interpolate import BSpline  # noqa: PLC0415
 
@@ -113,8 +119,8 @@ def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Arr
     lam /= problem.length**3
     basis = problem.basis(lam)
     rss, left = problem.misfit(lam, _local(x, float(points.min()), float(points.max())))
-    at = (points - x[0]) / problem.length
-    design = BSpline.design_matrix(at, basis.knots[1:-1], 2) @ basis.first_difference
+    u = (points - x[0]) / problem.length
+    design = BSpline.design_matrix(u, basis.knots[1:-1], 2) @ basis.first_difference
     functional = design.T @ weights.T
     variance = np.einsum("ij,ij->j", functional, basis.solved(lam, functional))
     return np.sqrt(rss / left * variance) * (problem.unit / problem.length)
@@ -132,7 +138,7 @@ class _Problem:
 
     def __init__(self, x: Array, h: Array) -> None:
         self.x, self.length = x, float(x[-1] - x[0])
-        self.at = (x - x[0]) / self.length
+        self.u = (x - x[0]) / self.length
         self.origin = float(h[0])
         self.unit = float(np.ptp(h)) or 1.0
         self.h = (h - self.origin) / self.unit
@@ -145,7 +151,7 @@ class _Problem:
         knots = n if n <= ALL_KNOTS or 2 * knots > n else knots
         if knots not in self._bases:
             self._bases[knots] = _Basis(
-                self.at, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
+                self.u, self.h, np.round(np.linspace(0.0, n - 1.0, knots)).astype(np.int64)
             )
         return self._bases[knots]
 
@@ -165,9 +171,9 @@ class _Problem:
         from scipy.interpolate import BSpline  # noqa: PLC0415
 
         if lam * (len(self.x) - 1.0) ** 3 <= SHORT:
-            return self.x, self._in_given_units(_reinsch(self.at, self.h, lam))
+            return self.x, self._in_given_units(_reinsch(self.u, self.h, lam))
         basis = self.basis(lam)
-        knots, spline = self.at[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
+        knots, spline = self.u[basis.chosen], BSpline(basis.knots, basis.coefficients(lam), 3)
         return self.x[basis.chosen], self._in_given_units(
             _pieces(knots, spline(knots), spline(knots, 2))
         )
@@ -179,7 +185,7 @@ class _Problem:
 
 
 def _reinsch(x: Array, h: Array, lam: float) -> Array:
-    """Coefficients of the smoothing spline about the left end of each piece, from its second derivatives."""
+    """Coefficients about the left end of each piece, from the spline's second derivatives."""
     from scipy.linalg import solveh_banded  # noqa: PLC0415
 
     step = np.diff(x)
@@ -193,15 +199,18 @@ def _reinsch(x: Array, h: Array, lam: float) -> Array:
     system[0, 2:] = lam * c[:-2] * a[2:]
     gamma = solveh_banded(system, right_side, check_finite=False)
     f = h.copy()
-    for entries, at in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
-        f[at] -= lam * entries * gamma
+    for entries, part in ((a, slice(0, -2)), (b, slice(1, -1)), (c, slice(2, None))):
+        f[part] -= lam * entries * gamma
     return _pieces(x, f, np.concatenate(([0.0], gamma, [0.0])))
 
 
 def _pieces(x: Array, f: Array, second: Array) -> Array:
-    """Coefficients about the left end of each piece of the cubic spline with these values and second derivatives at its knots.
+    """Coefficients of the cubic spline with these values and second derivatives at its knots.
 
-    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a corner of the indenter.
+    They are about the left end of each piece.
+
+    Both pieces at a knot take the same slope there, to the last digit: a jump of h' would be a
+    corner of the indenter.
     """
     step = np.diff(x)
     chord = np.diff(f) / step
@@ -215,18 +224,18 @@ def _pieces(x: Array, f: Array, second: Array) -> Array:
 
 @dataclass
 class _Basis:
-    """Cubic B-splines on the chosen points, the data in them, and the bending energy, as banded matrices (upper form)."""
+    """Cubic B-splines on the chosen points: data and bending energy as banded matrices (upper)."""
 
-    at: Array
+    u: Array
     h: Array
     chosen: NDArray[np.int64]
 
     def __post_init__(self) -> None:
         from scipy.interpolate import BSpline  # noqa: PLC0415
 
-        inner = self.at[self.chosen]
+        inner = self.u[self.chosen]
         self.knots = np.concatenate(([inner[0]] * 3, inner, [inner[-1]] * 3))
-        self.values: Any = BSpline.design_matrix(self.at, self.knots, 3)
+        self.values: Any = BSpline.design_matrix(self.u, self.knots, 3)
         self._gram = _upper(self.values.T @ self.values)
         self._bending = _upper(self._energy(inner))
         self._data = self.values.T @ self.h
@@ -244,7 +253,7 @@ class _Basis:
 
     @property
     def first_difference(self) -> Any:
-        """From the coefficients of f to those of f' in quadratic B-splines, on all knots but the outermost."""
+        """From coefficients of f to those of its slope in quadratic B-splines, less two knots."""
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(self.chosen)
@@ -271,7 +280,7 @@ class _Basis:
     @cached_property
     def _probes(self) -> tuple[Array, Array]:
         signs: Array = np.where(
-            np.random.default_rng(0).integers(0, 2, (len(self.at), PROBES)) > 0, 1.0, -1.0
+            np.random.default_rng(0).integers(0, 2, (len(self.u), PROBES)) > 0, 1.0, -1.0
         )
         projected: Array = self.values.T @ signs
         return signs, projected

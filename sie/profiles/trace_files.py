@@ -1,7 +1,9 @@
-"""Traces in files: columns of numbers as text, or what a profilometer writes, read by SurfaceTopography (the extra `traces`).
+"""Traces in files: columns of numbers as text, or a profilometer's format.
 
-Text is taken as it comes: comma, semicolon, tab or blanks between the columns, a decimal comma where these leave it free, comments after #
-or %, header lines before the first number. What is not a number after that is missing, and reported by its line.
+Text is read with a comma, semicolon, tab or blanks between the columns; with a decimal comma where
+commas do not separate columns; with comments after # or %, and with header lines before the first
+number. What is not a number after that is missing, and is reported with the number of its line.
+Other formats are read by SurfaceTopography (the extra `traces`).
 """
 
 from __future__ import annotations
@@ -9,109 +11,141 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from dataclasses import dataclass
 from numbers import Integral
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.io import files
+from sie import arguments, files
 
 Array = NDArray[np.float64]
 Column = int | str
 
-FORMATS = (
-    "",
-    ".csv",
-    ".txt",
-    ".dat",
-    ".tsv",
-    ".asc",
-    ".prn",
-    ".prf",
-    ".xy",
-)  # read as text; all others are SurfaceTopography's
-# Bytes and lines of a file that is read: a trace within a second, a mesh result within ten.
-TRACE, MESH = (4 * 10**6, 10**5), (64 * 10**6, 5 * 10**5)
-NAMED = 5  # lines that a message names
-MISSING = {
-    "",
-    "nan",
-    "na",
-    "n/a",
-    "null",
-    "none",
-    "-",
-    "--",
-    "---",
-    "*",
-    "inf",
-    "-inf",
-    "+inf",
-    "bad",
-    "*****",
-}
 
+class Limit(NamedTuple):
+    """How long a file may be."""
+
+    size: int  # bytes
+    lines: int
+
+
+# A trace within this limit is read within a second, a mesh result within ten.
+TRACE, MESH = Limit(4 * 10**6, 10**5), Limit(64 * 10**6, 5 * 10**5)
+# Suffixes of text; files with any other suffix are left to SurfaceTopography.
+TEXT = ("", ".csv", ".txt", ".dat", ".tsv", ".asc", ".prn", ".prf", ".xy")
+MISSING = {
+    "", "nan", "na", "n/a", "null", "none", "-", "--", "---", "*", "*****",
+    "inf", "-inf", "+inf", "bad",
+}  # fmt: skip
+NAMED = 5  # lines that a message names
 DECIMAL_COMMA = r"[-+]?\d*(,\d+)?([eE][-+]?\d+)?"
 
 
-def read_columns(
-    path: str | Path,
-    columns: tuple[Column, ...],
-    skip: int = 0,
-    keep_missing: bool = False,
-    most: tuple[int, int] = TRACE,
-) -> tuple[Array, ...]:
-    """The columns of a text file, given by number (the first is 0) or by the name in the header.
+def read_trace(
+    path: str | Path, columns: tuple[Column, ...], skip: int = 0, keep_missing: bool = False
+) -> tuple[Array, Array]:
+    """The points x and heights h of a trace; `columns` and `skip` are those of a text file.
 
-    skip            lines at the top that are no part of the table
-    keep_missing    give nan where a line lacks a value
-    most            bytes and lines of the file
-
-    Raises ValueError, naming the lines, where a value is missing or is no number; FileNotFoundError, OSError.
+    Raises ValueError where the file holds no trace, and OSError where it cannot be read.
     """
     path = Path(path)
-    split, start, header, separator = _table(path, skip, most)
-    wanted = [_index(path, column, header, len(split[start])) for column in columns]
-    rows = [(k + skip + 1, cells) for k, cells in enumerate(split[start:], start) if cells]
-    values = [
-        [_value(cells[j], separator) if j < len(cells) else math.nan for j in wanted]
-        for _, cells in rows
-    ]
-    strange = [line for (line, _), row in zip(rows, values, strict=True) if None in row]
-    if strange:
-        raise ValueError(
-            f"{path.name} has text where a number is wanted, in {_named(strange)}: mend the file, or choose other columns"
-        )
-    table = np.array(values, dtype=float)
-    bad = ~np.isfinite(table).all(axis=1)
-    if bad.any() and not keep_missing:
-        lacking = [line for (line, _), is_bad in zip(rows, bad.tolist(), strict=True) if is_bad]
-        raise ValueError(
-            f"{path.name} lacks a value in {_named(lacking)}: delete such lines (for a trace, mend = true passes over them)"
-        )
-    return tuple(table.T)
+    pair = arguments.listed("columns", columns, "those of x and of h")
+    if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):
+        raise ValueError(f"columns = {columns!r} is not a pair: give the columns of x and of h")
+    if isinstance(skip, bool) or not isinstance(skip, Integral) or skip < 0:
+        raise ValueError(f"skip = {skip!r} is not a number of lines: give 0 or more")
+    data = files.content(path, TRACE.size)
+    if path.suffix.lower() not in TEXT:
+        return _line_scan(path)
+    x, h = _table(path.name, data, int(skip), TRACE).columns(pair, keep_missing)
+    return x, h
 
 
-def header_of(
-    path: str | Path, skip: int = 0, most: tuple[int, int] = TRACE
-) -> tuple[list[str], int]:
-    """(names of the columns in lower case and without their units, none if there is no header; how many columns there are)."""
-    split, start, header, _ = _table(Path(path), skip, most)
-    return header, len(split[start])
-
-
-def read_topography(path: str | Path) -> tuple[Array, Array]:
-    """A line scan in any format that SurfaceTopography knows; lengths and heights in the unit of the file's lengths."""
+def read_table(path: str | Path, limit: Limit = TRACE) -> Table:
+    """The table in a text file. Raises ValueError where there is none, and OSError."""
     path = Path(path)
-    files.content(path, TRACE[0])
+    return _table(path.name, files.content(path, limit.size), 0, limit)
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """The columns of a text file.
+
+    file         the name of the file
+    rows         (number of the line, its cells) from the first line with numbers on
+    header       names of the columns in lower case without their units; empty without a header
+    separator    what separates the cells, "" for blanks
+    """
+
+    file: str
+    rows: tuple[tuple[int, list[str]], ...]
+    header: tuple[str, ...]
+    separator: str
+
+    @property
+    def width(self) -> int:
+        """The number of columns."""
+        return len(self.rows[0][1])
+
+    def columns(self, wanted: tuple[Column, ...], keep_missing: bool = False) -> tuple[Array, ...]:
+        """The columns by number (the first is 0) or by name.
+
+        A missing value is nan if `keep_missing` is true, else it raises ValueError with its line.
+        """
+        indices = [self._index(column) for column in wanted]
+        values = [
+            [_value(cells[j], self.separator) if j < len(cells) else math.nan for j in indices]
+            for _, cells in self.rows
+        ]
+        strange = [line for (line, _), row in zip(self.rows, values, strict=True) if None in row]
+        if strange:
+            raise ValueError(
+                f"{self.file} has text where a number is wanted, in {_named(strange)}: "
+                "mend the file, or choose other columns"
+            )
+        numbers = np.array(values, dtype=float)
+        bad = ~np.isfinite(numbers).all(axis=1)
+        if bad.any() and not keep_missing:
+            lacking = [self.rows[k][0] for k in np.flatnonzero(bad)]
+            raise ValueError(
+                f"{self.file} lacks a value in {_named(lacking)}: "
+                "delete such lines (for a trace, mend = true passes over them)"
+            )
+        return tuple(numbers.T)
+
+    def _index(self, column: Column) -> int:
+        last = self.width - 1
+        if isinstance(column, str):
+            name = _bare_name(column)
+            if name not in self.header:
+                names = ", ".join(self.header)
+                known = f"its header names {names}" if names else "it has no header"
+                raise ValueError(
+                    f"{self.file} has no column {column!r}, {known}: "
+                    f"give a name, or a number from 0 to {last}"
+                )
+            return self.header.index(name)
+        whole = isinstance(column, Integral) and not isinstance(column, bool)
+        if not whole or not 0 <= column <= last:
+            raise ValueError(
+                f"{self.file} has no column {column!r}: it has {self.width}, "
+                f"give numbers from 0 to {last}, or names of its header"
+            )
+        return int(column)
+
+
+def _line_scan(path: Path) -> tuple[Array, Array]:
+    """A line scan as SurfaceTopography reads it, heights in the unit of the lengths."""
     try:
         import SurfaceTopography  # noqa: PLC0415 -- an extra
     except ImportError:
         raise ValueError(
-            f'{path.name} is no text file by its suffix: SurfaceTopography may read it, pip install "plane-contact[traces]"; '
-            f"text has one of the suffixes {', '.join(filter(None, FORMATS))}"
+            f"{path.name} is no text file by its suffix: SurfaceTopography may read it, "
+            'pip install "plane-contact[traces]"; '
+            f"text has one of the suffixes {', '.join(filter(None, TEXT))}"
         ) from None
     try:
         topography: Any = SurfaceTopography.read_topography(str(path))
@@ -124,43 +158,42 @@ def read_topography(path: str | Path) -> tuple[Array, Array]:
         ) from None
     if topography.dim != 1:
         raise ValueError(
-            f"{path.name} holds a map, {topography.nb_grid_pts} points: give a line scan, or one line of it as Sampled(x, h)"
+            f"{path.name} holds a map, {topography.nb_grid_pts} points: "
+            "give a line scan, or one line of it as Sampled(x, h)"
         )
     x, h = topography.positions_and_heights()
-    return np.asarray(x, dtype=float).ravel(), np.ma.filled(
-        np.ma.asarray(h, dtype=float), np.nan
-    ).ravel()
+    heights: Array = np.ma.filled(np.ma.asarray(h, dtype=float), np.nan)
+    return np.asarray(x, dtype=float).ravel(), heights.ravel()
 
 
-def is_text(path: str | Path) -> bool:
-    return Path(path).suffix.lower() in FORMATS
-
-
-def _table(
-    path: Path, skip: int, most: tuple[int, int]
-) -> tuple[list[list[str]], int, list[str], str]:
-    """(cells of every line, the first line with numbers, names of the columns, separator)."""
-    lines = _text(path, most).splitlines()[skip:]
+def _table(file: str, data: bytes, skip: int, limit: Limit) -> Table:
+    lines = _text(file, data, limit.lines).splitlines()[skip:]
     separator = _separator(lines)
     split = [_cells(line, separator) for line in lines]
     start = _first_row(split, separator)
     if start is None:
         raise ValueError(
-            f"{path.name} has no line with two numbers: give a text file with columns, or skip fewer lines"
+            f"{file} has no line with two numbers: "
+            "give a text file with columns, or skip fewer lines"
         )
-    header: list[str] = []
-    for line in lines[:start][
-        ::-1
-    ]:  # the last line before them that names as many columns, be it a comment
+    rows = tuple((k + skip + 1, cells) for k, cells in enumerate(split) if k >= start and cells)
+    return Table(file, rows, _header(lines[:start], separator, len(split[start])), separator)
+
+
+def _header(lines: list[str], separator: str, width: int) -> tuple[str, ...]:
+    """The names in the last of the lines that has as many cells as the table; comments count."""
+    for line in reversed(lines):
         names = _cells(line.lstrip("#% "), separator)
-        if len(names) == len(split[start]):
-            header = [_bare_name(name) for name in names]
-            break
-    return split, start, header, separator
+        if len(names) == width:
+            return tuple(_bare_name(name) for name in names)
+    return ()
 
 
 def _first_row(split: list[list[str]], separator: str) -> int | None:
-    """The first line with two numbers: a sentence that has two is none, if it has words and another number of cells than most lines."""
+    """The index of the first line of the table: one with two numbers.
+
+    A sentence may hold two numbers too. It has words, and another number of cells than most lines.
+    """
     rows = [k for k, cells in enumerate(split) if sum(_finite(c, separator) for c in cells) >= 2]
     usual = Counter(len(split[k]) for k in rows).most_common(1)
     return next(
@@ -174,15 +207,14 @@ def _first_row(split: list[list[str]], separator: str) -> int | None:
     )
 
 
-def _text(path: Path, most: tuple[int, int]) -> str:
-    data = files.content(path, most[0])
-    if data.count(b"\n") > most[1]:
+def _text(file: str, data: bytes, most_lines: int) -> str:
+    if data.count(b"\n") > most_lines:
         raise ValueError(
-            f"{path.name} has more than {most[1]} lines: thin the points out, for instance keep every tenth"
+            f"{file} has more than {most_lines} lines: "
+            "thin the points out, for instance keep every tenth"
         )
-    for encoding in (
-        ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "latin-1")
-    ):
+    utf16 = data[:2] in (b"\xff\xfe", b"\xfe\xff")
+    for encoding in ("utf-16",) if utf16 else ("utf-8-sig", "latin-1"):
         try:
             text = data.decode(encoding)
         except UnicodeDecodeError:
@@ -190,12 +222,12 @@ def _text(path: Path, most: tuple[int, int]) -> str:
         if "\0" not in text:
             return text
     raise ValueError(
-        f"{path.name} is not a text file: export the trace as text, or give it the suffix of its format"
+        f"{file} is not a text file: export the trace as text, or give it the suffix of its format"
     )
 
 
 def _separator(lines: list[str]) -> str:
-    """Semicolon before tab before comma, as the lines that hold numbers have it; blanks otherwise."""
+    """The first of semicolon, tab and comma that most lines with numbers contain, else blanks."""
     body = [_bare(line) for line in lines if re.search(r"\d", _bare(line))]
     for candidate in (";", "\t", ","):
         if sum(candidate in line for line in body) > len(body) // 2:
@@ -204,7 +236,7 @@ def _separator(lines: list[str]) -> str:
 
 
 def _decimal_commas(body: list[str]) -> bool:
-    """Whether blanks stand between numbers in whose midst a comma stands: "0,5  1,25", but not "0, 5" or "0.5,1.25"."""
+    """Whether commas are decimal and blanks separate: "0,5  1,25", but not "0, 5" or "0.5,1.25"."""
     columns = re.compile(rf"{DECIMAL_COMMA}(\s+{DECIMAL_COMMA})+")
     return sum(columns.fullmatch(line) is not None for line in body) > len(body) // 2
 
@@ -237,22 +269,6 @@ def _value(cell: str, separator: str) -> float | None:
 def _finite(cell: str, separator: str) -> bool:
     value = _value(cell, separator)
     return value is not None and math.isfinite(value)
-
-
-def _index(path: Path, column: Column, header: list[str], width: int) -> int:
-    if isinstance(column, str):
-        name = _bare_name(column)
-        if name not in header:
-            known = f"its header names {', '.join(header)}" if header else "it has no header"
-            raise ValueError(
-                f"{path.name} has no column {column!r}, {known}: give a name, or a number from 0 to {width - 1}"
-            )
-        return header.index(name)
-    if isinstance(column, bool) or not isinstance(column, Integral) or not 0 <= column < width:
-        raise ValueError(
-            f"{path.name} has no column {column!r}: it has {width}, give numbers from 0 to {width - 1}, or names of its header"
-        )
-    return int(column)
 
 
 def _bare_name(name: str) -> str:

@@ -1,6 +1,6 @@
-"""What the resolution of a function has not seen, looked for where it did not look.
+"""Features of a function that its resolution has missed.
 
-A function is known by its values at some points only. Two things tell that it changes between the
+A function is known by its values at some points only. Two tests show that it changes between the
 points of a resolution:
 
     its values differ from the resolved ones at the points of a low-discrepancy sequence,
@@ -38,7 +38,8 @@ SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 # Of the contact: how near to an edge points lie; there is one in each octave of the distance.
 CLOSEST, HALVINGS = 2.0**-40, 40
-MISSED = 32.0  # times what the resolution may miss of the largest slope: what differs by more was not seen
+# Times what the resolution may miss of the largest slope: a larger difference was not resolved.
+MISSED = 32.0
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
 MOST = 64  # places that are looked at more closely at once
@@ -78,7 +79,7 @@ def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
 def scattered(contact: Interval, start_at: int = 0) -> Array:
     """Points inside the contact, ascending: SAMPLES of the sequence that its edges determine.
 
-    And others that halve their distance from an edge down to CLOSEST of the contact.
+    Further points halve their distance from an edge, down to CLOSEST of the contact.
     """
     start = zlib.crc32(np.array([contact.x1, contact.x2]).tobytes()) / 2.0**32
     fractions = (start + GOLDEN * np.arange(start_at, start_at + SAMPLES)) % 1.0
@@ -98,7 +99,8 @@ def misfit(
 ) -> tuple[Array, Array]:
     """(x, how far the worst of some resolutions is from H) on scattered points.
 
-    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own making, and of x.
+    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own
+    making, and of x.
     """
     x = scattered(contact, start_at)
     if len(x) < 2:

@@ -1,12 +1,12 @@
-"""What a cycle of loading does: stress histories at points, slip on the surface, and the parameters that rank fretting damage.
+"""Stress histories of a cycle of loading, slip on the surface, and parameters of fretting damage.
 
-A cycle is a sequence of states, one Solution after each step of the load. What is needed of one: .pressure, .shear and .scene.bulk_stress
-(through `stress(x, y)`), and .slip(x), the tangential displacement of the body against the indenter.
+A cycle is a sequence of states, one Solution after each step of the load. Used of a state are
+.pressure, .shear and .scene.bulk_stress (through `stress(x, y)`), and .slip(x), the tangential
+displacement of the body against the indenter.
 
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
-    Ruiz (1984)        κ1 = max|q| δ, friction work, for wear;      κ2 = max σ_xx max|q| δ, for the start of cracks
-
-Ruiz, Boddington & Chen, Exp. Mech. 24 (1984) 208-217;  Hills & Nowell, Mechanics of Fretting Fatigue (1994), ch. 7.
+    Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
+                       κ2 = max σ_xx max|q| δ, for the start of cracks
 """
 
 from __future__ import annotations
@@ -57,10 +57,35 @@ class Range:
 
 @dataclass(frozen=True, eq=False)
 class Cycle:
-    """The states of a cycle of loading, in order; the last one closes it: `Cycle(follow(scene, path))`, or a part of that.
+    """A cycle of loading: the solutions after each of its steps, the last of which closes it.
 
-    What happens between two states is not looked at. Inside the body and in slip zones a stress may be largest there: follow
-    `path.subdivided(8)`. ValueError for fewer than two states.
+    Parameters
+    ----------
+    states : sequence of Solution
+        At least two; `Cycle(follow(scene, path))`, or a part of that.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two states.
+
+    Notes
+    -----
+    What happens between two states is not looked at. Inside the body and in slip zones a stress may
+    be largest there: follow `path.subdivided(8)`.
+
+    References
+    ----------
+    Ruiz, Boddington & Chen, Exp. Mech. 24 (1984) 208-217; Hills & Nowell, Mechanics of Fretting
+    Fatigue (1994), ch. 7.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5)
+    >>> cycle = sie.Cycle(sie.follow(scene, sie.Path([(1.0, 0.3), (1.0, -0.3), (1.0, 0.3)])))
+    >>> bool(cycle.friction_work(1.1) > cycle.friction_work(0.0) == 0.0)
+    True
     """
 
     states: Sequence[State]
@@ -76,12 +101,27 @@ class Cycle:
 
     @cached_property
     def size(self) -> int:
+        """How many states there are."""
         return len(self.states)
 
     def history(self, x: ArrayLike, y: ArrayLike) -> Array:
-        """The stress tensors at points (x, y) after every step, (steps, *shape, 3, 3): what a critical-plane code takes.
+        """The stress tensors at points after every step, as codes for critical planes take them.
 
-        Axes x, y (depth), z out of the plane; it needs Poisson's ratio for σ_zz.
+        Parameters
+        ----------
+        x, y : array_like of float
+            Positions and depths, length, broadcast against each other.
+
+        Returns
+        -------
+        ndarray of float
+            Stresses of shape (steps, ..., 3, 3), with the axes x, y (depth) and z out of the
+            plane.
+
+        Raises
+        ------
+        ValueError
+            If Poisson's ratio, which σ_zz needs, is not given.
         """
         shape = np.broadcast_shapes(np.shape(x), np.shape(y))
         out = np.zeros((self.size, *shape, 3, 3))
@@ -92,7 +132,18 @@ class Cycle:
         return out
 
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
-        """Lowest and highest value of xx, yy, xy at points over the cycle, and of zz where Poisson's ratio is known."""
+        """Lowest and highest stress components at points over the cycle.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Positions and depths, length, broadcast against each other.
+
+        Returns
+        -------
+        dict of str to Range
+            For "xx", "yy", "xy", and "zz" where Poisson's ratio is known.
+        """
         stresses = [state.stress(x, y) for state in self.states]
         names = (
             ("xx", "yy", "xy", "zz") if all(s.knows_zz for s in stresses) else ("xx", "yy", "xy")
@@ -101,10 +152,23 @@ class Cycle:
         return {name: Range(v.min(axis=0), v.max(axis=0)) for name, v in values}
 
     def shear_range(self, x: ArrayLike, y: ArrayLike) -> tuple[Array, Array]:
-        """(largest range of shear stress over all planes through the z axis, angle of that plane's normal from x), at points.
+        """The largest range of shear stress over all planes through the z axis, at points.
 
-        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2 + i σ_xy: over the cycle it ranges
-        over the width of the polygon of D in a direction, and a polygon is widest between two of its corners, |ΔD|.
+        Parameters
+        ----------
+        x, y : array_like of float
+            Positions and depths, length, broadcast against each other.
+
+        Returns
+        -------
+        tuple of ndarray of float
+            The range, stress, and the angle of the normal of its plane from x, radians.
+
+        Notes
+        -----
+        On the plane with its normal at the angle θ the shear is Im(D e^(2iθ)), D = (σ_yy - σ_xx)/2
+        + i σ_xy. Over the cycle it ranges over the width of the polygon of D in a direction, and a
+        polygon is widest between two of its corners, |ΔD|.
         """
         stresses = [state.stress(x, y) for state in self.states]
         D = np.stack([0.5 * (s.yy - s.xx) + 1j * s.xy for s in stresses])
@@ -115,16 +179,49 @@ class Cycle:
         return np.abs(widest), np.mod(0.5 * (0.5 * np.pi - np.angle(widest)), 0.5 * np.pi)
 
     def slip_range(self, x: ArrayLike) -> Range:
-        """Lowest and highest slip on the surface over the cycle; its `amplitude` is δ(x)."""
+        """Lowest and highest slip on the surface over the cycle.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, length.
+
+        Returns
+        -------
+        Range
+            Its `amplitude` is δ(x), length.
+        """
         slip = np.stack([np.asarray(state.slip(x)) for state in self.states])
         return Range(slip.min(axis=0), slip.max(axis=0))
 
     def friction_work(self, x: ArrayLike) -> Array:
-        """Ruiz' first parameter κ1 = max|q| δ, work per area: where the surface wears."""
+        """Ruiz' first parameter κ1 = max|q| δ: where the surface wears.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, length.
+
+        Returns
+        -------
+        ndarray of float
+            Work per area, same shape as x.
+        """
         q = np.stack([np.abs(state.shear(x)) for state in self.states]).max(axis=0)
         return q * self.slip_range(x).amplitude
 
     def ruiz(self, x: ArrayLike) -> Array:
-        """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ, 0 where the surface is never in tension: where cracks begin."""
+        """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ: where cracks begin.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, length.
+
+        Returns
+        -------
+        ndarray of float
+            Stress times work per area, same shape as x; 0 where the surface is never in tension.
+        """
         tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
         return np.maximum(tension, 0.0) * self.friction_work(x)

@@ -1,15 +1,18 @@
-"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q on its surface.
+"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q on its
+surface.
 
-With the potentials Fp(z) = 1/π ∫ p(t)/(z - t) dt and Fq likewise, z = x + iy, Φ = Fp - i Fq, and a bulk stress σ along x,
+With the potentials Fp(z) = 1/π ∫ p(t)/(z - t) dt and Fq likewise, z = x + iy, Φ = Fp - i Fq, and a
+bulk stress σ along x,
 
     s = (σ_xx + σ_yy)/2             =  Im Φ + σ/2
     D = (σ_yy - σ_xx)/2 + i σ_xy    =  -y Φ'(z) + Fq(z) - σ/2
     σ_zz = 2ν s (plane strain) or 0 (plane stress);      ω = (u_y,x - u_x,y)/2 = -(κ + 1)/(4μ) Re Φ
 
-(Muskhelishvili 1953, §§ 32, 93; Hills, Nowell & Sackfield 1993, ch. 3; the paper's (21)-(23) if its Φ̄(z) is read as conj Φ(z̄)). On the
-surface Fp = hilbert_p - i p, so that σ_yy = -p, σ_xy = -q, σ_xx = -p - 2 hilbert_q + σ: real arithmetic, no derivative, exact.
-Potentials are exact to the surface and free of cancellation far away; so are the stresses. s and D are what is kept: of the four
-components none is lost in another, and invariants follow without differences.
+(Muskhelishvili 1953, §§ 32, 93; Hills, Nowell & Sackfield 1993, ch. 3; the paper's (21)-(23) if its
+Φ̄(z) is read as conj Φ(z̄)). On the surface Fp = hilbert_p - i p, so that σ_yy = -p, σ_xy = -q,
+σ_xx = -p - 2 hilbert_q + σ: real arithmetic, no derivative, exact. Potentials are exact to the
+surface and free of cancellation far away; so are the stresses. s and D are what is kept: of the
+four components none is lost in another, and invariants follow without differences.
 """
 
 from __future__ import annotations
@@ -29,13 +32,15 @@ from sie.traction.base import Density, shallow
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# Points are taken in parts of this size: temporaries stay in the processor's cache, and few are ever as large as the whole.
+# Points are taken in parts of this size: temporaries stay in the processor's cache, and few are
+# ever as large as the whole.
 PART = 4096
 
 
 @dataclass(frozen=True, eq=False)
 class Tractions:
-    """What acts on the half-plane: p and q on its surface, a tension σ along x far below; and what it is made of.
+    """What acts on the half-plane: p and q on its surface, a tension σ along x far below; and what
+    it is made of.
 
     `poisson` and `body` may be None: then only what does not depend on them can be asked for.
     """
@@ -65,7 +70,8 @@ class Tractions:
     def known_poisson(self) -> float:
         if self.poisson is None:
             raise ValueError(
-                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or the body by young and poisson"
+                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
+                "the body by young and poisson"
             )
         return self.poisson
 
@@ -73,7 +79,8 @@ class Tractions:
     def known_body(self) -> Elastic:
         if self.body is None:
             raise ValueError(
-                "strains need the elastic constants of the body: give the body by young and poisson in place of modulus"
+                "strains need the elastic constants of the body: give the body by young and "
+                "poisson in place of modulus"
             )
         return self.body
 
@@ -113,18 +120,33 @@ class Gradients(NamedTuple):
 
 
 class Stress:
-    """The stress at points (x, y), y >= 0 the depth; every value an array of the broadcast shape, computed when it is asked for.
+    """The stress at points of the body; every value is computed when it is asked for.
 
-    xx, yy, xy, zz            components; tension is positive
-    in_plane_sum              xx + yy, for which no derivative of a potential is needed
-    in_plane_shear            the largest shear stress in the plane
-    j2, mises, max_shear      second invariant of the deviator; sqrt(3 J2); half the largest difference of principal stresses (Tresca)
-    principal                 (σ1, σ2, σ3), σ1 >= σ2 >= σ3, among them σ_zz
-    xx, yy, xy, zz = stress   all components at once
-    strain, gradients         Tensor and Gradients of the displacement, without the rigid rotation (at infinity it is 0)
+    Parameters
+    ----------
+    tractions : Tractions
+        What acts on the body.
+    x, y : array_like of float
+        Positions and depths, y >= 0, length. They are broadcast against each other, and every value
+        has the broadcast shape.
 
-    Where p is infinite (a sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both given as -inf.
-    ValueError for points above the surface, and where Poisson's ratio or the body is needed but not given.
+    Raises
+    ------
+    ValueError
+        For points above the surface, and where Poisson's ratio or the body is needed but not given.
+
+    Notes
+    -----
+    Tension is positive. `xx, yy, xy, zz = stress` unpacks the components. Where p is infinite (a
+    sharp edge, a jump of h') so are the stresses; σ1 and σ3 are then both given as -inf.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+    >>> solution = sie.solve(scene)
+    >>> bool(solution.stress(0.0, 0.0).yy == -solution.pressure(0.0))
+    True
     """
 
     def __init__(self, tractions: Tractions, x: ArrayLike, y: ArrayLike) -> None:
@@ -142,24 +164,28 @@ class Stress:
     def __iter__(self) -> Iterator[Array]:
         return iter((self.xx, self.yy, self.xy, self.zz))
 
-    # -- components ----------------------------------------------------------------------------------------------------
+    # -- components --------------------------------------------------------------------------------
 
     @property
     def xx(self) -> Array:
+        """σ_xx, ndarray of float, stress."""
         s, D = self._both
         return s - D.real
 
     @property
     def yy(self) -> Array:
+        """σ_yy, ndarray of float, stress."""
         s, D = self._both
         return s + D.real
 
     @property
     def xy(self) -> Array:
+        """σ_xy, ndarray of float, stress."""
         return self._both[1].imag.copy()
 
     @property
     def zz(self) -> Array:
+        """σ_zz, ndarray of float, stress: ν (σ_xx + σ_yy) in plane strain, 0 in plane stress."""
         t = self.tractions
         return _times(0.0 if t.plane == "stress" else 2.0 * t.known_poisson, self._s)
 
@@ -170,26 +196,30 @@ class Stress:
 
     @property
     def in_plane_sum(self) -> Array:
+        """σ_xx + σ_yy, for which no derivative of a potential is needed."""
         return 2.0 * self._s
 
-    # -- invariants ----------------------------------------------------------------------------------------------------
+    # -- invariants --------------------------------------------------------------------------------
 
     @property
     def in_plane_shear(self) -> Array:
+        """The largest shear stress in the plane."""
         return np.abs(self._both[1])
 
     @property
     def j2(self) -> Array:
-        """½ s:s = |D|² + (s - σ_zz)²/3."""
+        """Second invariant of the deviator, ½ s:s = |D|² + (s - σ_zz)²/3, stress²."""
         s, D = self._both
         return D.real**2 + D.imag**2 + _times(self.tractions.out_of_plane, s) ** 2 / 3.0
 
     @property
     def mises(self) -> Array:
+        """Von Mises stress √(3 J2)."""
         return np.sqrt(3.0 * self.j2)
 
     @property
     def max_shear(self) -> Array:
+        """Half the largest difference of principal stresses (Tresca)."""
         shear = self.in_plane_shear
         return np.maximum(
             shear, 0.5 * (shear + np.abs(_times(self.tractions.out_of_plane, self._s)))
@@ -197,17 +227,23 @@ class Stress:
 
     @property
     def principal(self) -> tuple[Array, Array, Array]:
+        """Principal stresses (σ1, σ2, σ3), σ1 >= σ2 >= σ3, with σ_zz among them."""
         s, shear, zz = self._s, self.in_plane_shear, self.zz
         finite = np.isfinite(shear)
         high = np.where(finite, s + np.where(finite, shear, 0.0), s)
         low = s - shear
         return np.maximum(high, zz), np.maximum(np.minimum(high, zz), low), np.minimum(low, zz)
 
-    # -- deformation ---------------------------------------------------------------------------------------------------
+    # -- deformation -------------------------------------------------------------------------------
 
     @property
     def strain(self) -> Tensor:
-        """Hooke's law, 2μ ε = σ - (3 - κ)/4 (σ_xx + σ_yy) 1 in the plane."""
+        """Strains, a `Tensor` of arrays.
+
+        Notes
+        -----
+        Hooke's law, 2μ ε = σ - (3 - κ)/4 (σ_xx + σ_yy) 1 in the plane.
+        """
         body = self.tractions.known_body
         two_mu = 2.0 * body.shear_modulus
         s, D = self._both
@@ -217,17 +253,19 @@ class Stress:
 
     @property
     def gradients(self) -> Gradients:
+        """Displacement gradients, a `Gradients` of arrays; the rotation at infinity is 0."""
         e, body = self.strain, self.tractions.known_body
         rotation = -(body.kolosov + 1.0) / (4.0 * body.shear_modulus) * self._real_potential
         infinite = np.isinf(rotation) & (e.xy == -rotation)
         if not infinite.any():
             return Gradients(e.xx, e.xy - rotation, e.xy + rotation, e.yy)
-        # q outweighs the rest of Re Φ = hilbert_p - q there: 4μ u_x,y ~ -(κ + 3) q, 4μ u_y,x ~ (κ - 1) q
+        # q outweighs the rest of Re Φ = hilbert_p - q there: 4μ u_x,y ~ -(κ + 3) q, 4μ u_y,x ~ (κ -
+        # 1) q
         finite = np.where(infinite, 0.0, rotation)
         xy, yx = e.xy - finite, np.where(infinite, _times(1.0 - body.kolosov, e.xy), e.xy + finite)
         return Gradients(e.xx, xy, yx[()], e.yy)
 
-    # -- the potentials, part by part ----------------------------------------------------------------------------------
+    # -- the potentials, part by part --------------------------------------------------------------
 
     @property
     def _s(self) -> Array:
@@ -248,7 +286,7 @@ class Stress:
         return s, D
 
     def _filled(self, function: Any, kind: type, second: Any = None) -> Any:
-        """function(x, y, surface?) over all points, in parts of one kind: on the surface or below."""
+        """function(x, y, surface?) over all points, in parts on the surface and parts below."""
         first: Any = np.empty(self.x.shape, dtype=kind)
         outs = [out.reshape(-1) for out in (first, second) if out is not None]
         x, y = (v.reshape(-1) if v.flags.c_contiguous else v.flat for v in (self.x, self.y))
@@ -296,7 +334,9 @@ class Stress:
 
 
 def hilbert_of_shear(tractions: Tractions, x: Array, p: Array) -> Array:
-    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is infinite too and outweighs it."""
+    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is
+    infinite too and outweighs it.
+    """
     values = tractions.shear.hilbert(x)
     return np.where(np.isinf(p) & np.isinf(values), 0.0, values)
 

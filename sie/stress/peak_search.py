@@ -1,24 +1,27 @@
-"""The largest value that a measure of the stress takes in the body: scanned on the scale of its singularities, polished by Newton.
-
-Where the maxima can hide.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it; what is not smooth
-are the edges and breaks of the tractions, the marks. So on a disc that keeps away from these by its own radius the stress is a fast
-convergent power series, and a scan whose cells are as large as a fraction of
+"""The largest value of a measure of stress in the body: scanned at every scale, polished by Newton.
+ Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
+What is not smooth are the edges and breaks of the tractions, the marks. On a disc that keeps away
+from these by its own radius the stress is a fast convergent power series, so that a scan whose
+cells are as large as a fraction of
 
     s(x) = min_j (|x - m_j| + g_j),      m_j the marks, g_j a fraction of the gap to the next one
 
-resolves it equally well at every scale: a rim of 1e-6 b has as many cells as the whole contact. Where the slope of a traction is infinite
-the stress goes like r ln r, or like the root of r, with the distance r. Beside a falling term k r that has a maximum at a distance
-of exp(-k), however small: there g_j is FINEST. The scan goes from the depth up to the surface, and leaves out what is too small, at one
-scale and on the surface, to be the largest at a finer one. Every local maximum of the scan becomes a start, with its neighbours to both
-sides, because two maxima may lie on either side of a saddle under the centre; so does what lies beneath a maximum of the surface from which
-the measure grows inwards.
+resolves it equally well at every scale: a rim of 1e-6 b has as many cells as the whole contact.
+Where the slope of a traction is infinite the stress goes like r ln r, or like the root of r, with
+the distance r. Beside a falling term k r that has a maximum at a distance of exp(-k), however
+small: there g_j is FINEST. The scan goes from the depth up to the surface, and leaves out what is
+too small, at one scale and on the surface, to be the largest at a finer one. Every local maximum of
+the scan becomes a start, with its neighbours to both sides, because two maxima may lie on either
+side of a saddle under the centre; so does what lies beneath a maximum of the surface from which the
+measure grows inwards.
 
-Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with ρ = y/400 exact to 400^-N,
+Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with
+ρ = y/400 exact to 400^-N,
 
     F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
-
-so that gradient and Hessian are those of the stress itself, no finite differences. On the surface the derivative is
-Fp' there, and its sign changes are bracketed between neighbouring columns, of which every edge and break is one.
+ so that gradient and Hessian are those of the stress itself, without finite differences. On the
+surface the derivative is Fp' there, and its sign changes are bracketed between neighbouring
+columns, of which every edge and break is one.
 """
 
 from __future__ import annotations
@@ -30,6 +33,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.root_finding import false_positions
+
 from .half_plane import Tractions, hilbert_of_shear, potentials
 
 Array = NDArray[np.float64]
@@ -39,7 +44,9 @@ NEAR, NEAR_OF_MANY = (
     0.05,
     1.0,
 )  # g of a mark: this fraction of the smaller gap beside it, more where there are many marks
-FINEST = 1e-12  # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is rounding
+# g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is
+# rounding
+FINEST = 1e-12
 RESOLVED = 1e-8  # half-widths: how near to each other many marks are looked at
 MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
 SHALLOW = 0.06  # of s: where a column begins
@@ -47,16 +54,15 @@ OUTSIDE = 1.8  # half-widths: how far beside the contact the scan looks, and ...
 FAR = 1e3  # ... the surface
 DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
 LEVELS = 6  # depths between two decisions of what to leave out
-SPACING, CELL = (
-    0.15,
-    0.03,
-)  # of the depth: columns nearer to a mark than that are left out, and others nearer to each other than that
+# of the depth: columns nearer to a mark are left out, and others nearer to each other
+SPACING, CELL = 0.15, 0.03
 ALONE = 8.0  # depths: columns farther apart are no neighbours
-HOPELESS, WINDOW = (
-    0.8,
-    4.0,
-)  # what stays below this fraction of the largest value at one scale, on a surface so many depths wide, is left
-WORTH = 0.85  # of the largest value known: maxima of the scan below it, which is off by its curvature over a cell, are not polished
+# what stays below this fraction of the largest value at one scale, on a surface so many depths
+# wide, is left
+HOPELESS, WINDOW = 0.8, 4.0
+# of the largest value known: maxima of the scan below it, which is off by its curvature over a
+# cell, are not polished
+WORTH = 0.85
 MOST_STARTS = 48
 CIRCLE, RADIUS = (
     6,
@@ -73,19 +79,23 @@ SAME_VALUE, STUCK = (
     1e-9,
 )  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
 TOGETHER = 1e-3  # of the depth
-LEFT = 0.25  # of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the surface
+# of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the
+# surface
+LEFT = 0.25
 INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
-ROOT_STEPS, BISECT_AFTER = 80, 12
-AT_MARK = 1e-9  # of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
+# of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
+AT_MARK = 1e-9
 BENEATH = 1e-100  # half-widths: so near to where p is infinite that nothing else is left
-ROOT_SETTLED = 1e-9  # of the bracket: the last step of a method that converges faster and faster leaves much less
 # Maxima this close in value are tied, this close in place (of the half-width) the same.
 TIED, SAME_PLACE = 1e-10, 1e-7
-RISING = 1e-4  # half-widths: so near to a place on the surface one below that is tied with it is the same
+# half-widths: so near to a place on the surface one below that is tied with it is the same
+RISING = 1e-4
 
 
 class Local(NamedTuple):
-    """s, D_r, D_i and their derivatives in units of the depth, each with a first axis (s, D_r, D_i) of length 3."""
+    """s, D_r, D_i and their derivatives in units of the depth, each with a first axis (s, D_r, D_i)
+    of length 3.
+    """
 
     value: Array
     x: Array
@@ -96,7 +106,9 @@ class Local(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...): its value, gradient (3, ...), Hessian (3, 3, ...)."""
+    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...): its value,
+    gradient (3, ...), Hessian (3, 3, ...).
+    """
 
     value: Callable[[Array], Array]
     gradient: Callable[[Array], Array]
@@ -110,7 +122,9 @@ class Maximum(NamedTuple):
 
 
 def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
-    """The largest value in the body, with every place where it is taken (ties within TIED), those on the left first."""
+    """The largest value in the body, with every place where it is taken (ties within TIED), those
+    on the left first.
+    """
     mesh = mesh_of(tractions)
     above = surface_values(tractions, mesh.x)
     found = [
@@ -123,7 +137,8 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     tied = [m for m in found if m.value == best or m.value >= best * (1.0 - TIED)]
     ties: list[Maximum] = []
     for m in sorted(tied, key=lambda m: (m.y > 0.0, -m.value)):
-        # Towards a jump of h' the largest value is approached: what is tied with it on the way is not another place
+        # Towards a jump of h' the largest value is approached: what is tied with it on the way is
+        # not another place
         apart = (RISING if m.y else SAME_PLACE) * r
         if all(
             abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r)
@@ -133,11 +148,13 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     return tuple(sorted(ties, key=lambda m: m.x))
 
 
-# -- where the scan looks ----------------------------------------------------------------------------------------------
+# -- where the scan looks --------------------------------------------------------------------------
 
 
 class Mesh(NamedTuple):
-    """Marks with their g, and columns of the scan, marks among them, with their distances from the next mark; all ascending."""
+    """Marks with their g, and columns of the scan, marks among them, with their distances from the
+    next mark; all ascending.
+    """
 
     marks: Array
     g: Array
@@ -182,7 +199,9 @@ def mesh_of(tractions: Tractions) -> Mesh:
 
 
 def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
-    """(marks, distances) of columns beside them, in cells that grow in proportion to the distance plus g."""
+    """(marks, distances) of columns beside them, in cells that grow in proportion to the distance
+    plus g.
+    """
     step = 0.5 * np.log(
         RATIO
     )  # at every depth the columns beside a mark then lie in the same directions from it
@@ -194,13 +213,15 @@ def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
     return k[inside], d[inside]
 
 
-# -- inside ------------------------------------------------------------------------------------------------------------
+# -- inside ----------------------------------------------------------------------------------------
 
 
 def inside(
     tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: list[Maximum]
 ) -> list[Maximum]:
-    """Local maxima below the surface that may be larger than the known ones; `above` are the values over the columns."""
+    """Local maxima below the surface that may be larger than the known ones; `above` are the values
+    over the columns.
+    """
     best = max(m.value for m in known)
     if np.isinf(best):
         return []
@@ -212,7 +233,8 @@ def inside(
     )
     if not starts.size:
         return []
-    # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest value is not taken anywhere
+    # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest
+    # value is not taken anywhere
     z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts)))
     values = measure.value(_values(tractions, z))
     return [
@@ -294,9 +316,11 @@ def _rows(
 
 
 def _bounds(x: Array, above: Array, window: float) -> Array:
-    """About how large |s|, |D_r| and |D_i| may be at a depth below the window's width, from the surface within the windows around x.
+    """About how large |s|, |D_r| and |D_i| may be at a depth below the window's width, from the
+    surface within the windows around x.
 
-    s and Fq are harmonic, and y Φ' is not larger than the oscillation of Φ around it, but for a factor of 2/π.
+    s and Fq are harmonic, and y Φ' is not larger than the oscillation of Φ around it, but for a
+    factor of 2/π.
     """
     cell = np.floor((x - x[0]) / window)
     first = np.flatnonzero(np.append(True, cell[1:] != cell[:-1]))
@@ -312,7 +336,9 @@ def _bounds(x: Array, above: Array, window: float) -> Array:
 
 
 def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[float]) -> Complex:
-    """Starts beneath those maxima of the surface from which the measure grows inwards: each the best of some depths."""
+    """Starts beneath those maxima of the surface from which the measure grows inwards: each the
+    best of some depths.
+    """
     x = np.array(places)
     x = x[~np.isin(x, tractions.marks)]
     if x.size:
@@ -326,7 +352,9 @@ def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[fl
 
 
 def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> Complex:
-    """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that leave through the surface are dropped."""
+    """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that
+    leave through the surface are dropped.
+    """
     rest: list[Complex] = []
     lowest = LEFT * np.minimum(z.imag, SHALLOW * mesh.scale(z.real))
     before, value, trust = z, np.full(z.shape, -np.inf), np.full(z.shape, LONGEST)
@@ -366,7 +394,9 @@ def _distinct(z: Complex, *others: Any) -> tuple[Any, ...]:
 
 
 def _newton(measure: Measure, at: Local) -> Complex:
-    """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as negative: from anywhere it leads uphill."""
+    """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as
+    negative: from anywhere it leads uphill.
+    """
     g, G = measure.gradient(at.value), measure.hessian(at.value)
     gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
     Gx, Gy = (G * at.x).sum(axis=1), (G * at.y).sum(axis=1)
@@ -394,7 +424,9 @@ def _values(tractions: Tractions, z: Complex) -> Array:
 
 
 def _local(tractions: Tractions, z: Complex) -> Local:
-    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d): from the potentials on circles inside."""
+    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d): from the
+    potentials on circles inside.
+    """
     y = z.imag
     omega = np.exp(2j * np.pi * np.arange(CIRCLE) / CIRCLE)
     circle = (z[:, None] + (y / RADIUS)[:, None] * omega).ravel()
@@ -415,11 +447,13 @@ def _local(tractions: Tractions, z: Complex) -> Local:
     return Local(*rows)
 
 
-# -- on the surface ----------------------------------------------------------------------------------------------------
+# -- on the surface --------------------------------------------------------------------------------
 
 
 def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array) -> list[Maximum]:
-    """Local maxima along the surface that may be the largest; edges and breaks are taken as they are."""
+    """Local maxima along the surface that may be the largest; edges and breaks are taken as they
+    are.
+    """
     far = 0.5 * float(mesh.marks[-1] - mesh.marks[0]) * np.geomspace(OUTSIDE, FAR, 12)
     far_left, far_right = mesh.marks[0] - far[::-1], mesh.marks[-1] + far
     x = np.concatenate((far_left, mesh.x, far_right))
@@ -434,7 +468,8 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
     floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
     columns = top
-    # Between columns a concave top rises above the middle one by no more than that falls to a neighbour
+    # Between columns a concave top rises above the middle one by no more than that falls to a
+    # neighbour
     fall = value[top] - np.minimum(padded[top], padded[top + 2])
     top = top[(fall > 0.0) & (value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best)]
     left = np.unique(np.concatenate((top - 1, top)))
@@ -445,7 +480,7 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
         lo + np.where(np.isin(lo, tractions.marks), inset, 0.0),
         hi - np.where(np.isin(hi, tractions.marks), inset, 0.0),
     )
-    roots = _roots(lambda t: _slope(tractions, measure, t), lo, hi)
+    roots = false_positions(lambda t: _slope(tractions, measure, t), lo, hi)
     at_root = measure.value(surface_values(tractions, roots))
     highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
     np.maximum.at(highest, np.searchsorted(x, roots), at_root)
@@ -459,10 +494,12 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
 
 
 def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
-    """What a measure of D alone (an incompressible body) tends to where p is infinite: on the surface itself D knows nothing of it.
+    """What a measure of D alone (an incompressible body) tends to where p is infinite: on the
+    surface itself D knows nothing of it.
 
-    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C sin θ e^(-iθ) in the direction θ, on a
-    circle of diameter |C| through Fq: the largest |D| is |Fq + iC/2| + |C|/2.
+    At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C
+    sin θ e^(-iθ) in the direction θ, on a circle of diameter |C| through Fq: the largest |D| is |Fq
+    + iC/2| + |C|/2.
     """
     x = tractions.marks
     x = x[np.isinf(tractions.pressure(x))]
@@ -485,7 +522,7 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
 
 
 def surface_values(tractions: Tractions, x: Array) -> Array:
-    """(s, D_r, D_i) on the surface, (3, n); at the edges of the contact their limits from inside."""
+    """(s, D_r, D_i) on the surface, (3, n); at the edges their limits from inside the contact."""
     p, q = tractions.pressure(x), tractions.shear(x)
     hilbert = hilbert_of_shear(tractions, x, p)
     if tractions.shear.interval == tractions.pressure.interval:
@@ -503,7 +540,9 @@ def surface_values(tractions: Tractions, x: Array) -> Array:
 
 
 def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = False) -> Array:
-    """d/dx, or d/dy, of the measure on the surface in units of the half-width, off edges and breaks: the potentials' limit, y Φ' = 0."""
+    """d/dx, or d/dy, of the measure on the surface in units of the half-width, off edges and
+    breaks: the potentials' limit, y Φ' = 0.
+    """
     x1, x2 = tractions.pressure.interval
     Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
     for density, p, q in tractions.combined:
@@ -519,37 +558,10 @@ def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = Fal
     return (measure.gradient(value) * derivative).sum(axis=0)
 
 
-def _roots(slope: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
-    """Where the slope falls through 0 between lo and hi, of those pairs where it does (Illinois' method with bisection)."""
-    a, b = lo, hi
-    fa, fb = slope(np.stack((a, b)).ravel()).reshape(2, -1)
-    falls = (fa > 0.0) & (fb < 0.0)
-    a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
-    x, enough, last = 0.5 * (a + b), ROOT_SETTLED * (b - a), np.zeros(a.shape)
-    for k in range(ROOT_STEPS if x.size else 0):
-        before = x
-        middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
-        x = np.where(
-            (secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle
-        )
-        f = slope(x)
-        up = f > 0.0
-        again = np.where(
-            last == np.where(up, 1.0, -1.0), 0.5, 1.0
-        )  # an end kept twice loses weight
-        fb, fa, last = (
-            np.where(up, again * fb, f),
-            np.where(up, f, again * fa),
-            np.where(up, 1.0, -1.0),
-        )
-        a, b = np.where(up, x, a), np.where(up, b, x)
-        if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
-            break
-    return x
-
-
 def _thinned(x: Array, spacing: float) -> Array:
-    """A subset of x (ascending) with one of every cell of that width, so that depth decides how many columns there are."""
+    """A subset of x (ascending) with one of every cell of that width, so that depth decides how
+    many columns there are.
+    """
     cell = np.floor((x - x[:1]) / spacing)
     return x[np.append(np.ones(min(len(x), 1), dtype=bool), cell[1:] != cell[:-1])]
 

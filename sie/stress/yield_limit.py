@@ -1,11 +1,13 @@
-"""What the contact does to the material: the load at which the body yields first, and the largest tension on its surface.
+"""The first-yield load of a body, and the largest tension on its surface.
 
     von Mises   J2 = ½ s:s = |D|² + (s - σ_zz)²/3 = k²               (k: yield stress in shear)
     Tresca      max( |D|, (|D| + |s - σ_zz|)/2 ) = k
 
-with s and D of `field`. Stresses grow in proportion to the load in a contact of given edges (stiffer bodies under more load), so that
-P/k = P/√J2 is what one solution tells; charts show P/(bk). The largest J2 may be taken twice (either side of the centre, for a/b > 0.1277
-of the frictionless rounded punch), in a flat valley, or jump to the surface as friction grows: `maxima` finds all, and ties are kept.
+with s and D of `half_plane`. Stresses grow in proportion to the load in a contact of given edges
+(stiffer bodies under more load), so that one solution gives P/k = P/√J2; charts show P/(bk). The
+largest J2 may be reached twice (either side of the centre, for a/b > 0.1277 of the frictionless
+rounded punch), in a flat valley, or jump to the surface as friction grows: `peak_search` finds all,
+and ties are kept.
 """
 
 from __future__ import annotations
@@ -30,12 +32,23 @@ CRITERIA = ("mises", "tresca")
 class YieldPoint:
     """Where a body yields first.
 
-    load      P/k, a length: times the yield stress in shear k it is the load under which a contact of these edges begins to yield
-    x, y      where: the leftmost place if there are several; y = 0 on the surface
-    j2        the second invariant there, under the load of the solution
-    stress    what the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca), under that load
-    half_width, places     b, and all places where the largest value is taken
-    ratio     P/(bk), as in charts
+    Parameters
+    ----------
+    load : float
+        P/k, length: times the yield stress in shear k it is the load under which a contact of these
+        edges begins to yield.
+    x, y : float
+        Position and depth, length; of several places the leftmost. y = 0 is the surface.
+    j2 : float
+        Second invariant of the stress deviator there, stress², under the load of the solution.
+    stress : float
+        What the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca).
+    half_width : float
+        Half-width b of the contact, length.
+    places : tuple of tuple of float
+        All places (x, y) where the largest value is reached.
+    criterion : {"mises", "tresca"}
+        Yield criterion.
     """
 
     load: float
@@ -49,15 +62,25 @@ class YieldPoint:
 
     @property
     def ratio(self) -> float:
+        """P/(bk), as in charts."""
         return self.load / self.half_width
 
     @property
     def on_surface(self) -> bool:
+        """Whether the body yields first on its surface."""
         return self.y == 0.0
 
 
 class Peak(NamedTuple):
-    """The largest tension on the surface and where it is."""
+    """The largest tension on the surface, and where it is.
+
+    Parameters
+    ----------
+    value : float
+        σ_xx, stress.
+    x : float
+        Position, length.
+    """
 
     value: float
     x: float
@@ -66,7 +89,10 @@ class Peak(NamedTuple):
 def elastic_limit(
     tractions: Tractions, normal_load: float, criterion: Criterion = "mises"
 ) -> YieldPoint:
-    """The yield point of a body under these tractions. ValueError for an unknown criterion, or if Poisson's ratio is needed and missing."""
+    """The yield point of a body under these tractions.
+
+    ValueError for an unknown criterion, or if Poisson's ratio is needed and missing.
+    """
     if not arguments.among(criterion, CRITERIA):
         raise ValueError(f'criterion = "{criterion}" is not known: give "mises" or "tresca"')
     kappa = tractions.out_of_plane
@@ -89,9 +115,11 @@ def elastic_limit(
 
 
 def peak_tension(tractions: Tractions) -> Peak:
-    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface away from it.
+    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface
+    away from it.
 
-    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is the farthest place that was looked at.
+    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is
+    the farthest place that was looked at.
     """
     for edge, x, outward in zip(
         tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True
@@ -108,7 +136,7 @@ def peak_tension(tractions: Tractions) -> Peak:
     return Peak(max(best, tractions.bulk_stress) + 0.0, x)
 
 
-# -- measures of the stress, as functions of v = (s, D_r, D_i) ---------------------------------------------------------
+# -- measures of the stress, as functions of v = (s, D_r, D_i) -------------------------------------
 
 
 def _quadratic(factor: float) -> Measure:

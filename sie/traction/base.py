@@ -1,12 +1,14 @@
-"""A traction on a contact: its value, resultant, moment and Cauchy integral.
+"""A traction on a contact: its value, resultant, moment and Cauchy potential.
 
-    p(x)                                                       0 outside the contact, inf where it is infinite
-    hilbert(x)    =  1/π PV∫ p(t)/(x - t) dt                   on the whole surface
-    cauchy(z)     =  1/π ∫ p(t)/(z - t) dt                     the potential Fp of the half-plane; at x ± i0: hilbert ∓ i p (Plemelj)
-    cauchy_derivative(z) = Fp'(z);  potentials(z) = both, which share their logarithms
+    p(x)                    0 outside the contact, inf where it is infinite
+    hilbert(x)              1/π PV∫ p(t)/(x - t) dt on the whole surface
+    cauchy(z)               1/π ∫ p(t)/(z - t) dt, the potential F of the half-plane
+    cauchy_derivative(z)    F'(z);  potentials(z) is both, which share their logarithms
 
-Those whose slope is known are in `slope_density`, sums in `superposition`, solutions of Cauchy equations in `jacobi_density`.
-(Muskhelishvili, Singular Integral Equations, 1953, §§ 16-17.)
+At x ± i0 the potential is hilbert ∓ i p (Plemelj). Tractions whose slope is known are in
+`of_slope`, sums in `combination`, solutions of Cauchy equations in `sie.cauchy.density`.
+
+Reference: Muskhelishvili, Singular Integral Equations (1953), §§ 16-17.
 """
 
 from __future__ import annotations
@@ -26,8 +28,9 @@ from sie import arguments
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# The derivative on the surface is its value at this depth, in half-widths: closed forms keep all digits there, and 1/depth is finite.
-# However small the contact, that depth is no underflow: at a depth of 0 the side of the surface would be lost.
+# The derivative on the surface is its value at this depth, in half-widths: closed forms keep all
+# digits there, and 1/depth is finite. However small the contact, that depth is no underflow: at a
+# depth of 0 the side of the surface would be lost.
 SHALLOW, SHALLOWEST = 1e-290, 1e-300
 # Sizes of a traction at which it is a point force to all digits, and squares are no overflow yet.
 FAR_AWAY, LARGEST = 1e100, 1e308
@@ -39,7 +42,9 @@ def shallow(half_width: float) -> float:
 
 
 def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
-    """function(x) of a function of finite x (1-d), in the shape of x: 0 where x is infinite, nan where it is nan."""
+    """function(x) of a function of finite x (1-d), in the shape of x: 0 where x is infinite, nan
+    where it is nan.
+    """
     x = arguments.reals("x", x)
     flat = x.ravel()
     out, finite = zero_or_nan(flat), np.isfinite(flat)
@@ -49,7 +54,9 @@ def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
 
 
 def zero_or_nan(z: Any) -> Any:
-    """What a traction and its integrals are where it does not act, infinitely far away included: 0, but nan at nan."""
+    """What a traction and its integrals are where it does not act, infinitely far away included: 0,
+    but nan at nan.
+    """
     nan = complex(np.nan, np.nan) if np.iscomplexobj(z) else np.nan
     return np.where(np.isnan(z), nan, 0.0)
 
@@ -62,7 +69,7 @@ def on_surface(hilbert: Array, p: Array, side: int) -> Complex:
 
 
 def reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
-    """function(z) of a function known for Im z > 0 that has conjugate values at conjugate points."""
+    """function(z) of a function known for Im z > 0, with conjugate values at conjugate points."""
     lower = z.imag < 0.0
     if not lower.any():
         return function(z)
@@ -72,7 +79,9 @@ def reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
 
 
 def in_order(function: Callable[[Array], Any], x: Array) -> Any:
-    """function(x) for a function that wants x ascending and returns one array or several of its shape."""
+    """function(x) for a function that wants x ascending and returns one array or several of its
+    shape.
+    """
     if x.size < 2 or (x[1:] >= x[:-1]).all():
         return function(x)
     order = np.argsort(x, kind="stable")
@@ -85,14 +94,37 @@ def in_order(function: Callable[[Array], Any], x: Array) -> Any:
 def refuse_side(side: int) -> None:
     if not arguments.among(side, (-1, 0, 1)):
         raise ValueError(
-            f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from the other side"
+            f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from "
+            "the other side"
         )
 
 
 class Density(ABC):
-    """A traction p(x) on the surface, in units of stress; x and z in units of length. Far away all is 0; at nan it is nan.
+    """A traction p(x) on the surface.
 
-    Attributes: `interval` (the two edges), `resultant` = ∫p dx, `moment` = ∫p x dx about x = 0.
+    Far away it is 0, and so are its integrals; at nan all are nan. All stresses have one unit, and
+    all lengths.
+
+    Attributes
+    ----------
+    interval : tuple of float
+        The two edges, as lengths.
+    resultant : float
+        ∫p dx, a force per unit length.
+    moment : float
+        ∫p x dx about x = 0.
+
+    References
+    ----------
+    Muskhelishvili, Singular Integral Equations (1953), §§ 16-17.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, normal_load=0.1)
+    >>> p = sie.solve(scene).pressure
+    >>> round(p.resultant, 12), p([-9.0, 9.0]).tolist()
+    (0.1, [0.0, 0.0])
     """
 
     resultant: float
@@ -100,28 +132,95 @@ class Density(ABC):
 
     @property
     @abstractmethod
-    def interval(self) -> tuple[float, float]: ...
+    def interval(self) -> tuple[float, float]:
+        """The two edges."""
+
     @abstractmethod
     def __call__(self, x: ArrayLike) -> Array:
-        """p(x), same shape as x."""
+        """The traction p(x).
+
+        Parameters
+        ----------
+        x : array_like
+            Places on the surface, lengths of any shape.
+
+        Returns
+        -------
+        ndarray
+            Stresses, of the shape of `x`: 0 outside the contact, inf where p is infinite.
+
+        Raises
+        ------
+        ValueError
+            If `x` is not made of real numbers.
+        """
 
     @abstractmethod
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        """F(z) = 1/π ∫ p(t)/(z - t) dt, same shape as z.
+        """The Cauchy potential F(z) = 1/π ∫ p(t)/(z - t) dt.
 
-        `side` says where a real z inside the contact is approached from: +1 the body (y > 0), -1 the other half-plane, 0 the
-        principal value. Elsewhere it has no effect.
+        Parameters
+        ----------
+        z : array_like
+            Places x + i y, lengths of any shape.
+        side : {1, -1, 0}
+            Where a real z inside the contact is approached from: the body (y > 0), the other
+            half-plane, or neither (the principal value). Elsewhere it has no effect.
+
+        Returns
+        -------
+        ndarray of complex
+            Stresses, of the shape of `z`. On the contact F(x ± i0) = hilbert(x) ∓ i p(x).
+
+        Raises
+        ------
+        ValueError
+            If `z` is not made of numbers, or `side` is another value.
         """
 
     @abstractmethod
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        """F'(z), same shape as z; in the contact, at x + i0, that is hilbert' - i p'. Infinite at an edge and where p' is."""
+        """The derivative F'(z) of the Cauchy potential.
+
+        Parameters
+        ----------
+        z, side
+            As of `cauchy`.
+
+        Returns
+        -------
+        ndarray of complex
+            Stresses over lengths, of the shape of `z`. On the contact F'(x + i0) =
+            hilbert'(x) - i p'(x). It is infinite at an edge, and where p' is.
+
+        Raises
+        ------
+        ValueError
+            As of `cauchy`.
+        """
 
     @abstractmethod
     def hilbert(self, x: ArrayLike) -> Array:
-        """1/π PV∫ p(t)/(x - t) dt at real x, same shape as x."""
+        """The principal value 1/π PV∫ p(t)/(x - t) dt on the surface.
 
-    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares overflow. There F is that of a force.
+        Parameters
+        ----------
+        x : array_like
+            Places on the surface, lengths of any shape.
+
+        Returns
+        -------
+        ndarray
+            Stresses, of the shape of `x`.
+
+        Raises
+        ------
+        ValueError
+            If `x` is not made of real numbers.
+        """
+
+    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares
+    # overflow. There F is that of a force.
 
     def _on_line(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
@@ -156,7 +255,7 @@ class Density(ABC):
 
     @cached_property
     def horizon(self) -> float:
-        """From here on the force is all that is left of a traction, and nothing of where it acts."""
+        """The distance from x = 0 beyond which a traction acts as a point force, to all digits."""
         lo, hi = self.interval
         size = max(abs(lo), abs(hi), hi - lo)
         return min(FAR_AWAY * size, LARGEST) if math.isfinite(abs(self.resultant)) else LARGEST
@@ -168,21 +267,51 @@ class Density(ABC):
         return -self._of_force(z) / z
 
     def strength(self, x: float) -> float:
-        """Where the density is infinite: the factor of that infinity, 0 elsewhere. It adds up when densities of one profile do."""
+        """The edge intensity at x, or that of a corner of the profile: 0 where p is finite.
+
+        Parameters
+        ----------
+        x : float
+            A place on the surface.
+
+        Returns
+        -------
+        float
+            The factor of the infinity. Those of densities of one profile add up as these do.
+        """
         return 0.0
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
-        """(F, F') at z: what a stress needs, at the cost of little more than F where a form shares their logarithms."""
+        """The Cauchy potential and its derivative, at little more than the cost of the first.
+
+        Parameters
+        ----------
+        z, side
+            As of `cauchy`.
+
+        Returns
+        -------
+        F, dF : ndarray of complex
+            As `cauchy` and `cauchy_derivative` return them.
+
+        Raises
+        ------
+        ValueError
+            As of `cauchy`.
+        """
         return self.cauchy(z, side), self.cauchy_derivative(z, side)
 
     @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
-        """(factor, density) whose sum this is: potentials are computed once for each density, however often it occurs."""
+        """Pairs (factor, density) whose sum this is.
+
+        The potentials of each density are computed once, however often it occurs.
+        """
         return ((1.0, self),)
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where p or its derivatives are not smooth: the edges and what lies between them, ascending."""
+        """Where p or its derivatives are not smooth: the edges and places between, ascending."""
         return self.interval
 
     @property
@@ -192,7 +321,10 @@ class Density(ABC):
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
-        """The limits of `hilbert` at both edges, from inside: where it peaks, and rounding of an edge would show."""
+        """The limits of `hilbert` at both edges, from inside.
+
+        It has its peaks there, and the rounding of an edge would show.
+        """
         left, right = self.hilbert(np.array(self.interval)).tolist()
         return left, right
 

@@ -1,6 +1,8 @@
-"""Tractions made of others: a multiple, a sum. Full sliding is friction times pressure; nothing is solved twice.
+"""Tractions made of others: a multiple, a sum. Full sliding is friction times pressure; nothing is
+solved twice.
 
-Potentials are linear, so that a stress asks each density underneath once (`Density.bases`), however often it occurs.
+Potentials are linear, so that a stress asks each density underneath once (`Density.bases`), however
+often it occurs.
 """
 
 from __future__ import annotations
@@ -21,14 +23,16 @@ from .base import ZERO, Density
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# How far beside a place where infinite terms cancel their finite sum is looked at: the difference of both sides is the square of this.
+# How far beside a place where infinite terms cancel their finite sum is looked at: the difference
+# of both sides is the square of this.
 BESIDE = 1e-7
 CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
 
 
 @dataclass(frozen=True, eq=False)
 class Combination(Density):
-    """Σ factor × density, each zero outside its own interval; `resultant` and `moment` are theirs, summed. `superposed` builds it.
+    """Σ factor × density, each zero outside its own interval; `resultant` and `moment` are theirs,
+    summed. `superposed` builds it.
 
     >>> Combination(((2.0, ZERO),)).resultant
     0.0
@@ -101,7 +105,9 @@ class Combination(Density):
         return float(np.mean(self(self._beside(x))))
 
     def _steepness(self, x: float) -> float:
-        """The derivative where those of terms are infinite: finite where they cancel, each in proportion to its strength if it has one."""
+        """The derivative where those of terms are infinite: finite where they cancel, each in
+        proportion to its strength if it has one.
+        """
         steep = [
             (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
             for factor, d in self.terms
@@ -143,7 +149,9 @@ class Combination(Density):
     def _without_nan(
         self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]
     ) -> Complex:
-        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are infinite."""
+        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are
+        infinite.
+        """
         with np.errstate(invalid="ignore"):
             total: Complex = self._total(values)
         lost = np.isnan(total)
@@ -167,7 +175,36 @@ class Combination(Density):
 
 
 def superposed(*terms: tuple[float, Density]) -> Density:
-    """Σ factor × density: zeros left out, and the density itself where that is all there is."""
+    """The sum of multiples of tractions.
+
+    Parameters
+    ----------
+    *terms : (float, Density)
+        Factors and tractions. Terms with the factor 0 are left out.
+
+    Returns
+    -------
+    Density
+        Σ factor × density; the density itself where that is all there is, `ZERO` where nothing is.
+
+    Raises
+    ------
+    ValueError
+        If a term is no pair of a finite factor and a density.
+
+    Notes
+    -----
+    Each term is zero outside its own interval. The potentials of a density that occurs several
+    times are computed once.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, normal_load=0.1)
+    >>> p = sie.solve(scene).pressure
+    >>> round(sie.superposed((0.3, p), (-0.1, p)).resultant, 12)
+    0.02
+    """
     pairs = [arguments.listed("a term", term, "(factor, density)") for term in terms]
     for pair in pairs:
         if len(pair) != 2 or not isinstance(pair[1], Density):
@@ -180,5 +217,29 @@ def superposed(*terms: tuple[float, Density]) -> Density:
 
 
 def scaled(factor: float, density: Density) -> Density:
-    """factor × density."""
+    """A multiple of a traction.
+
+    Parameters
+    ----------
+    factor : float
+        A finite number without unit, such as the coefficient of friction.
+    density : Density
+        A traction.
+
+    Returns
+    -------
+    Density
+        factor × density; `ZERO` if the factor is 0.
+
+    Raises
+    ------
+    ValueError
+        If the factor is no finite number, or `density` is no density.
+
+    Examples
+    --------
+    >>> import sie
+    >>> sie.scaled(0.5, sie.ZERO) is sie.ZERO
+    True
+    """
     return superposed((factor, density))

@@ -1,33 +1,49 @@
-"""Where the pieces of a slope lie in a contact: in angles, to relative accuracy however thin a piece or a rim is.
+"""Where the pieces of a slope lie in a contact, and the quadrature on each of them.
 
-With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all that is needed of a piece [A, B] comes
-from the square roots of its ends' distances, without differences of nearly equal numbers:
+With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all that
+is needed of a piece [A, B] comes from the square roots of its ends' distances, without differences
+of nearly equal numbers, and so to relative accuracy however thin a piece or a rim is:
 
-    ψ_A - ψ_B = 2 atan2( (B - A)/(2r (sin ψ_A/2 cos ψ_B/2 + cos ψ_A/2 sin ψ_B/2)),  cos ψ_A/2 cos ψ_B/2 + sin ψ_A/2 sin ψ_B/2 )
+    ψ_A - ψ_B = 2 atan2((B - A)/(2r (a d + b c)), b d + a c)
+    a, b = sin ψ_A/2, cos ψ_A/2,      c, d = sin ψ_B/2, cos ψ_B/2
     t - A     = 2r sin((ψ_A - ψ)/2) sin((ψ_A + ψ)/2)
+
+The rules for dt/w on the pieces go with it. `Geometry` has Gauss-Legendre in the angle, where w is
+a square root at both edges. `SlidingGeometry` has, for the exponents 1/2 ± ε, Gauss-Jacobi in the
+angle on a piece that ends at an edge, and Gauss-Legendre in ln τ, τ = (t - x1)/(x2 - t), on others.
 """
 
 from __future__ import annotations
 
+import math
 from copy import copy
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.interval import Interval
-from sie.profiles.slope import Slope
+from sie.numerics.interval import EPS, Interval
+from sie.profiles.slope import SEEN_JUMP, Slope
+
+from .edge_functions import Powers, SquareRoot
 
 Array = NDArray[np.float64]
 
 NARROW_ANGLE = 0.02
+# Gauss-Legendre nodes for each e-fold of the distance from an edge, beyond those of a smooth
+# integrand.
+NODES_PER_FOLD = 3
+SPARE = 6
+SHORTEST = 1e-300  # half a length that may be divided by
 
 
 class Geometry:
-    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to relative accuracy.
+    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to
+    relative accuracy.
 
-    Only the first and the last piece can be cut by an edge. Building one costs a few microseconds: the search for the edges builds many.
+    Only the first and the last piece can be cut by an edge. Building one costs a few microseconds:
+    the search for the edges builds many.
     """
 
     def __init__(
@@ -49,8 +65,9 @@ class Geometry:
         self.ends = ends = np.empty((2, n))  # of the pieces, lo and hi ...
         ends[0], ends[1] = b[k], b[k + 1]
         self.tails = np.zeros((2, n))  # ... and what their doubles miss
-        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's width: cos² and sin² of half the angle
-        # from the right edge. Only the outer two ends can be cut by an edge or by `lower`.
+        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's
+        # width: cos² and sin² of half the angle from the right edge. Only the outer two ends can be
+        # cut by an edge or by `lower`.
         width = 2.0 * contact.r
         distance = np.empty((2, 2, n))
         distance[0], distance[1] = contact.from_left(ends), contact.from_right(ends)
@@ -78,7 +95,9 @@ class Geometry:
 
     @cached_property
     def angles(self) -> tuple[Array, Array | float, Array]:
-        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular length), each (K, 1)."""
+        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular
+        length), each (K, 1).
+        """
         (a, c), (b, d) = self.root_left, self.root_right
         angle = 2.0 * np.arctan2(
             self.length / (2.0 * self.contact.r * (b * c + a * d)), a * c + b * d
@@ -113,7 +132,9 @@ class Geometry:
         return part
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
-        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights, all (K, n), and signs."""
+        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights,
+        all (K, n), and signs.
+        """
         g, w = chebyshev.gauss_legendre(n)
         from_edge, sign, length = self.angles
         half_step = (0.5 * length) * g
@@ -122,9 +143,39 @@ class Geometry:
         offset = (2.0 * self.contact.r) * np.sin(half_step) * np.sin(middle)
         return offset, middle + sign * half_step, length * w, sign
 
+    @property
+    def edge(self) -> SquareRoot:
+        """The functions of the edges."""
+        return SquareRoot(self.contact)
+
+    @property
+    def totals(self) -> Array:
+        """∫ dt/w over every piece."""
+        _, _, length = self.angles
+        out: Array = length[:, 0]
+        return out
+
+    def charges(self, n: int) -> tuple[Array, Array]:
+        """Offsets t - lo of n nodes, or more, and weights times H there."""
+        offset, _, weight, _ = self.nodes(n)
+        return offset, weight * self.slopes(offset)
+
     def slopes(self, offset: Array) -> Array:
         """H at lo + offset, (K, n)."""
         return self.slope.local(self.k, self.ends[0], self.tails[0], offset)
+
+    def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
+        """H' times the weights at the nodes, which are at these angles from the nearer edge."""
+        slope, lo, tail = self.slope, self.ends[0], self.tails[0]
+        dH: Array = weight * slope.local_derivative(self.k, lo, tail, offset)
+        if not slope.functions:
+            return dH
+        # H' dφ = dH / (r cos φ), with dH from the interpolant at the nodes
+        functions = H - slope.without_functions.local(self.k, lo, tail, offset)
+        functions[np.ptp(functions, axis=1) <= SEEN_JUMP * np.abs(H).max(axis=1)] = 0.0
+        n = H.shape[1]
+        steep = chebyshev.gauss_legendre(n)[1] * (functions @ chebyshev.differentiation(n)[0].T)
+        return dH + steep / (self.contact.r * np.sin(angle))
 
     def chebyshev_slope(self, n: int) -> Array:
         """Chebyshev coefficients of H on every piece, from n points: (K, n)."""
@@ -138,11 +189,118 @@ class Geometry:
         return chebyshev.transform(self.slopes(offset))
 
 
+class SlidingGeometry(Geometry):
+    """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that
+    ends at an edge, Gauss-Legendre in ln τ on others. The slope is broken at the middle of the
+    contact, so that no piece comes near both edges."""
+
+    def __init__(
+        self, slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False
+    ) -> None:
+        lo, hi = slope.domain
+        broken = slope.split_at(contact.m) if lo < contact.m < hi else slope
+        super().__init__(broken, contact, keep_zero=keep_zero)
+        self.epsilon = epsilon
+
+    @property
+    def edge(self) -> Powers:
+        return Powers(self.contact, self.epsilon)
+
+    @property
+    def totals(self) -> Array:
+        _, _, weight, _ = self.nodes(quadrature_order(0))
+        out: Array = weight.sum(axis=1)
+        return out
+
+    def nodes(self, n: int) -> tuple[Array, Array, Array, Array]:
+        """Offsets t - lo, angles from the nearer edge, weights of dt/w, (K, N) with N >= n, and +1
+        where the left edge is the nearer.
+        """
+        a, b, d = self.root_left[0], self.root_right[0], self.root_right[1]
+        width = 2.0 * self.contact.r
+        with np.errstate(divide="ignore", over="ignore"):
+            folds = np.log1p(self.length / (width * (a * d) ** 2))  # ln τ_hi / τ_lo
+        interior = np.isfinite(folds)
+        n += SPARE + math.ceil(NODES_PER_FOLD * float(folds[interior].max(initial=0.0)))
+        left = self.left[0] + self.left[1] < 1.0
+        offset, angle, weight = np.empty((3, len(self.k), n))
+        g, w = chebyshev.gauss_legendre(n)
+        u = folds[interior, None] * g
+        from_left = (
+            (a[interior] ** 2)[:, None]
+            * np.exp(u)
+            / ((b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u))
+        )
+        from_right = (b[interior] ** 2)[:, None] / (
+            (b[interior] ** 2)[:, None] + (a[interior] ** 2)[:, None] * np.exp(u)
+        )
+        offset[interior] = width * (a[interior] ** 2)[:, None] * np.expm1(u) * from_right
+        angle[interior] = 2.0 * np.arcsin(
+            np.sqrt(np.where(left[interior, None], from_left, from_right))
+        )
+        weight[interior] = (
+            folds[interior, None]
+            * w
+            * from_left ** (0.5 - self.epsilon)
+            * from_right ** (0.5 + self.epsilon)
+        )
+        for k in np.flatnonzero(~interior).tolist():
+            offset[k], angle[k], weight[k] = self._at_edge(k, n)
+        return offset, angle, weight, np.where(left, 1.0, -1.0)[:, None]
+
+    def _at_edge(self, k: int, n: int) -> tuple[Array, Array, Array]:
+        """The piece between an edge and some point: the singular factor ψ^(∓2ε) of dt/w is in the
+        rule's weights.
+        """
+        at_left = self.cut_left and k == 0
+        sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
+        g, w = edge_rule(n, sign)
+        root_near, root_far = (
+            (self.root_left[1, k], self.root_right[1, k])
+            if at_left
+            else (self.root_right[0, k], self.root_left[0, k])
+        )
+        whole = 2.0 * math.atan2(root_near, root_far)
+        angle = whole * g
+        # t - lo, from the left edge, or from lo towards the right edge, as products
+        swept, other = (angle, 0.0 * angle) if at_left else (whole - angle, angle)
+        offset = 2.0 * self.contact.r * np.sin(0.5 * swept) * np.sin(0.5 * swept + other)
+        smooth = (np.tan(0.5 * angle) / g) ** sign
+        return offset, angle, whole * w * smooth
+
+    def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
+        """The same from each piece's Chebyshev series: it steers Newton's steps only."""
+        half = np.maximum(0.5 * self.length[:, None], SHORTEST)
+        series = self.chebyshev_slope(max(self.slope.degree + 1, 2))
+        # rounding on a piece that short
+        straight = np.abs(series[:, 1:]).sum(axis=1) <= 4.0 * EPS * np.abs(series[:, 0])
+        series[straight] = 0.0
+        slopes = np.polynomial.chebyshev.chebder(series, axis=1)
+        T = chebyshev.polynomials(slopes.shape[1], offset / half - 1.0)
+        dH: Array = weight * np.einsum("nkm,kn->km", T, slopes) / half
+        return dH
+
+
+@lru_cache(maxsize=64)
+def edge_rule(n: int, power: float) -> tuple[Array, Array]:
+    """∫_0^1 u^power f du, power > -1: nodes and weights."""
+    from scipy.special import roots_jacobi  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
+
+    s, w = roots_jacobi(n, 0.0, power)
+    g, w = 0.5 * (1.0 + s), w * 2.0 ** (-1.0 - power)
+    g.flags.writeable = w.flags.writeable = False
+    return g, w
+
+
 def quadrature_order(degree: int) -> int:
-    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact, measured to reach rounding."""
+    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact,
+    measured to reach rounding.
+    """
     return 13 + int(1.15 * degree)
 
 
 def narrow_order(degree: int) -> int:
-    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's own degree."""
+    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's
+    own degree.
+    """
     return 3 + degree // 2

@@ -1,0 +1,1 @@
+"""What the closed forms share: number systems, parameters, cuts, and special functions."""

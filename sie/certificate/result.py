@@ -1,0 +1,229 @@
+"""What was measured on an answer: the certificates of a pressure and of a shear traction."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from dataclasses import dataclass, fields
+from typing import Any
+
+from sie.contact.inequalities import TOLERATED, Intervals, shown
+from sie.numerics.interval import EPS
+
+PROMISE = (
+    "At a distance d from the nearer edge the pressure is wrong by at most "
+    "3 (error + edges sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors "
+    "below 1e-15 of the peak, for what one ulp of x changes, and for what a function does on less "
+    "than 5e-4 of the contact."
+)
+WIDE = 79  # columns of a terminal
+LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
+EXPLAINED = (
+    16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
+)
+MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
+RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was measured on an answer.
+
+    Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
+     At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
+    sqrt(r/d)) of its peak, or of p(x) where that is larger, but for errors below 1e-15 of the peak,
+    for what one ulp of x changes, and for what a function does on less than 5e-4 of the contact.
+
+    Parameters
+    ----------
+    residual : float
+        Largest residual of the integral equation.
+    implied : float
+        The error of the pressure that would leave this residual.
+    force, moment : float
+        Defect of equilibrium.
+    lowest_pressure, lowest_gap : float
+        0 where p >= 0 in the contact and gap >= 0 beside it, otherwise negative.
+    abscissae : float
+        How much of the above is input rounding error: no double can tell p better where it changes
+        within one ulp of x.
+    tol : float
+        Tolerance that was asked for.
+    tension, overlap : tuple of tuple of float
+        Intervals of x where p < 0 in the contact and gap < 0 beside it, as closely as these were
+        scanned.
+    shear : ShearCertificate or None
+        What was measured on the shear traction.
+    resolution : float
+        How far a function is from its resolution at points of its own, as a pressure.
+    edges : float
+        What the load and rounding leave unknown of the edges, as an error of the pressure at a
+        distance r from them.
+    notes : tuple of str
+        Sentences on strains that are not small; they do not count for `ok`.
+
+    Notes
+    -----
+    Where dissimilar bodies slide, with exponents 1/2 ± ε at the edges, the root is (r/d)^(1/2 +
+    |ε|).
+    """
+
+    residual: float
+    implied: float
+    force: float
+    moment: float
+    lowest_pressure: float
+    lowest_gap: float
+    abscissae: float
+    tol: float
+    tension: Intervals = ()
+    overlap: Intervals = ()
+    shear: ShearCertificate | None = None
+    resolution: float = 0.0
+    edges: float = 0.0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def error(self) -> float:
+        """Estimated relative error of the pressure: the largest of the defects."""
+        defects = (
+            self.residual,
+            self.implied,
+            self.force,
+            self.moment,
+            self.resolution,
+            self.edges,
+        )
+        return max(LEAST, *(float("inf") if math.isnan(d) else d for d in defects))
+
+    @property
+    def ok(self) -> bool:
+        """Whether every defect is within tol, but for what rounding of x explains."""
+        allowed = _allowed(self.tol, self.abscissae)
+        if self.shear is not None and not self.shear.ok:
+            return False
+        return (
+            self.error <= allowed
+            and self.lowest_pressure >= -max(allowed, TOLERATED)
+            and self.lowest_gap >= -max(allowed, TOLERATED)
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """The certificate as numbers, lists and strings by name, for JSON."""
+        numbers = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "shear"} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")} | {
+            "notes": list(self.notes)
+        }
+        return numbers | ({} if self.shear is None else {"shear": self.shear.as_dict()})
+
+    def __str__(self) -> str:
+        rows: tuple[tuple[str, str], ...] = (
+            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("error of the pressure that would leave it / peak", f"{self.implied:.1e}"),
+            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
+            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("lowest pressure in contact / peak", f"{self.lowest_pressure:+.1e}"),
+            ("lowest gap outside / indentation scale", f"{self.lowest_gap:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("function against its resolution, as p / peak", f"{self.resolution:.1e}"),
+            ("edges, as p / peak at a distance r from them", f"{self.edges:.1e}"),
+            ("estimated relative error of the pressure", f"{self.error:.1e}"),
+        )
+        for name, intervals in (("p < 0", self.tension), ("gap < 0", self.overlap)):
+            rows += ((f"{name} for {shown(intervals)}", ""),) if intervals else ()
+        verdict = (
+            f"certified to {max(self.tol, EXPLAINED * self.abscissae):.0e}"
+            if self.ok
+            else f"NOT certified to {self.tol:.0e}"
+        )
+        rows += self.shear.rows if self.shear is not None else ()
+        lines = [f"{name:<48} {value:>9}".rstrip() for name, value in rows]
+        remarks = self.shear.remarks if self.shear is not None else ()
+        return "\n".join([*lines, *remarks, verdict, *textwrap.wrap(PROMISE, WIDE), *self.notes])
+
+
+@dataclass(frozen=True)
+class ShearCertificate:
+    """What was measured on a shear traction (`shear_check`).
+
+    Numbers are relative to the largest |q|, to ∫|q| dx, or to f times the peak pressure.
+
+    Parameters
+    ----------
+    residual : float
+        Largest residual of the equation where the contact never slipped.
+    equilibrium : float
+        Defect of ∫q dx = Q.
+    excess : float
+        Largest violation of |q| <= f p, and of |q| = f p in slip zones.
+    opposing : float
+        0 where all slip has the direction of q, otherwise negative.
+    abscissae : float
+        How much of the above is input rounding error.
+    condition : float
+        Relative error of the load on the stick zone over one of P or Q.
+    advancing : bool
+        Whether the slip zones only grow on the way to this state.
+    kind : str
+        Name of the state.
+    tol : float
+        Tolerance that was asked for.
+    """
+
+    residual: float
+    equilibrium: float
+    excess: float
+    opposing: float
+    abscissae: float
+    condition: float
+    advancing: bool
+    kind: str
+    tol: float
+
+    @property
+    def error(self) -> float:
+        """Estimated relative error of the shear traction."""
+        return max(
+            LEAST,
+            *(
+                float("inf") if math.isnan(d) else d
+                for d in (self.residual, self.equilibrium, self.excess)
+            ),
+        )
+
+    @property
+    def ok(self) -> bool:
+        """Whether every defect is within tol, but for what rounding of x explains."""
+        allowed = _allowed(self.tol, self.abscissae)
+        return self.error <= allowed and self.opposing >= -max(allowed, TOLERATED)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The certificate as numbers, strings and truth values by name, for JSON."""
+        return {f.name: getattr(self, f.name) for f in fields(self)} | {
+            "error": self.error,
+            "ok": self.ok,
+        }
+
+    @property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        return (
+            ("shear equation (12) in stick, residual / peak", f"{self.residual:.1e}"),
+            ("equilibrium, |∫q - Q| / ∫|q|", f"{self.equilibrium:.1e}"),
+            ("friction, largest |q| - f p / peak of f p", f"{self.excess:+.1e}"),
+            ("lowest slip along q / largest slip", f"{self.opposing:+.1e}"),
+            ("of this, rounding of x itself", f"{self.abscissae:.1e}"),
+            ("error of the stick zone's load per error of Q", f"{self.condition:.1e}"),
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        if self.advancing:
+            return (f"slip: {self.kind}",)
+        return (f"slip: {self.kind}, in total displacements: {RETREAT}",)
+
+
+def _allowed(tol: float, abscissae: float) -> float:
+    return tol + min(EXPLAINED * abscissae, MOST_EXPLAINED)

@@ -1,0 +1,140 @@
+"""Both edges and the tilt at once, where the moment is given in place of the tilt.
+
+Whatever the contact, the tilt is the one that makes I0 vanish: both edges are smooth. What is left
+is one equation for each number that is given (`edges`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from sie.errors import LoadError
+from sie.numerics.interval import EPS, Interval, interval_about, two_sum
+from sie.numerics.root_finding import Bracket, Place, logarithmic_root
+
+from .edge_integrals import Moments, moments
+from .edge_refinement import MAX_POLISHING, ROUNDINGS
+from .edges import PLACES, Edges, Found, Search
+
+FIRST_STEP = 2.0**-6  # of the half-width: from there doubled, where a centre is looked for
+
+
+def under_load(search: Search, load: float, moment: float) -> Edges | None:
+    """The contact and the tilt where both edges are smooth; None if none was found, or an edge
+    is at the end of the indenter.
+    """
+    target, lever = load / search.half_modulus, moment / load
+    lo, hi = search.slope.domain
+
+    def carried(r: float) -> tuple[float, float]:
+        k = search.moments(interval_about(lever, r))
+        rounding = ROUNDINGS * (k.size1 + k.size2)
+        # A straight part of the profile carries nothing
+        return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
+
+    def tilted(contact: Interval, tilt: float) -> Moments:
+        search.evaluations += 1
+        return moments(search.slope.tilted(tilt), contact, keep_zero=search.keep_zero)
+
+    lost = LoadError(
+        f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
+        "the slope is more than the load shows: "
+        "lower the moment, or move the profile to where the load acts (shifted)"
+    )
+    if not math.isfinite(float(search.slope(lever))):
+        raise lost
+    limit = min(lever - lo, hi - lever)
+    try:
+        r = logarithmic_root(
+            carried, target, search.first_guess(lever, hi, target), limit, search.too_much(load)
+        )
+    except LoadError:
+        return None
+    guess = interval_about(lever, r)
+    if not sum(search.polish.rounding(guess, search.moments(guess), target)) <= target:
+        raise lost
+    found = search.polish.balanced(guess, target, lever, tilted)
+    if found is None:
+        return None
+    contact, k, tilt = found
+    return replace(search.finished(Found(contact, moments=k), load, tilt), moment=moment)
+
+
+def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
+    """The contact of half-width r with smooth edges, and its tilt, of those that have the
+    moment the nearest to where the untilted profile touches; None if none was found.
+
+    Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 -
+    I0/2)) and dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m,
+    because P changes too.
+    """
+    (lo, hi), (z1, z2), scale = search.slope.domain, search.touch(), search.half_modulus * r
+    most = r / (PLACES * EPS)
+    low, high = max(lo + r, -most), min(hi - r, most)
+    if not low < high:
+        return None
+
+    def at(m: Place) -> tuple[float, float, Interval, Moments]:
+        """Of M/(G r): how much it exceeds what is given, and its derivative."""
+        contact = interval_about(m[0], r).moved(m[1], m[1])
+        k, centre = search.moments(contact), contact.m
+        excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
+        return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
+
+    centre = min(max(0.5 * (z1 + z2), low), high)
+    bracket = _first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
+    if bracket is None:
+        return None
+    m, slope, earlier = (
+        bracket.middle(),
+        math.copysign(1.0, at(bracket.high)[0]),
+        [math.inf, math.inf],
+    )
+    for _ in range(MAX_POLISHING):
+        excess, rise, contact, k = at(m)
+        size = k.size1 + k.size2
+        rounding = ROUNDINGS * ((abs(m[0]) + r) * size + abs(moment) / scale)
+        missed = abs(excess) / rounding
+        wanted = two_sum(m[0], m[1] - excess / rise) if rise * slope > 0.0 else (math.inf, 0.0)
+        if missed > 1.0:
+            bracket.cut(m, above=excess * slope < 0.0)
+        place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
+        earlier.append(missed)
+        within = bracket.low < wanted < bracket.high
+        if (
+            place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within)
+        ):  # after one more step, if there is one
+            break
+        m = place
+    if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
+        return None  # nothing but rounding carries the load, or tells the centre
+    tilt = -k.I0 / math.pi
+    k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
+    return replace(search.finished(Found(contact, moments=k), None, tilt), moment=moment)
+
+
+def _first_change(
+    at: Callable[[float], tuple[float, float, Interval, Moments]],
+    centre: float,
+    bounds: tuple[float, float],
+    r: float,
+) -> Bracket | None:
+    """Two places, as near to the centre as doubled steps to both sides tell, between which the
+    excess changes its sign under load.
+    """
+    last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
+    step = FIRST_STEP * r
+    while last:
+        for side in [*last]:
+            place, excess, _, _, before = last[side]
+            new = min(max(centre + side * step, bounds[0]), bounds[1])
+            if new == place:
+                del last[side]
+                continue
+            last[side] = new, *at(new)
+            if excess * last[side][1] <= 0.0 and max(before.I1, last[side][4].I1) > 0.0:
+                return Bracket((min(place, new), 0.0), (max(place, new), 0.0), (True, True))
+        step *= 2.0
+    return None

@@ -1,0 +1,215 @@
+"""The inequalities of contact: p >= 0 where the bodies touch, gap >= 0 beside.
+
+One patch of contact [x1, x2] is the answer only where both hold. They follow from h' that rises all
+over. For other profiles they are verified at many points inside the contact and out to `FAR`
+half-widths beside it, and a violation is an `InequalityError` that says where.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.errors import InequalityError
+from sie.numerics.interval import EPS, Interval, angles, inner, position
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.of_slope import SlopeDensity
+
+from .gap import gap, gap_slope
+
+Array = NDArray[np.float64]
+Intervals = tuple[tuple[float, float], ...]
+
+# Tension or overlap below this fraction of the peak is rounding.
+TOLERATED = 1e-11
+FAR = 1e3  # half-widths, how far out the gap is looked at
+STEEP = 1e6  # times the slopes in the contact
+SCAN = 40
+# Distances from an edge, in half-widths.
+AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
+NAMED = 3  # intervals that a message names
+ROUNDING = (
+    8.0 * EPS
+)  # of the slopes in the contact: by less a slope that rises may fall from point to point
+SCANNED = (
+    600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
+)
+
+
+def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
+    """Whether h' rises wherever `verify_inequalities` would look, and no edge pulls: then p > 0 and
+    gap > 0 follow.
+    """
+    contact = density.contact
+    even = np.pi * (np.arange(SCANNED) + 0.5) / SCANNED
+    inside = position(contact, even) if slope.functions else _scan(contact, slope)
+    x = np.sort(np.concatenate((inside, inner(contact, slope.breaks), _beside(contact, slope))))
+    H = slope(x)
+    rounding = ROUNDING * density.slope_scale
+    return (
+        bool((H[1:] >= H[:-1] - rounding).all())
+        and min(density.k1, density.k2) >= 0.0 < density.resultant
+    )
+
+
+def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
+    """Verify p >= 0 inside and gap >= 0 outside; InequalityError says where one patch violates
+    them.
+    """
+    x = np.concatenate((_scan(density.contact, slope), inner(density.contact, slope.breaks)))
+    p = density(x)
+    peak = float(p[np.isfinite(p)].max())
+    patch = (
+        f"a single patch of contact [{density.interval[0]:.6g}, {density.interval[1]:.6g}] would"
+    )
+    worst = int(np.argmin(p))
+    if p[worst] < -TOLERATED * peak or peak <= 0.0 or min(density.k1, density.k2) < 0.0:
+        where = (
+            float(x[worst])
+            if min(density.k1, density.k2) >= 0.0
+            else density.interval[int(density.k2 < density.k1)]
+        )
+        intervals = intervals_below(x, p / abs(peak))
+        raise InequalityError(
+            f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak "
+            f"{peak:.3g}){_among(intervals)}: "
+            "the profile is not convex there and lifts off; "
+            "give normal_load, under which several patches are found, raise the load or smooth the profile",
+            x=where,
+            edges=density.interval,
+            tension=intervals,
+        )
+    x, gaps = relative_gaps(density, slope)
+    if gaps.size and gaps.min() < -TOLERATED:
+        where, intervals = float(x[np.argmin(gaps)]), intervals_below(x, gaps)
+        raise InequalityError(
+            f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
+            "the profile touches there too; give normal_load, under which several patches are found, "
+            "lower the load, raise it until they merge, or smooth the profile",
+            x=where,
+            edges=density.interval,
+            overlap=intervals,
+        )
+
+
+def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
+    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest
+    value within one half-width.
+    """
+    contact, r = density.contact, density.contact.r
+    x = _beside(contact, slope)
+    if _opens_everywhere(x, density, slope):
+        return x, np.zeros(len(x))
+    # A function may overflow out there; from where it opens that steeply on, the gap is not looked
+    # at
+    outward = np.sign(x - contact.m)
+    opens = ~(
+        outward * slope(x)
+        < STEEP * max(density.slope_scale, density.resultant / (density.half_modulus * r))
+    )
+    left, right = (
+        np.abs(x[opens & (outward == side)] - contact.m).min(initial=np.inf) for side in (-1.0, 1.0)
+    )
+    x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
+    if not x.size:
+        return x, x
+    values = gap(x, density, slope)
+    scale = max(
+        float(
+            np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(
+                initial=0.0
+            )
+        ),
+        density.resultant / density.half_modulus * 1e-3,
+    )
+    return x, values / scale
+
+
+def intervals_below(x: Array, values: Array) -> Intervals:
+    """The intervals where values are below -TOLERATED, from where they change sign between two of
+    the points.
+    """
+    order = np.argsort(x, kind="stable")
+    x, values = x[order], values[order]
+    low = np.concatenate(([False], values < -TOLERATED, [False]))
+    starts, ends = np.flatnonzero(low[1:] & ~low[:-1]), np.flatnonzero(low[:-1] & ~low[1:]) - 1
+
+    def crossing(inner: int, outer: int) -> float:
+        if (
+            not 0 <= outer < len(x)
+            or not np.isfinite(values[[inner, outer]]).all()
+            or values[outer] <= 0.0
+        ):
+            return float(x[inner])
+        return float(
+            x[inner] + (x[outer] - x[inner]) * values[inner] / (values[inner] - values[outer])
+        )
+
+    return tuple(
+        (crossing(i, i - 1), crossing(j, j + 1))
+        for i, j in zip(starts.tolist(), ends.tolist(), strict=True)
+    )
+
+
+def shown(intervals: Intervals) -> str:
+    shown = ", ".join(f"[{lo:.6g}, {hi:.6g}]" for lo, hi in intervals[:NAMED])
+    return f"x in {shown}{f' and {len(intervals) - NAMED} more' if len(intervals) > NAMED else ''}"
+
+
+def _among(intervals: Intervals) -> str:
+    """The intervals, in a sentence that has named their worst point."""
+    return f", for {shown(intervals)}" if any(lo < hi for lo, hi in intervals) else ""
+
+
+def _scan(contact: Interval, slope: Slope) -> Array:
+    """Points inside every piece in the contact, evenly in the angle: many where there are few
+    pieces.
+    """
+    resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
+    ends = np.concatenate(([0.0], angles(contact, inner(contact, resolution.breaks)), [np.pi]))
+    n = max(SCANNED // (len(ends) - 1), 3)
+    fractions = (np.arange(n) + 0.5) / n
+    return position(contact, (ends[:-1, None] + np.diff(ends)[:, None] * fractions).ravel())
+
+
+def _beside(contact: Interval, slope: Slope) -> Array:
+    """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks
+    among them.
+    """
+    lo, hi = slope.domain
+    distance = contact.r * AHEAD
+    outer = slope.breaks[np.isfinite(slope.breaks)]
+    x = np.concatenate((contact.x2 + distance, contact.x1 - distance, outer))
+    return x[((contact.from_left(x) < 0.0) | (contact.from_right(x) < 0.0)) & (x >= lo) & (x <= hi)]
+
+
+def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
+    """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need
+    not be integrated.
+
+    Between its breaks a polynomial slope or a power does nothing unseen there; a function might.
+    """
+    if slope.functions and density.resolves:
+        return False
+    if not (slope.functions or slope.continuous):
+        x = np.concatenate((x, np.nextafter(x, -np.inf), np.nextafter(x, np.inf)))
+    if _slope_rises_outwards(x, density, slope):
+        return True
+    left, right = density.contact.from_left(x) < 0.0, density.contact.from_right(x) < 0.0
+    for sign, side in ((-1.0, left), (1.0, right)):
+        if side.any() and not (sign * gap_slope(x[side], density, slope) >= 0.0).all():
+            return False
+    return True
+
+
+def _slope_rises_outwards(x: Array, density: SlopeDensity, slope: Slope) -> bool:
+    """Whether H rises from smooth edges on, over x beside the contact: then the gap opens.
+
+    For p >= 0 in contact 1/π∫p/(x - t) dt falls outwards, from its value E*/2 H at the edge.
+    """
+    x1, x2 = density.interval
+    if (density.k1 and x.min(initial=x1) < x1) or (density.k2 and x.max(initial=x2) > x2):
+        return False
+    H = slope(np.sort(np.concatenate((x, (x1, x2)))))
+    return bool((H[1:] >= H[:-1]).all())

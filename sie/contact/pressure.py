@@ -1,0 +1,129 @@
+"""The pressure on a contact that is known, from the slope of the profile there.
+
+A slope that is smooth in the contact takes one Chebyshev series and its exact transform, a power
+law two series of its own, and any other slope exact integrals over its pieces.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Collection
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import EPS, Interval
+from sie.problem.request import ECONOMY
+from sie.problem.scene import Scene
+from sie.profiles.base import Profile
+from sie.profiles.power_law import PowerLaw
+from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
+from sie.profiles.slope import Slope
+from sie.traction.of_slope import SlopeDensity, TransformDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity
+from sie.traction.panels import CHOP, Panels
+from sie.traction.piece_quadrature import Geometry, SlidingGeometry
+from sie.traction.sliding import SlidingDensity
+
+from .edges import Edges
+
+Array = NDArray[np.float64]
+
+# One Chebyshev series for the whole contact is tried up to this many points before the slope is cut
+# into pieces.
+LARGEST_TRANSFORM = 257
+
+
+@dataclass(frozen=True)
+class Normal:
+    """The found contact, and whether its symmetry halved the search.
+
+    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
+    """
+
+    edges: Edges
+    symmetric: bool
+    series: Array | None = field(default=None, compare=False, repr=False)
+    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
+
+    def slope(self, profile: Profile) -> Slope:
+        """H of the profile as it is pressed: with these breaks, and tilted."""
+        return with_breaks(profile.pieces, self.seen).tilted(self.edges.tilt)
+
+
+def pressure(
+    normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
+) -> SlopeDensity:
+    """The pressure that answers the slope on the contact: a transform where the slope is smooth
+    there, exact panels where it is not.
+    """
+    edges = normal.edges
+    contact, G = edges.contact, 0.5 * scene.Estar
+    common = (contact, G, edges.k1, edges.k2, edges.normal_load, edges.moment)
+    if normal.series is not None:
+        return TransformDensity(*common, normal.series)
+    declared = normal.slope(scene.profile)
+    if scene.epsilon:
+        slope = refined(declared, contact.x1, contact.x2, resolution(tol))
+        geometry = SlidingGeometry(
+            slope, contact, scene.epsilon, keep_zero="zero panels" not in economy
+        )
+        return SlidingDensity(*common, Panels(geometry, edges.I0))
+    if "transform" in economy:
+        series = slope_series(declared, contact, resolution(tol))
+        if series is not None:
+            if not any(edges.sharp):
+                series[0] = 0.0  # the edges' condition, which quadrature met to rounding
+            return TransformDensity(*common, series)
+    law = upright_law(scene, economy, edges.tilt)
+    if law is not None:
+        return PowerDensity(*common, law, declared, resolution(tol))
+    slope = refined(declared, contact.x1, contact.x2, resolution(tol))
+    return PanelDensity(
+        *common, Panels(Geometry(slope, contact, keep_zero="zero panels" not in economy), edges.I0)
+    )
+
+
+def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> PowerLaw | None:
+    """The power law of a profile that is pressed upright, where its closed form serves."""
+    law = scene.profile.power_law
+    if law is None:
+        return None
+    upright = scene.tilt == tilt == 0.0 and scene.epsilon == 0.0 and "symmetry" in economy
+    return law if law.explicit and upright else None
+
+
+def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
+    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do
+    not decay.
+    """
+    breaks = slope.break_points
+    inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)
+    if inner[0] < inner[1]:
+        return None
+    k = Geometry(slope, contact, keep_zero=True)
+    if len(k.k) != 1:
+        return None
+    if not slope.functions:
+        return k.chebyshev_slope(max(int(slope.degrees[k.k[0]]) + 1, 2))[0]
+    noise = NOISE * rounding_noise(slope.inside, contact.x1, contact.x2)
+    n = 17
+    while n <= LARGEST_TRANSFORM:
+        c = k.chebyshev_slope(n)[0]
+        scale = float(np.abs(c).max())
+        if np.abs(c[-3:]).max() <= max(tol * scale, min(noise, ROUGHEST * scale)):
+            return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
+        n = 2 * n - 1
+    return None
+
+
+def with_breaks(slope: Slope, places: tuple[float, ...]) -> Slope:
+    for x in places:
+        slope = slope.split_at(x)
+    return slope
+
+
+def resolution(tol: float) -> float:
+    return max(EPS, 1e-2 * tol) if tol > 1e-13 else EPS

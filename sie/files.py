@@ -1,0 +1,209 @@
+"""Reading of ordinary files that are not too long, and writing of files whole or not at all.
+
+A file is written under another name beside its place and then moved there; the move is one step, so
+that no reader opens half a file. A writer that is killed leaves the other name behind. No
+user's file has such a name, and a writer that lives holds a lock on it: the next run that writes in
+the folder removes it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import secrets
+import shutil
+import stat
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+KINDS = {
+    stat.S_ISDIR: "a directory",
+    stat.S_ISFIFO: "a pipe",
+    stat.S_ISSOCK: "a socket",
+    stat.S_ISCHR: "a device",
+    stat.S_ISBLK: "a device",
+}
+
+
+# -- reading -------------------------------------------------------------------------------------
+
+
+def content(path: str | Path, most: int) -> bytes:
+    """The bytes of a regular file, at most so many.
+
+    ValueError, with the remedy, if it is none (a device or a pipe may have no end) or is longer;
+    OSError.
+    """
+    path = Path(path)
+    mode = path.stat().st_mode
+    for is_kind, kind in KINDS.items():
+        if is_kind(mode):
+            raise ValueError(f"{path.name or path} is {kind}: give a regular file")
+    with open(path, "rb") as stream:
+        data = stream.read(most + 1)  # some files of /proc tell no length, and have no end
+    if len(data) > most:
+        raise ValueError(f"{path.name} has more than {most / 1e6:g} MB: give a shorter file")
+    return data
+
+
+# -- where a file may be written -----------------------------------------------------------------
+
+
+def writable(path: str | Path) -> Path:
+    """The path, if a file can be written there; ValueError, with the remedy, if not."""
+    path = Path(path)
+    if path.is_dir():
+        raise ValueError(f"{path} is a directory: give the name of a file in it")
+    parent = path.resolve().parent
+    if not parent.is_dir():
+        raise ValueError(
+            f"{path} cannot be written, there is no directory {parent}: create it first"
+        )
+    touched = ([path] if path.exists() else []) + ([] if _is_device(path) else [parent])
+    if not all(os.access(place, os.W_OK) for place in touched):
+        raise ValueError(f"{path} cannot be written, permission is denied: choose another place")
+    return path
+
+
+def same(one: str | int | Path, other: str | int | Path) -> bool:
+    """Whether both are one file, or would be one once written.
+
+    Links, and names that differ in case only, count. A number is the descriptor of an open file.
+    """
+    try:
+        return os.path.samefile(one, other)
+    except OSError:  # one of them does not exist
+        if (
+            isinstance(one, int)
+            or isinstance(other, int)
+            or os.path.exists(one)
+            or os.path.exists(other)
+        ):
+            return False
+        return str(Path(one).resolve()).casefold() == str(Path(other).resolve()).casefold()
+
+
+# -- writing -------------------------------------------------------------------------------------
+
+
+def write_files(contents: Mapping[Path, bytes]) -> None:
+    """Write all files. Raises OSError; what was there before is then still there."""
+    with writing(contents):
+        pass
+
+
+@contextmanager
+def writing(contents: Mapping[Path, bytes]) -> Iterator[None]:
+    """Write all files; they are at their places after the block, or untouched if it fails.
+
+    A BrokenPipeError in the block is no failure. A device or a pipe cannot be replaced and is
+    written to as it is. Raises OSError.
+    """
+    parts: dict[Path, BinaryIO] = {}
+    try:
+        with _named(contents):
+            devices = [path for path in contents if _is_device(path)]
+            for place, data in (
+                (path.resolve(), data) for path, data in contents.items() if path not in devices
+            ):
+                parts[place] = _new_part(place)  # resolved: a link stays a link
+                _write_part(parts[place], data, like=place)
+            for path in devices:
+                path.write_bytes(contents[path])
+        try:
+            yield
+        except BrokenPipeError:
+            with _named(contents):
+                _move(parts)
+            raise
+        with _named(contents):
+            _move(parts)
+    finally:
+        for part in parts.values():
+            _discard(part)
+        for folder in {place.parent for place in parts}:
+            _remove_stale(folder)
+
+
+@contextmanager
+def _named(contents: Iterable[Path]) -> Iterator[None]:
+    """Put the names of the files in front of the system's message."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as problem:
+        raise OSError(
+            f"{' and '.join(map(str, contents))} not written: {problem.strerror}"
+        ) from None
+
+
+def _is_device(path: Path) -> bool:
+    return path.exists() and not path.is_file()
+
+
+# -- parts: files that are not at their places yet -----------------------------------------------
+
+
+def _part_name(token: str) -> str:
+    """A name that no user's file has by chance: its second half follows from the first."""
+    return f".sie-{token}-{hashlib.sha256(f'sie {token}'.encode()).hexdigest()[:16]}.part"
+
+
+def _new_part(place: Path) -> BinaryIO:
+    while True:
+        stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115 -- open until moved
+        with suppress(
+            OSError
+        ):  # not all file systems lock; there nothing is taken for stale either
+            _lock(stream, wait=True)
+        if os.name == "nt" or os.fstat(stream.fileno()).st_nlink:
+            return stream
+        stream.close()  # removed as stale before it was locked
+
+
+def _write_part(part: BinaryIO, data: bytes, like: Path) -> None:
+    part.write(data)
+    part.flush()
+    os.fsync(part.fileno())
+    if like.exists():
+        shutil.copymode(like, part.name)
+
+
+def _move(parts: dict[Path, BinaryIO]) -> None:
+    for place, part in parts.items():
+        if os.name == "nt":
+            part.close()  # what is open cannot be renamed there
+        os.replace(part.name, place)
+
+
+def _discard(part: BinaryIO) -> None:
+    with suppress(OSError):
+        part.close()
+    Path(part.name).unlink(missing_ok=True)
+
+
+def _remove_stale(folder: Path) -> None:
+    """Remove the parts of killed writers: this module's names, whose lock no process holds."""
+    with suppress(OSError):
+        for path in folder.glob(".sie-*.part"):
+            if path.name == _part_name(path.name.split("-")[1]) and not path.is_symlink():
+                # Windows removes no file that is open, be it by the writer or here.
+                with (
+                    suppress(OSError),
+                    nullcontext() if os.name == "nt" else open(path, "rb") as stream,
+                ):
+                    _lock(stream, wait=False)
+                    path.unlink()
+
+
+def _lock(stream: BinaryIO | None, wait: bool) -> None:
+    """Raises OSError where another process holds the lock, or where the file system has none."""
+    if sys.platform != "win32":
+        import fcntl  # noqa: PLC0415
+
+        assert stream is not None
+        fcntl.flock(stream, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))

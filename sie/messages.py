@@ -1,0 +1,45 @@
+"""Words of messages: the nearest known name, a list of choices, text of a readable length."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+
+LONGEST = 60  # characters of a value that a message shows
+LONGEST_WORD = 255
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The known name that `name` was most likely meant to be, "" if none is near.
+
+    >>> nearest("normal_laod", ["normal_load", "tangential_load"])
+    'normal_load'
+    """
+    if len(name) > LONGEST:
+        return ""
+    by_letters = {k.lower().replace("_", "-"): k for k in known}
+    matches = difflib.get_close_matches(name.lower().replace("_", "-"), by_letters, n=1)
+    return by_letters[matches[0]] if matches else ""
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """The remedy for a name that is not known: the nearest known one, or the list of all."""
+    near = nearest(name, known)
+    return f'did you mean "{near}"?' if near else f"choose {choices(known)}"
+
+
+def choices(names: Iterable[str]) -> str:
+    """The names in quotes, with "or" before the last."""
+    quoted = [f'"{name}"' for name in names]
+    return f"{', '.join(quoted[:-1])} or {quoted[-1]}" if len(quoted) > 1 else quoted[0]
+
+
+def shortened(text: str) -> str:
+    """The text, cut where it is longer than `LONGEST` characters."""
+    return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
+
+
+def with_short_words(sentence: object) -> str:
+    """The sentence with its longest words cut: a key or a formula may be as long as a file."""
+    return re.sub(rf"\S{{{LONGEST_WORD + 1},}}", lambda word: shortened(word[0]), str(sentence))

@@ -1,0 +1,232 @@
+"""Bracketed roots of functions of one variable.
+
+    false_position      a sign change between two places, by false position and bisection
+    false_positions     the same in many brackets at once, in arrays
+    increasing_root     of an increasing function on (0, limit), by secants from a guess
+    logarithmic_root    of a function that is nearly a power, by Newton's method in logarithms
+    Bracket             keeps the steps of another method between the bounds that are known
+
+SciPy's `brentq` takes a bracket too, but to import it takes longer than a solve.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .interval import EPS, two_sum
+
+Array = NDArray[np.float64]
+
+# -- false position -------------------------------------------------------------------------------
+
+MAX_BISECTIONS = 2000  # from 1 down to the smallest double takes half of these
+
+
+def false_position(
+    function: Callable[[float], float],
+    a: float,
+    b: float,
+    ends: tuple[float, float],
+    settled: Callable[[float, float, float], bool],
+) -> float:
+    """Where the function changes sign between a and b, given its values there.
+
+    The weight of the end that is kept is halved (Illinois), and the bracket is halved whenever two
+    steps have not done so. It ends at `settled(a, b, value)`, or where the bracket is rounding.
+    """
+    at_a, at_b = ends
+    u, widths = 0.5 * (a + b), [math.inf, math.inf]
+    for _ in range(MAX_BISECTIONS):
+        widths.append(b - a)
+        if b - a <= 4.0 * math.ulp(max(abs(a), abs(b))):
+            return 0.5 * (a + b)
+        u = (a * at_b - b * at_a) / (at_b - at_a)
+        if not a < u < b or widths[-1] > 0.5 * widths[-3]:
+            u = 0.5 * (a + b)
+        value = function(u)
+        if value == 0.0 or settled(a, b, value):
+            break
+        if (value < 0.0) == (ends[0] < 0.0):
+            a, at_a, at_b = u, value, 0.5 * at_b
+        else:
+            b, at_b, at_a = u, value, 0.5 * at_a
+    return u
+
+
+MOST_STEPS, BISECT_AFTER = 80, 12
+# of the bracket: the last step of a method that converges faster and faster leaves much less
+STEP_SETTLED = 1e-9
+
+
+def false_positions(function: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
+    """Where the function falls through 0 between lo and hi, of those pairs where it does."""
+    a, b = lo, hi
+    fa, fb = function(np.stack((a, b)).ravel()).reshape(2, -1)
+    falls = (fa > 0.0) & (fb < 0.0)
+    a, b, fa, fb = a[falls], b[falls], fa[falls], fb[falls]
+    x, enough, last = 0.5 * (a + b), STEP_SETTLED * (b - a), np.zeros(a.shape)
+    for k in range(MOST_STEPS if x.size else 0):
+        before = x
+        middle, secant = 0.5 * (a + b), b - fb * (b - a) / (fb - fa)
+        x = np.where(
+            (secant > a) & (secant < b) & ((k < BISECT_AFTER) | (k % 2 == 0)), secant, middle
+        )
+        f = function(x)
+        up = f > 0.0
+        side = np.where(up, 1.0, -1.0)
+        again = np.where(last == side, 0.5, 1.0)  # an end kept twice loses weight
+        fb, fa, last = np.where(up, again * fb, f), np.where(up, f, again * fa), side
+        a, b = np.where(up, x, a), np.where(up, b, x)
+        if ((np.abs(x - before) <= enough) | (f == 0.0)).all():
+            break
+    return x
+
+
+# -- from a guess ----------------------------------------------------------------------------------
+
+MAX_STEPS = 200
+FIRST_STEP = 16.0
+# of the limit: at a sharp edge, where p is infinite, a zone of slip may not open at all
+SHORTEST = 1e-120
+SETTLED = 8.0 * EPS
+
+
+def increasing_root(function: Callable[[float], float], guess: float, limit: float) -> float:
+    """u in (0, limit) where an increasing function changes sign, by secants in a bracket."""
+    low, high = 0.0, limit
+    u, step = min(guess, 0.5 * limit), np.inf
+    before: tuple[float, float] | None = None
+    for _ in range(MAX_STEPS):
+        f = function(u)
+        if f == 0.0 or (f > 0.0 and u <= SHORTEST * limit):
+            return u
+        low, high = (u, high) if f < 0.0 else (low, u)
+        new = (
+            u - f * (u - before[0]) / (f - before[1])
+            if before is not None and f != before[1]
+            else -1.0
+        )
+        if not low < new < high:
+            new = 0.5 * (low + high)
+            if f < 0.0 and high == limit:
+                new = min(u * FIRST_STEP, 0.5 * (u + limit))
+            elif low == 0.0:
+                new = u / FIRST_STEP
+        before = (u, f)
+        if (
+            abs(new - u) <= EPS * u
+            or high - low <= 2.0 * EPS * high
+            or (abs(new - u) <= SETTLED * u and abs(new - u) >= 0.5 * abs(step))
+        ):
+            return new
+        step, u = new - u, new
+    return u
+
+
+# The logarithmic search ends at this relative error of the value, after one more step.
+ROUGH = 1e-2
+# Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of
+# range.
+MAX_LOG_STEP = 20.0
+SMALLEST = 1e-300
+LEAP = 1e12  # where a value underflows, or falls before it was ever large enough
+# While the root is not bracketed and the value is wrong by more than the factor OPEN, a step is at
+# least the factor OPEN_STEP.
+OPEN = 0.1
+OPEN_STEP = 4.0
+
+
+def logarithmic_root(
+    function: Callable[[float], tuple[float, float]],
+    target: float,
+    guess: float,
+    limit: float,
+    error: Callable[[float, float], Exception],
+    *,
+    rough: float = ROUGH,
+) -> float:
+    """u in (0, limit) with f(u) = target, to `rough`, by Newton in ln u and ln f inside a bracket.
+
+    `function` returns (f, u f'). It may fall again beyond a largest value, which a negative
+    derivative shows; if the target exceeds that value, `error(u, f)` is raised with the best that
+    was found.
+    """
+    low, high = 0.0, limit
+    u, best, best_u = guess, 0.0, guess
+    steps = [np.inf, np.inf]
+    for _ in range(MAX_STEPS):
+        f, slope = function(u)
+        if f > best:
+            best, best_u = f, u
+        rising = 0.0 < f < math.inf and slope > 0.0
+        if rising and not 0.0 < target / f < math.inf:
+            raise OverflowError("the ratio is no double")
+        step = math.log(target / f) * f / slope if rising else np.inf
+        if rising and abs(math.log(f / target)) <= rough:
+            return min(u * math.exp(step), limit)
+        if f < target and (rising or (f == 0.0 and slope >= 0.0)):  # zero: it underflows
+            low = u
+        else:
+            high = u
+        if u <= SMALLEST or (math.isfinite(high) and high - low <= 4.0 * EPS * high):
+            break
+        far = not OPEN * target < f < target / OPEN
+        open_ended = low == 0.0 or not math.isfinite(high)
+        new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
+        if rising and far and open_ended:
+            # steep where the contact is small, flat where it is large: without a bracket Newton
+            # creeps
+            new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
+        if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
+            new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
+        steps.append(abs(math.log(new / u)))
+        u = new
+    if best >= target * (1.0 - rough):
+        return best_u
+    raise error(best_u, best)
+
+
+def _between(low: float, high: float, u: float) -> float:
+    """A point inside the bracket: the geometric mean, or a large step where one end is open."""
+    if not math.isfinite(high):
+        return u * LEAP
+    return float(np.sqrt(low) * np.sqrt(high)) if low > 0.0 else high / 8.0
+
+
+# -- bounds for another method ---------------------------------------------------------------------
+
+Place = tuple[float, float]  # a sum of two doubles; such pairs are ordered as their sums are
+
+
+@dataclass
+class Bracket:
+    """low < root < high; `cuts` tells which of the two bounds a value has confirmed."""
+
+    low: Place
+    high: Place
+    cuts: tuple[bool, bool] = (False, False)
+
+    def cut(self, at: Place, above: bool) -> None:
+        """The root is above `at`, or below."""
+        if above:
+            self.low, self.cuts = max(self.low, at), (True, self.cuts[1])
+        else:
+            self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
+
+    def place(self, wanted: Place, slow: bool) -> Place:
+        """The place wanted; the middle if it is out of bounds, or if the steps are slow and both
+        bounds known."""
+        if self.low < wanted < self.high and not (slow and all(self.cuts)):
+            return wanted
+        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
+
+    def middle(self) -> Place:
+        return two_sum(
+            self.low[0],
+            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
+        )

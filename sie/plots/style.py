@@ -1,0 +1,147 @@
+"""The style of all pictures: sizes, colours, fonts, axes and units; and the files they become."""
+
+from __future__ import annotations
+
+import io
+import math
+import textwrap
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backend_bases import FigureCanvasBase
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+WIDTH, DPI = 3.4, 300  # inches, one column of a journal
+POINTS = 1201  # of a curve
+# Suffixes that need a TeX installation, or that no program opens.
+NOT_OFFERED = {"pgf", "raw", "rgba"}
+UNDATED: dict[str, dict[str, Any]] = {
+    "svg": {"Date": None},
+    "svgz": {"Date": None},
+    "pdf": {"CreationDate": None},
+}
+# Type 42 fonts are what journals accept.
+FILES: Any = {"pdf.fonttype": 42, "ps.fonttype": 42, "svg.hashsalt": "sie"}
+
+# Fonts that come with Matplotlib; the others have the letters that the first lacks.
+FAMILY = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
+SIZE, SMALL = 8.0, 7.0
+TITLE_COLUMNS = 56
+# Okabe and Ito (2008): distinct for the colour-blind, and in greyscale by their lightness. Opaque,
+# as PostScript has no transparency.
+BLUE, PALE_BLUE, VERMILLION, INK = "#0072B2", "#cfe4f0", "#D55E00", "#222222"
+DASHED, DOTTED = (0, (5, 2.5)), (0, (1, 2))
+HEADROOM = 1.22  # of a panel over the largest value that it shows: for the label
+ROUND = [1, 2, 2.5, 5, 10]  # steps of ticks
+
+DIGITS = 4
+# A length in mm may be given in these; other units are preceded by a power of ten.
+METRIC = ((1e-3, "m"), (1.0, "mm"), (1e3, "µm"), (1e6, "nm"))
+READABLE = (0.1, 1e4)  # largest values that need no other unit
+
+
+def suffixes() -> tuple[str, ...]:
+    """The file suffixes that `picture_bytes` can write."""
+    return tuple(sorted(set(FigureCanvasBase.get_supported_filetypes()) - NOT_OFFERED))
+
+
+def picture_bytes(figure: Figure, suffix: str) -> bytes:
+    """The figure as a file of that suffix, without a date: the same picture is the same file."""
+    stream = io.BytesIO()
+    with matplotlib.rc_context(FILES):  # for this file only
+        figure.savefig(stream, format=suffix, dpi=DPI, metadata=UNDATED.get(suffix))
+    return stream.getvalue()
+
+
+def heading(figure: Figure, title: str) -> None:
+    """The title over the panels, in as many lines as it needs, its $ as they are."""
+    if title:
+        text = textwrap.fill(title, TITLE_COLUMNS)
+        figure.suptitle(text, fontproperties=font(), parse_math=False)
+
+
+def curve(axes: Axes, x: Array, y: Array, color: str, width: float, **given: Any) -> None:
+    """A line with round joints."""
+    axes.plot(x, y, color=color, linewidth=width, solid_joinstyle="round", **given)
+
+
+def zero_line(axes: Axes, zorder: float = 1) -> None:
+    """A thin line at zero."""
+    axes.axhline(0.0, color=INK, linewidth=0.6, zorder=zorder)
+
+
+def edge_lines(axes: Axes, edges: tuple[float, float], factor: float, zorder: float) -> None:
+    """Dotted lines at the edges of the contact."""
+    for edge in edges:
+        axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=zorder)
+
+
+def legend(axes: Axes, columns: int, length: float = 2.0) -> None:
+    """The legend above the panel, where no curve passes through it."""
+    axes.legend(
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        borderaxespad=0.1,
+        ncols=columns,
+        prop=font(SMALL),
+        frameon=False,
+        handlelength=length,
+    )
+
+
+def x_axis(axes: Axes, length: str) -> None:
+    """Ticks and label of the axis along the surface."""
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=ROUND))
+    axes.set_xlabel(f"$x$ ({length})", fontproperties=font())
+
+
+def plain(axes: Axes) -> None:
+    """Thin axes on the left and at the bottom only."""
+    axes.tick_params(
+        labelsize=SMALL, labelfontfamily=FAMILY, width=0.6, length=2.5, direction="out"
+    )
+    for name, spine in axes.spines.items():
+        spine.set_visible(name in ("left", "bottom"))
+        spine.set_linewidth(0.6)
+    axes.ticklabel_format(axis="x", useMathText=True)
+    axes.xaxis.get_offset_text().set_fontproperties(font(SMALL))
+
+
+def ticks(top: float) -> list[float]:
+    """Round numbers from 0 up: there are no negative pressures and gaps."""
+    ticks = MaxNLocator(nbins=4, steps=ROUND).tick_values(0.0, top)
+    return [float(t) for t in ticks if 0.0 <= t <= top]
+
+
+def font(size: float = SIZE) -> FontProperties:
+    """The font of all text, formulas included."""
+    return FontProperties(family=FAMILY, size=size, math_fontfamily="stix")
+
+
+def quantity(value: float, scale: float, unit: str) -> str:
+    """A value with its unit, to DIGITS significant digits of `scale`."""
+    factor, name = scaled(scale, unit)
+    decimals = max(DIGITS - 1 - math.floor(math.log10(scale * factor)), 0)
+    number = f"{value * factor + 0.0:.{decimals}f}".replace("-", "−")
+    return rf"{number} $\times$ {name}" if name.startswith("$") else f"{number} {name}"
+
+
+def scaled(largest: float, unit: str) -> tuple[float, str]:
+    """(factor, unit) in which a quantity up to `largest` has readable numbers.
+
+    >>> scaled(0.02, "mm"), scaled(3e7, "MPa")
+    ((1000.0, 'µm'), (1e-06, '$10^{6}$ MPa'))
+    """
+    low, high = READABLE
+    for factor, name in ((1.0, unit), *(METRIC if unit == "mm" else ())):
+        if low <= largest * factor < high:
+            return factor, name.replace("$", r"\$")
+    exponent = 3 * math.floor(math.log10(largest) / 3.0)
+    return float(f"1e{-exponent}"), f"$10^{{{exponent}}}$ " + unit.replace("$", r"\$")

@@ -1,0 +1,52 @@
+"""What can be asked of a scene, and which work may be skipped in answering it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from sie import arguments
+
+from .scene import Scene
+
+# What can be asked for in a scene file, on the command line and of `sie.plan`.
+WANTS = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
+# Names of the solution's own, and what they belong to.
+ALSO = {
+    "half_width": "edges",
+    "centre": "edges",
+    "elastic_limit": "yield",
+    "peak_tension": "tension",
+}
+ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
+# What is answered where nothing is said: the contact. The stress is asked for by name, as it may
+# need Poisson's ratio.
+UNASKED = ("edges", "pressure", "gap", "shear", "check")
+# What depends on the shear traction.
+NEED_SHEAR = frozenset({"shear", "stress", "yield", "tension", "check"})
+# What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
+ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
+
+
+def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
+    """The names among WANTS that are asked for."""
+    remedy = f"a name; ask for {', '.join(WANTS)}"
+    asked = (want,) if isinstance(want, str) else arguments.listed("want", want, remedy)
+    for name in asked:
+        if not arguments.among(name, {*WANTS, *ALSO}):
+            raise ValueError(f"want = {name!r} is not known: ask for {', '.join(WANTS)}")
+    names = tuple(ALSO.get(name, name) for name in asked)
+    if not names:
+        raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
+    return names
+
+
+def sheared(scene: Scene, economy: Collection[str]) -> bool:
+    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is
+    switched off) without Q and σ.
+    """
+    return scene.friction != 0.0 and (
+        scene.tangential_load != 0.0
+        or scene.sliding != 0
+        or scene.tau != 0.0
+        or "shear" not in economy
+    )

@@ -1,0 +1,245 @@
+"""The pressure whose slope H is given in pieces.
+
+    p = E*/2 cos²(πε)/π V on the contact,        F = -E*/2 cos(πε)/π V elsewhere
+
+with V of `potential`; ε = 0 unless dissimilar bodies slide (`sliding`). `PowerDensity` takes the
+pressure of an upright power law from series of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.profiles.power_law import Corner, PowerLaw, PowerSlope
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+
+from . import potential
+from .base import in_order
+from .of_slope import SlopeDensity
+from .panels import Panels
+from .piece_quadrature import Geometry
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Powers below CUSP are steep on their axis; nearer to it than this fraction of the half-width,
+# what else there is to the pressure is straight to rounding.
+CUSP, BESIDE_CUSP = 2.0, 1e-9
+STRAIGHT = 2.9  # powers from here on are straight so near to an axis
+
+
+class OnPanels(SlopeDensity):
+    """H piece by piece."""
+
+    panels: Panels
+
+    @property
+    def _potential_scale(self) -> float:
+        """F over V, where E*/2 = 1."""
+        return -self.panels.edge.cos / math.pi
+
+    @property
+    def slope_scale(self) -> float:
+        return self.panels.scale
+
+    def _regular(self, x: Array) -> Array:
+        if not self._cusps:
+            return self._by_pieces(x)
+        return self._joined(x, self._by_pieces, self._beside_cusp, np.empty(x.shape))
+
+    def _by_pieces(self, x: Array) -> Array:
+        return (self.panels.edge.cos**2 / math.pi) * potential.on_contact(self.panels, x)
+
+    @cached_property
+    def _cusps(self) -> dict[float, list[PowerLaw | Corner]]:
+        """The powers and the corner at each axis of a power below CUSP, too steep for pieces."""
+        slope, (lo, hi) = self.panels.geometry.slope, self.interval
+        cusps: dict[float, list[PowerLaw | Corner]] = {}
+        for term in slope.functions:
+            f = term.function
+            if isinstance(f, PowerSlope) and 1.0 < f.exponent < STRAIGHT and lo < term.shift < hi:
+                law = PowerLaw(f.exponent, f.coefficient, term.shift)
+                cusps.setdefault(term.shift, []).append(law)
+        for axis, laws in list(cusps.items()):
+            if min(law.exponent for law in laws if isinstance(law, PowerLaw)) >= CUSP:
+                del cusps[axis]
+                continue
+            corner = Corner(*slope.without_functions.corner(axis))
+            if corner.jump or corner.bend:
+                laws.append(corner)
+        return cusps
+
+    def _joined(self, place: Any, by_pieces: Any, beside_cusp: Any, out: Any) -> Any:
+        """`out`, with values of the pieces and, next to an axis, of its powers; none of both."""
+        left = np.ones(place.shape, dtype=bool)
+        for axis, laws in self._cusps.items():
+            b = float(min(self.contact.from_left(axis), self.contact.from_right(axis)))
+            at = np.abs(place - axis) < BESIDE_CUSP * b
+            if at.any():
+                out[..., at] = beside_cusp(place[at], axis, b, laws)
+                left &= ~at
+        if left.any():
+            out[..., left] = by_pieces(place[left])
+        return out
+
+    def _beside_cusp(self, x: Array, axis: float, b: float, laws: list[PowerLaw | Corner]) -> Array:
+        """The pressure next to an axis: that of the powers alone, and a straight line."""
+        beside, total = self._at_cusp_ends[axis]  # of the rounded ends
+        left, right = (total - self._of_powers(laws, beside, b)).tolist()
+        y = x - axis
+        along = (y - beside[0]) / np.ptp(beside)
+        return self._of_powers(laws, y, b) + left + (right - left) * along
+
+    @cached_property
+    def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
+        """Where the pieces end beside each axis, counted from it, and the pressure there.
+
+        Asked at once for all.
+        """
+        axes = np.array(list(self._cusps))[:, None]
+        b = np.minimum(self.contact.from_left(axes), self.contact.from_right(axes))
+        ends = axes + BESIDE_CUSP * b * [-1.0, 1.0]
+        p = in_order(self._by_pieces, ends.ravel()).reshape(ends.shape)
+        return dict(zip(self._cusps, zip(ends - axes, p, strict=True), strict=True))
+
+    def _pair_beside_cusp(
+        self, z: Complex, axis: float, b: float, laws: list[PowerLaw | Corner]
+    ) -> Complex:
+        """The same of the potential and its derivative, (2, n), at Im z > 0."""
+        y, start = z - axis, np.array([1j * BESIDE_CUSP * b])
+        rest, steep = self._pair_by_pieces(np.asarray(axis + start)) - self._potentials_of_powers(
+            laws, start, b
+        )
+        out = self._potentials_of_powers(laws, y, b)
+        out[0] += rest + steep * (y - start)
+        out[1] += steep
+        return out
+
+    def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
+        """The pressure of the powers alone at y from their axis, in a contact of half-width b."""
+        return np.sum([law.pressure(y, b - np.abs(y), b) for law in laws], axis=0)
+
+    def _potentials_of_powers(self, laws: list[PowerLaw | Corner], y: Complex, b: float) -> Complex:
+        """(F, F') of the same, (2, n)."""
+        return np.sum([law.potentials_near_axis(y, b) for law in laws], axis=0)
+
+    def _slope(self, x: Array) -> Array:
+        return self.panels.geometry.slope(x)
+
+    def resolved_slope(self, x: Array) -> Array:
+        p, (lo, hi) = self.panels, self.panels.geometry.ends
+        k = np.clip(np.searchsorted(hi, x), 0, len(hi) - 1)
+        values: Array = chebyshev.evaluate(p.series.T[:, k], (x - lo[k]) / p.half_length[k] - 1.0)
+        return values
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        p, g = self.panels, self.panels.geometry
+        left = (
+            float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
+        )  # a flat piece there was left out
+        return left, float(p.series[-1].sum()) if g.cut_right else 0.0
+
+    def _beside(self, x: Array) -> tuple[Array, Array]:
+        V, continued = potential.beside(self.panels, x)
+        return (self.panels.edge.cos / math.pi) * V, continued
+
+    def _corner(self, x: float) -> float:
+        if x in self._cusps:
+            jump = self.panels.geometry.slope.without_functions.corner(x)[0]
+            return math.copysign(1.0, jump) if jump else 0.0
+        at = (infinite for e, infinite in self.panels.jumps if e == x)
+        return next((math.copysign(1.0, infinite) for infinite in at), 0.0)
+
+    def _pair(self, z: Complex) -> tuple[Complex, Complex]:
+        if not self._cusps:
+            V, dV = potential.upper(self.panels, z)
+            return self._potential_scale * V, self._potential_scale * dV
+        out = np.empty((2, *z.shape), dtype=complex)
+        F, dF = self._joined(z, self._pair_by_pieces, self._pair_beside_cusp, out)
+        return F, dF
+
+    def _pair_by_pieces(self, z: Complex) -> Complex:
+        out: Complex = self._potential_scale * np.array(potential.upper(self.panels, z))
+        return out
+
+    def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
+        V, dV = potential.far(self.panels, z, constant=False)
+        return self._potential_scale * V, self._potential_scale * dV
+
+    @property
+    def _kinks(self) -> tuple[tuple[float, float], ...]:
+        return self.panels.kinks
+
+    @property
+    def singular(self) -> tuple[float, ...]:
+        """Among many pieces a kink is not told from what resolves a function, but a jump is."""
+        inner = self.panels.jumps if self.panels.many else self._kinks
+        return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        inner = {
+            e
+            for e in self.panels.geometry.ends.ravel().tolist()
+            if self.contact.x1 < e < self.contact.x2
+        }
+        return (self.contact.x1, *sorted(inner), self.contact.x2)
+
+
+@dataclass(frozen=True, eq=False)
+class PanelDensity(OnPanels):
+    """The same with its panels given."""
+
+    panels: Panels
+
+    @property
+    def epsilon(self) -> float:
+        return self.panels.edge.epsilon
+
+
+@dataclass(frozen=True, eq=False)
+class PowerDensity(OnPanels):
+    """A power law pressed upright: p in closed form (`power_law`), the potential by panels."""
+
+    law: PowerLaw
+    declared: Slope
+    resolution: float
+    resolves = False
+
+    @cached_property
+    def panels(self) -> Panels:  # type: ignore[override]
+        pieces = refined(self.declared, self.contact.x1, self.contact.x2, self.resolution)
+        return Panels(Geometry(pieces, self.contact))
+
+    @property
+    def slope_scale(self) -> float:
+        return self.law.slope(self.contact.r)
+
+    def _regular(self, x: Array) -> Array:
+        near = np.minimum(self.contact.from_left(x), self.contact.from_right(x))
+        J = self.law.superposed(x - self.law.axis, near, self.contact.r)
+        mean = self.resultant / (np.pi * self.contact.r) / self.half_modulus
+        return (self.law.exponent * mean) * J
+
+    def _slope(self, x: Array) -> Array:
+        return self.declared(x)
+
+    @property
+    def _slope_at_edges(self) -> tuple[float, float]:
+        return -self.slope_scale, self.slope_scale
+
+    def moved(self, contact: Interval, dx: float, tail: float) -> PowerDensity:
+        """The same with its contact, and what it knows of the slope, moved by dx + tail."""
+        law = replace(self.law, axis=self.law.axis + dx + tail)
+        declared = self.declared.shifted(dx).shifted(tail)
+        return replace(self, contact=contact, law=law, declared=declared)

@@ -1,0 +1,213 @@
+"""Cracks by their dislocation density, against textbooks: 1/π PV∫ φ(t)/(t - x) dt = p(x), ∫φ dx = 0
+over each crack.
+
+Next to a tip φ ~ K/sqrt(2π) (distance)^(-1/2), minus at a left tip, K the stress intensity factor
+of the pressure p on the faces. Tada, Paris & Irwin, The Stress Analysis of Cracks Handbook (2000);
+two collinear cracks: Willmore (1949); row: Koiter (1959).
+"""
+
+import mpmath
+import numpy as np
+import pytest
+import scipy.special
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import between, log_between
+
+import sie
+
+PROMISE = 1e-12  # of a stress intensity factor
+mp = mpmath.mp.clone()
+mp.dps = 40
+
+
+def intensity_factors(density):
+    """(left, right) of each crack."""
+    return [
+        (-np.sqrt(2.0 * np.pi) * left, np.sqrt(2.0 * np.pi) * right)
+        for left, right in density.intensities
+    ]
+
+
+def slit(half_length, pressure, centre=0.0, **question):
+    return sie.CauchyEquation(
+        (centre - half_length, centre + half_length), pressure, total=0.0, **question
+    ).solve()
+
+
+# -- one crack ------------------------------------------------------------------------------------
+
+
+@given(log_between(1e-8, 1e8), log_between(1e-8, 1e8))
+def test_a_slit_under_uniform_pressure(a, p):
+    density = slit(a, p)
+    assert intensity_factors(density)[0] == pytest.approx([p * np.sqrt(np.pi * a)] * 2, rel=PROMISE)
+    x = a * np.array([-0.99, 0.2, 0.7])
+    assert density(x) == pytest.approx(p * x / np.sqrt((a - x) * (a + x)), rel=PROMISE)
+
+
+@given(st.lists(between(-1.0, 1.0), min_size=1, max_size=9))
+def test_a_slit_under_a_polynomial_load(coefficients):
+    """K = 1/sqrt(πa) ∫ p sqrt((a + t)/(a - t)) dt (Green's function); ∫ s^m/sqrt(1 - s²) ds = π (m
+    - 1)!!/m!! for even m; a = 2.
+    """
+    a = 2.0
+    even = [
+        scipy.special.binom(m, m // 2) * 2.0**-m * np.pi if m % 2 == 0 else 0.0
+        for m in range(len(coefficients) + 1)
+    ]
+    right = sum(c * (even[m] + even[m + 1]) for m, c in enumerate(coefficients))
+    left = sum(c * (even[m] - even[m + 1]) for m, c in enumerate(coefficients))
+    size = np.sqrt(a / np.pi)
+    density = slit(a, lambda x: np.polynomial.polynomial.polyval(x / a, coefficients))
+    scale = max(1e-30, *map(abs, coefficients)) * size
+    assert intensity_factors(density)[0] == pytest.approx(
+        (size * left, size * right), abs=PROMISE * scale
+    )
+
+
+@pytest.mark.parametrize("p", [1e-300, 5e-313, 1e300])
+def test_a_slit_under_a_linear_load_as_small_or_large_as_numbers_are(p):
+    """Below 2e-308 numbers have fewer digits: the density has as many as they."""
+    density = slit(2.0, lambda x: p * (1.0 + 0.5 * x))
+    x = np.array([-1.2, 0.7])
+    closed = p * (x + 0.5 * x * x - 1.0) / np.sqrt(4.0 - x * x)
+    assert density(x) == pytest.approx(closed, rel=max(1e-13, 1e-321 / p))
+
+
+@pytest.mark.parametrize("height", [1.0, 0.1, 0.01])
+@pytest.mark.parametrize("place", [0.0, 0.6, -0.95])
+def test_a_slit_under_a_point_load(place, height):
+    """The load p = height/π / ((x - place)² + height²) of unit resultant; for a height of 0 it is
+    the point load of the textbooks.
+
+    With ζ = place + i height,  ∫ p sqrt((a + t)/(a - t)) dt = -Im sqrt((ζ + a)/(ζ - a)),
+    which is sqrt((a + place)/(a - place)) then.
+    """
+    a, zeta = 1.0, mp.mpc(place, height)
+    density = slit(a, lambda x: height / np.pi / ((x - place) ** 2 + height**2))
+    right, left = (
+        -mp.im(mp.sqrt((z + a) / (z - a))) / mp.sqrt(mp.pi * a) for z in (zeta, -mp.conj(zeta))
+    )
+    assert intensity_factors(density)[0] == pytest.approx((float(left), float(right)), rel=PROMISE)
+    if height == 0.01 and place == 0.0:
+        assert float(right) == pytest.approx(1.0 / np.sqrt(np.pi * a), rel=0.02)
+
+
+def test_a_load_as_narrow_as_a_point_costs_one_transform_of_40000_nodes():
+    """The same load from a height of 1e-3: no matrix is built, which would hold 1.6e9 numbers."""
+    equation = sie.CauchyEquation(
+        (-1.0, 1.0), lambda x: 1e-3 / np.pi / ((x - 0.5) ** 2 + 1e-6), total=0.0
+    )
+    density, zeta = equation.solve(n=40_000), mp.mpc(0.5, 1e-3)
+    right, left = (
+        float(-mp.im(mp.sqrt((z + 1) / (z - 1))) / mp.sqrt(mp.pi)) for z in (zeta, -mp.conj(zeta))
+    )
+    assert intensity_factors(density)[0] == pytest.approx((left, right), rel=PROMISE)
+    assert density.error < PROMISE
+
+
+def test_the_stress_ahead_of_a_slit():
+    """σ_yy = p (|x|/sqrt(x² - a²) - 1) on the axis: the potential 1/π ∫ φ/(x - t) dt beyond the
+    tips.
+    """
+    density = slit(1.5, 2.0)
+    x = np.array([1.5 + 1e-9, 1.6, 4.0, -2.0, 100.0])
+    ahead = np.abs(x) / np.sqrt((np.abs(x) - 1.5) * (np.abs(x) + 1.5)) - 1.0
+    assert density.hilbert(x) == pytest.approx(2.0 * ahead, rel=PROMISE, abs=PROMISE)
+
+
+# -- several cracks -------------------------------------------------------------------------------
+
+
+def willmore(a, b):
+    """K at the inner tips ±a and at the outer tips ±b of two equal collinear cracks under unit
+    pressure.
+    """
+    a, b = mp.mpf(a), mp.mpf(b)
+    m = (1 - a / b) * (1 + a / b)
+    ratio = mp.ellipe(m) / mp.ellipk(m)
+    root = mp.sqrt((b - a) * (b + a))
+    return mp.sqrt(mp.pi / a) * (b * b * ratio - a * a) / root, mp.sqrt(mp.pi * b) * b * (
+        1 - ratio
+    ) / root
+
+
+@pytest.mark.parametrize("ligament", [1.0, 1e-2, 1e-4, 1e-6, 1e-8])
+def test_two_collinear_cracks(ligament):
+    """`ligament` relative to the length of a crack. The bar at 1e-6 is 1e-9."""
+    a = 0.5 * ligament
+    density = sie.CauchyEquation(((-1.0 - a, -a), (a, 1.0 + a)), 1.0, total=(0.0, 0.0)).solve()
+    inner, outer = willmore(a, 1.0 + a)
+    (left_outer, left_inner), (right_inner, right_outer) = intensity_factors(density)
+    assert [left_outer, right_outer] == pytest.approx([float(outer)] * 2, rel=PROMISE)
+    assert [left_inner, right_inner] == pytest.approx([float(inner)] * 2, rel=PROMISE)
+    assert max(density.n) <= 128
+
+
+def collinear(cracks):
+    """(K left, K right) of each crack under unit pressure: F(z) = 1 - q(z)/sqrt(Π(z - tip)), q of
+    40 digits by ∫φ = 0 over each.
+
+    Gauss-Chebyshev in 40 digits: φ sqrt((b - x)(x - a)) is analytic over each crack.
+    """
+    tips = [(mp.mpf(a), mp.mpf(b)) for a, b in cracks]
+    n, nodes = len(tips), [mp.cos(mp.pi * (2 * k + 1) / 320) for k in range(160)]
+
+    def rest(i, x):
+        """Π over the other cracks, with φ's sign there."""
+        sign = (-1) ** (n - 1 - i)
+        return sign / mp.sqrt(
+            mp.fprod(abs((x - a) * (x - b)) for j, (a, b) in enumerate(tips) if j != i)
+        )
+
+    rows = []
+    for i, (a, b) in enumerate(tips):
+        at = [(a + b) / 2 + (b - a) / 2 * s for s in nodes]
+        rows.append([mp.fsum(rest(i, x) * x**k for x in at) / len(at) for k in range(n + 1)])
+    q = mp.lu_solve(mp.matrix([row[:n] for row in rows]), mp.matrix([-row[n] for row in rows]))
+    found = []
+    for i, (a, b) in enumerate(tips):
+        factor = mp.sqrt(2 * mp.pi / (b - a))
+        left, right = (
+            factor * (mp.fsum(c * x**k for k, c in enumerate(q)) + x**n) * rest(i, x)
+            for x in (a, b)
+        )
+        found.append((float(-left), float(right)))
+    return found
+
+
+def test_the_reference_for_collinear_cracks_agrees_with_elliptic_integrals():
+    (_, inner), (_, outer) = collinear([(-2.0, -0.25), (0.25, 2.0)])
+    assert (inner, outer) == pytest.approx([float(v) for v in willmore(0.25, 2.0)], rel=1e-15)
+
+
+CRACKS = [
+    ((-3.0, -1.0), (-0.9, 0.5), (1.5, 2.0)),
+    ((0.0, 1.0), (1.05, 4.0), (4.5, 5.0)),
+    ((-9.0, -8.0), (0.0, 2.0), (3.0, 9.0)),
+]
+
+
+@pytest.mark.parametrize("cracks", CRACKS)
+def test_three_collinear_cracks_with_unequal_gaps(cracks):
+    density = sie.CauchyEquation(cracks, 1.0, total=(0.0, 0.0, 0.0)).solve()
+    assert np.array(intensity_factors(density)) == pytest.approx(
+        np.array(collinear(cracks)), rel=PROMISE
+    )
+
+
+@given(between(0.02, 0.98))
+def test_a_crack_in_a_periodic_row(fraction):
+    """The others of the row are a kernel: 1/W (ψ(1 - u) - ψ(1 + u)) = π/W cot(πu) - 1/(W u), u = (t
+    - x)/W; K = p sqrt(W tan(πa/W)).
+    """
+    W = 2.5
+    a = 0.5 * W * fraction
+
+    def others(x, t):
+        u = (t - x) / W
+        return (scipy.special.digamma(1.0 - u) - scipy.special.digamma(1.0 + u)) / (np.pi * W)
+
+    exact = np.sqrt(W * np.tan(0.5 * np.pi * fraction))
+    assert intensity_factors(slit(a, 1.0, k=others))[0] == pytest.approx([exact] * 2, rel=PROMISE)

@@ -1,0 +1,393 @@
+"""What the certificate promises: no error far above its estimate, nothing unseen in a function."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import sie
+from oracles import normal_contact
+from oracles.normal_contact import mp
+from sie.certificate import pressure_check, quadrature, result
+from sie.certificate.result import PROMISE
+from sie.contact import gap, inequalities, normal
+from sie.numerics.interval import interval_about
+from sie.profiles import unresolved
+from sie.traction import on_panels
+from validation.wrong_programs.pressures import with_pressure
+
+SHARE = 3.0  # of the promise
+SLIGHT = 1e-15  # of the peak
+
+
+def pressed(slope, load=0.3, **given):
+    return sie.solve(
+        sie.Scene(profile=sie.FromFunction(slope, **given), modulus=1.0, normal_load=load)
+    )
+
+
+def bound(certificate, distance):
+    """The promise, at a distance from an edge in half-widths, over the peak."""
+    return np.maximum(SHARE * (certificate.error + certificate.edges / np.sqrt(distance)), SLIGHT)
+
+
+# -- the promise ----------------------------------------------------------------------------------
+
+INF = mp.inf
+CASES = {
+    "rounded flat": (
+        sie.RoundedFlat(0.3, 2.0),
+        ((-INF, -0.3, 0.3, INF), ((0.15, 0.5), (0.0,), (-0.15, 0.5))),
+        0.1,
+        0.0,
+    ),
+    "tilted": (sie.Parabola(1.0), ((-INF, INF), ((0.0, 1.0),)), 0.01, 0.17),
+    "uneven": (
+        sie.Piecewise((-0.25, 0.5), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
+        ((-INF, -0.25, 0.5, INF), ((0.5, 2.0), (0.0625, 0.25), (-1.9375, 4.25))),
+        0.3,
+        -0.03,
+    ),
+    "cubic": (
+        sie.Polynomial((0.0, 0.0, 0.1, 0.1, 1.0)),
+        ((-INF, INF), ((0.0, 0.2, 0.3, 4.0),)),
+        0.05,
+        0.0,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
+    profile, (breaks, rows), load, tilt = CASES[name]
+    if name == "rounded flat":  # 0.3 and 0.15 = 0.3/2 as the profile has them
+        rows = ((mp.mpf(0.3) / 2, mp.mpf(0.5)), (mp.zero,), (-mp.mpf(0.3) / 2, mp.mpf(0.5)))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=load, tilt=tilt))
+    truth = normal_contact.contact(
+        normal_contact.polynomials(breaks, rows).tilted(tilt), 1.0, solution.edges, load=load
+    )
+    x1, x2, r = float(truth.x1), float(truth.x2), float(truth.r)
+    away = r * np.array([1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.3, 0.9])
+    x = np.concatenate((x1 + away, x2 - away))
+    x = x[(x > x1) & (x < x2)]
+    expected = [truth.pressure(v) for v in x.tolist()]
+    errors = np.array(
+        [
+            abs(float(mp.mpf(p) - e))
+            for p, e in zip(solution.pressure(x).tolist(), expected, strict=True)
+        ]
+    )
+    distance = np.array(
+        [float(min(mp.mpf(v) - truth.x1, truth.x2 - mp.mpf(v)) / truth.r) for v in x.tolist()]
+    )
+    found = solution.check()
+    assert found.ok
+    assert (errors <= bound(found, distance) * float(max(expected))).all()
+
+
+def test_what_the_edges_leave_in_the_pressure_is_neither_nothing_nor_a_scare():
+    """An edge is known to an ulp of the load times its condition: p(x) δ/(2 d) is wrong."""
+    found = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.3, 2.0), modulus=1.0, normal_load=0.1)
+    ).check()
+    assert 1e-17 < found.edges < 1e-14
+
+
+def test_edges_far_from_x_0_are_known_better_than_to_an_ulp_of_x():
+    """In a contact a thousand half-widths from x = 0 doubles are 1e-13 r apart; what they miss is
+    kept.
+    """
+    profile = sie.Parabola(1.0).shifted(1000.3)
+    found = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check()
+    assert found.edges < 0.1 * math.ulp(1000.3)
+    assert found.ok
+
+
+def test_the_same_promise_is_printed_and_documented():
+    found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)).check()
+    assert PROMISE in " ".join(str(found).split())
+    assert PROMISE in " ".join(result.Certificate.__doc__.split())
+
+
+def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_implies():
+    """p(x - δ) of a parabola leaves the constant E* δ/(2R), and is wrong by far more next to the
+    edges.
+    """
+    scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)
+    p, size = sie.solve(scene).pressure, 1e-6
+    found = with_pressure(scene, lambda x: p(x - size)).check()
+    x = np.linspace(-0.98, 0.98, 99)
+    error = float(np.abs(p(x - size) - p(x)).max() / p(0.0))
+    assert found.error >= error / SHARE
+    assert max(found.residual, found.force, found.moment, found.edges) < error / SHARE
+
+
+def test_a_rim_that_no_double_can_tell_is_not_certified():
+    """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any
+    defect.
+    """
+    found = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(1.0, 1e-150), modulus=1.0, normal_load=1.0)
+    ).check()
+    assert not found.ok
+    assert "NOT certified to 1e-13" in str(found)
+
+
+# -- functions ------------------------------------------------------------------------------------
+
+AT = 0.21337
+UNDECLARED = {
+    "jump": (lambda x: x + 0.3 * np.sign(x - 0.2), (0.2,)),
+    "small jump": (lambda x: x + 0.001 * np.sign(x + 0.37), (-0.37,)),
+    "kink": (lambda x: x + 0.7 * np.maximum(x - 0.03199622862669049, 0.0), (0.03199622862669049,)),
+    "cusp": (lambda x: x + 0.3 * np.sign(x - AT) * np.abs(x - AT) ** 0.3, (AT,)),
+    "narrow bump": (
+        lambda x: x + 1e-5 * np.exp(-(((x - 0.3137) / 1e-4) ** 2)),
+        tuple(0.3137 + 1e-4 * np.arange(-8, 9)),
+    ),
+    "faint bump": (
+        lambda x: x + 1e-9 * np.exp(-(((x + AT) / 3e-3) ** 2)),
+        tuple(-AT + 3e-3 * np.arange(-8, 9)),
+    ),
+}
+
+
+@pytest.mark.parametrize("load", [0.3, 0.2871])
+@pytest.mark.parametrize("name", UNDECLARED)
+def test_what_was_not_declared_is_found_and_resolved(name, load):
+    slope, breaks = UNDECLARED[name]
+    found, declared = pressed(slope, load), pressed(slope, load, breaks=breaks)
+    (x1, x2), r = declared.edges, declared.half_width
+    assert found.edges == pytest.approx(declared.edges, abs=1e-14 * r)
+    x = np.linspace(x1 + 0.01 * r, x2 - 0.01 * r, 2001)
+    x = x[np.abs(x[:, None] - np.array(breaks)).min(axis=1) > 1e-5]
+    assert found.pressure(x) == pytest.approx(
+        declared.pressure(x), abs=3e-14 * float(declared.pressure(x).max())
+    )
+    assert found.check().ok
+
+
+@pytest.mark.parametrize("name", ["jump", "narrow bump"])
+def test_the_stick_zone_of_such_a_function_is_right_too(name):
+    slope, breaks = UNDECLARED[name]
+    found, declared = (
+        pressed(slope, 0.5, breaks=b).with_(friction=0.4, tangential_load=0.02)
+        for b in ((), breaks)
+    )
+    assert found.stick[0] == pytest.approx(declared.stick[0], abs=1e-13)
+
+
+@pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
+def test_the_certificate_sees_what_the_solver_did_not(name, monkeypatch):
+    """The solver without its look between the points: the certificate looks at points of its
+    own.
+    """
+    slope, breaks = UNDECLARED[name]
+    right = pressed(slope, breaks=breaks)
+    monkeypatch.setattr(normal, "LOOKS", 0)
+    blind = pressed(slope)
+    x = np.linspace(-0.95, 0.95, 4001) * right.half_width + right.centre
+    x = x[np.abs(x - 0.2) > 1e-5] if name == "jump" else x
+    error = float(np.abs(blind.pressure(x) - right.pressure(x)).max() / right.pressure(x).max())
+    found = blind.check()
+    assert error > 1e-10
+    assert not found.ok
+    assert found.error >= error / SHARE
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("part", [3e-3, 1.7e-4, 1.9e-5, 1e-6, 1.3e-8])
+def test_a_kink_just_inside_an_edge_is_found(part, side):
+    """All that it changes lies between it and the edge; a declared one is known exactly."""
+    b = side * math.sqrt(1.2 / math.pi) * (1.0 - part)
+
+    def slope(x):
+        return x + 0.05 * side * np.maximum(side * (x - b), 0.0)
+
+    found, declared = pressed(slope), pressed(slope, breaks=(b,))
+    lo, hi = declared.edges
+    angle = np.linspace(0.0, math.pi, 402)[1:-1]
+    x = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(angle)
+    p, q = found.pressure(x), declared.pressure(x)
+    promised = bound(found.check(), 1.0 - np.abs(np.cos(angle)))
+    assert (np.abs(p - q) <= 2.0 * promised * q.max()).all()
+
+
+def test_the_certificate_s_points_are_not_those_of_the_solver():
+    contact = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
+    assert not np.isin(
+        unresolved.scattered(contact, unresolved.SAMPLES), unresolved.scattered(contact)
+    ).any()
+
+
+def test_no_gap_between_the_scattered_points_is_wider_than_the_documentation_says():
+    contact = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
+    assert np.diff(unresolved.scattered(contact)).max() <= 5e-4 * 2.0 * contact.r
+
+
+def test_where_the_scattered_points_lie_depends_on_the_last_digit_of_an_edge():
+    one = sie.solve(
+        sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
+    ).normal.edges.contact
+    other = one._replace(x2=math.nextafter(one.x2, 9.0))
+    middle = slice(1300, 1309)  # the first and last are near the edges
+    assert (
+        np.abs(unresolved.scattered(one)[middle] - unresolved.scattered(other)[middle]).max() > 1e-9
+    )
+
+
+def test_nan_on_a_thousandth_of_the_contact_is_refused_where_it_is():
+    with pytest.raises(ValueError, match=r"slope returned nan at x = 0\.(299|300)"):
+        pressed(lambda x: np.where(np.abs(x - 0.3) < 1e-3, np.nan, x)).pressure(0.0)
+
+
+@pytest.mark.parametrize(
+    "slope",
+    [
+        lambda x: (-8.0 + 0j) ** (1 / 3) * x,
+        lambda x: x if np.ndim(x) == 1 else np.sqrt(x.astype(complex)),
+        lambda x: np.where(np.abs(x) > 0.2, x.astype(complex), 1j),
+    ],
+)
+def test_complex_slopes_are_refused_by_name(slope):
+    with pytest.raises(ValueError, match="slope returned complex numbers"):
+        pressed(slope).pressure(0.0)
+
+
+@pytest.mark.parametrize(
+    "slope",
+    [
+        lambda x: [float(v) for v in np.ravel(x)],
+        lambda x: [[1.0], [2.0, 3.0]],
+        lambda x: (x, x),
+        lambda x: None,
+        lambda x: x.slope,
+        lambda x: x > 0,
+    ],
+    ids=["list", "rows", "pair", "none", "attribute", "bool"],
+)
+def test_what_is_not_a_function_of_an_array_is_refused_when_the_profile_is_built(slope):
+    with pytest.raises(ValueError, match=r"^slope (returned|fails)"):
+        sie.FromFunction(slope)
+
+
+def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_same():
+    assert pressed(lambda x: [*x]).half_width == pytest.approx(
+        pressed(lambda x: x).half_width, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
+def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
+    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which no pressure beside it
+    feels.
+    """
+    profile = sie.Power(exponent, 0.75)
+    assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
+
+
+# -- small strains --------------------------------------------------------------------------------
+
+
+def test_steep_slopes_carry_a_note_and_are_certified_all_the_same():
+    found = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=50.0)).check()
+    assert found.ok
+    assert (
+        "slope in the contact reaches 50; above 0.2 half-plane elasticity (small strains) is "
+        "outside its range" in found.notes[0]
+    )
+    assert "pressure reaches 25 E*" in found.notes[1]
+    assert found.as_dict()["notes"] == list(found.notes)
+    assert all(note in str(found) for note in found.notes)
+
+
+def test_small_slopes_and_pressures_carry_no_note():
+    solution = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(1.0, 100.0), modulus=1.0, half_width=2.0)
+    )
+    assert solution.notes == solution.check().notes == ()
+
+
+@pytest.mark.parametrize(("load", "noted"), [(0.01, False), (0.1, True)])
+@pytest.mark.parametrize(
+    "given", [{}, {"friction": math.inf, "dundurs": 0.05}], ids=["frictionless", "bonded"]
+)
+def test_next_to_a_sharp_edge_the_pressure_that_counts_is_a_thousandth_of_r_away(
+    load, noted, given
+):
+    """Where it is infinite some pressure exceeds any bound."""
+    solution = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=load, **given))
+    assert bool(solution.notes) is noted
+
+
+# -- cost -----------------------------------------------------------------------------------------
+
+
+def test_a_gap_that_opens_everywhere_is_not_integrated(monkeypatch):
+    def refuse(*_):
+        raise AssertionError("integrated")
+
+    monkeypatch.setattr(inequalities, "gap", refuse)
+    powers = sie.Power(1.001, 0.75), sie.Power(2.5, 0.75), sie.Power(60.0, 0.75)
+    for profile in (
+        sie.Parabola(1.0),
+        sie.RoundedFlat(0.5, 1.0),
+        sie.Wedge(0.3),
+        sie.Flat(1.0),
+        *powers,
+    ):
+        assert (
+            sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3)).check().lowest_gap
+            == 0.0
+        )
+
+
+@pytest.mark.parametrize("exponent", [1.001, 1.3, 2.5, 4.5, 60.5])
+def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
+    """The closed form needs no pieces, and the rule of the certificate is graded to the axis."""
+
+    def refuse(*_):
+        raise AssertionError("resolved")
+
+    profile = sie.Power(exponent, 0.75).shifted(0.7)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3))
+    for module in (pressure_check, inequalities, quadrature, gap, on_panels):
+        monkeypatch.setattr(module, "refined", refuse)
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
+@pytest.mark.parametrize("size", [1e-6, 1e-9])
+def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
+    """Of the right load and the law's own shape: the equation and the conditions of the edges
+    tell.
+    """
+    scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
+    right, wide = (sie.solve(scene) for _ in range(2))
+    p, r = right.pressure, right.half_width
+    contact = interval_about(0.0, r * (1.0 + size))
+    wide.__dict__["pressure"] = dataclasses.replace(p, contact=contact)
+    x = r * np.linspace(-0.95, 0.95, 401)
+    error = float(np.abs(wide.pressure(x) - p(x)).max() / p(x).max())
+    found = wide.check()
+    assert not found.ok
+    assert found.error >= error / SHARE
+
+
+@pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
+def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
+    """What a coarse resolution misses everywhere is no feature that it has not seen."""
+    wave = sie.FromFunction(
+        lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even"
+    )
+    coarse, fine = (
+        sie.solve(sie.Scene(profile=wave, modulus=1.0, half_width=0.5), tol=t) for t in (tol, 1e-13)
+    )
+    x = np.linspace(-0.49, 0.49, 101)
+    assert not coarse.normal.seen
+    assert np.abs(coarse.pressure(x) - fine.pressure(x)).max() <= tol * fine.pressure(x).max()

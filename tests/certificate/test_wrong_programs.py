@@ -1,0 +1,255 @@
+"""The certificate is itself checked: programs that are wrong in the ways that programs are, large
+or small, and right ones.
+
+The pressure of a solution is replaced by a wrong one. Its true error is the largest difference from
+the right one within 0.95 r of the centre, relative to the peak; the certificate must not be ok, and
+must own up to at least a third of it.
+"""
+
+import laws
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+
+import sie
+from sie.contact.normal import normal_contact
+from sie.contact.pressure import pressure
+from validation.cases import BUMP, CASES, SINH, Case, solved
+from validation.wrong_programs.pressures import (
+    PUNCH,
+    SKEW,
+    Wrong,
+    closed_form,
+    gauss_chebyshev,
+    root,
+)
+
+
+def certificate(scene, values=None, **claims):
+    """(certificate of the wrong pressure, its true error)."""
+    solution = sie.solve(scene)
+    right = solution.pressure
+    values = values or right
+    solution.__dict__["pressure"] = Wrong(right, values, **claims)
+    r, m = solution.half_width, solution.centre
+    x = m + r * np.linspace(-0.95, 0.95, 2011)
+    x = x[np.abs(x[:, None] - np.array([*scene.profile.breaks, 9e9])).min(axis=1) > 1e-4 * r]
+    with np.errstate(all="ignore"):
+        error = float(
+            np.abs(values(x) - right(x)).max()
+            / laws.peak(right, solution.edges, scene.profile.breaks)
+        )
+        return solution.check(), error
+
+
+def assert_caught(scene, values=None, share=1 / 3, **claims):
+    found, error = certificate(scene, values, **claims)
+    assert not found.ok
+    assert not found.error < share * error
+
+
+SIZES = (1e-3, 1e-6, 1e-9, 1e-12)
+
+
+def right(scene):
+    return sie.solve(scene).pressure
+
+
+# -- right programs -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_a_right_program_is_certified(case: Case):
+    assert solved(case).check().ok
+    assert solved(case).check().error <= 1e-13
+
+
+@given(strategies.scenes())
+def test_a_right_program_is_certified_on_random_scenes(scene):
+    found = sie.solve(scene).check()
+    assert found.ok, str(found)
+
+
+def test_another_right_program_is_certified():
+    """The closed form, written here, in place of the solver's values."""
+    found, error = certificate(PUNCH, closed_form)
+    assert error < 1e-14
+    assert found.ok
+
+
+# -- wrong formulas -------------------------------------------------------------------------------
+
+
+def test_a_flipped_sign_of_the_second_logarithm_is_caught():
+    assert_caught(PUNCH, lambda x: closed_form(x, second=-1.0))
+
+
+def test_a_dropped_logarithm_is_caught():
+    assert_caught(PUNCH, lambda x: closed_form(x, second=0.0))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_logarithm_off_by_a_little_is_caught(size):
+    assert_caught(PUNCH, lambda x: closed_form(x, second=1.0 + size * 10))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_load_that_was_not_scaled_is_caught(size):
+    p = right(PUNCH)
+    assert_caught(PUNCH, lambda x: p(x) * (1 + size))
+    assert_caught(PUNCH, lambda x: 2 * p(x))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_edges_off_by_a_little_are_caught(size):
+    """The pressure of a contact that is wider, under the load of the right one."""
+    assert_caught(PUNCH, lambda x: closed_form(x, b=1 + size))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_centre_off_by_a_little_is_caught(size):
+    p = right(SKEW)
+    assert_caught(SKEW, lambda x: p(x - size))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_solution_of_the_homogeneous_equation_is_caught(size):
+    """C/w: the integral equation itself is blind to it, equilibrium is not."""
+    p = right(PUNCH)
+    assert_caught(PUNCH, lambda x: p(x) + size * 0.15 / root(x))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_wrong_end_weight_is_caught(size):
+    """(1 - s²)^(1/2 + size) in place of the square root."""
+    p = right(PUNCH)
+    assert_caught(PUNCH, lambda x: p(x) * root(x) ** (2 * size))
+
+
+@pytest.mark.parametrize("lo", [0.5, -1.0])
+def test_half_a_panel_missing_is_caught(lo):
+    """h' taken as zero on a quarter of the contact: the pressure of the profile that lacks it, at
+    the same edges.
+
+    Where h' then jumps the wrong pressure is infinite, and no share of that can be owned up to.
+    """
+    if lo > 0:
+        pieces = sie.Piecewise((-0.5, 0.5, 0.75), ((0.5, 1.0), (0.0,), (0.0,), (-0.5, 1.0)))
+    else:
+        pieces = sie.Piecewise((-0.75, -0.5, 0.5), ((0.0,), (0.5, 1.0), (0.0,), (-0.5, 1.0)))
+    lacking = sie.Scene(profile=pieces, modulus=1.0, half_width=1.0)
+    normal = normal_contact(PUNCH, 1e-13)
+    wrong = pressure(normal, lacking, 1e-13)
+    assert_caught(PUNCH, wrong, share=0.2)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_panel_of_the_wrong_height_is_caught(size):
+    """One corner's curvature off: the answer of a neighbouring question."""
+    other = sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0 - 20 * size, 2.0 + 20 * size)))
+    assert_caught(SKEW, right(sie.Scene(profile=other, modulus=1.0, half_width=1.125)))
+
+
+# -- wrong Gauss-Chebyshev ------------------------------------------------------------------------
+
+
+ROUND = sie.Scene(profile=SINH, modulus=1.0, half_width=1.5)
+BUMPED = sie.Scene(profile=BUMP, modulus=1.0, half_width=0.75)
+
+
+def test_gauss_chebyshev_written_here_is_right():
+    found, error = certificate(ROUND, gauss_chebyshev(ROUND))
+    assert error < 1e-13
+    assert found.ok
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("scene", [ROUND, BUMPED], ids=["sinh", "bump"])
+def test_a_shifted_quadrature_node_is_caught(scene, size):
+    assert_caught(scene, gauss_chebyshev(scene, shift=-100 * size if size < 1e-3 else -size))
+
+
+def test_too_few_nodes_are_caught():
+    assert_caught(ROUND, gauss_chebyshev(ROUND, n=8, at=0))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_nodes_off_by_a_share_of_their_spacing_are_caught(size):
+    assert_caught(ROUND, gauss_chebyshev(ROUND, half=100 * size if size < 1e-3 else size))
+
+
+# -- errors of any shape --------------------------------------------------------------------------
+
+SHAPES = {
+    "constant": np.ones_like,
+    "even": root,
+    "odd": lambda x: x * root(x),
+    "wave": lambda x: np.cos(20 * x),
+    "short wave": lambda x: np.cos(300 * x),
+    "bump": lambda x: np.exp(-(((x - 0.31) / 0.05) ** 2)),
+}
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+def test_an_error_of_any_shape_is_caught(shape, size):
+    p = right(PUNCH)
+    assert_caught(PUNCH, lambda x: p(x) + 0.15 * size * shape(x))
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_digits_lost_to_cancellation_are_caught(size):
+    """Noise from one double to the next is not the rounding of x: a smooth pressure has none."""
+    p = right(PUNCH)
+
+    def noisy(x):
+        grain = np.modf(np.abs(x) * 2.0**53 * 0.6180339887498949)[0]
+        return p(x) + 0.15 * size * (2 * grain - 1)
+
+    assert_caught(PUNCH, noisy, share=0.1)
+
+
+def test_the_closed_form_that_cancels_is_caught():
+    """At 1 - a/b = 1e-8 the naive form has lost two thirds of its digits."""
+    a = 1.0 - 1e-8
+    scene = sie.Scene(profile=sie.RoundedFlat(a, 1.0), modulus=1.0, half_width=1.0)
+
+    def naive(x):
+        x = np.abs(x)
+        phi, phi0 = np.arcsin(np.clip(x, 0, 1)), np.arcsin(a)
+        with np.errstate(all="ignore"):
+            logs = x * np.log(np.abs(np.sin(phi + phi0) / np.sin(phi - phi0)))
+            logs += a * np.log(np.abs(np.tan((phi + phi0) / 2) * np.tan((phi - phi0) / 2)))
+        return ((np.pi - 2 * phi0) * np.cos(phi) + np.where(np.isfinite(logs), logs, 0.0)) / (
+            2 * np.pi
+        )
+
+    assert_caught(scene, naive, share=0.1)
+
+
+# -- claims that lie ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_resultant_or_a_moment_that_lies_is_caught(size):
+    solution = sie.solve(SKEW)
+    P, M = solution.normal_load, solution.moment
+    assert_caught(SKEW, resultant=P * (1 + size))
+    assert_caught(SKEW, moment=M + size * P)
+
+
+def test_tension_is_caught():
+    p = right(PUNCH)
+    found, _ = certificate(PUNCH, lambda x: p(x) - 0.05)
+    assert not found.ok
+    assert found.lowest_pressure < -0.1
+
+
+def test_a_certificate_prints_its_verdict():
+    good, bad = (
+        sie.solve(PUNCH).check(),
+        certificate(PUNCH, lambda x: closed_form(x, second=0.0))[0],
+    )
+    assert "NOT" not in str(good)
+    assert "NOT certified" in str(bad)

@@ -1,0 +1,350 @@
+"""Two patches, rows of patches and rows of cracks: true to their integral equations, in
+equilibrium, right in their limits.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from closed_forms import EPS, Call, coarse, mp, of_every_call, principal_value, resultant
+
+from analytic import cracks, flat, flat_row, hertz, two_flats, two_parabolas, wavy
+
+FLATS = {"inner": 1.0, "outer": 2.0, "normal_load": 3.0}
+PARABOLAS = {"inner": 1.0, "outer": 2.0, "radius": 2.0, "modulus": 3.0}
+WAVE = {"half_width": 0.6, "wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
+ROW = {"half_width": 0.6, "period": 2.0, "mean_pressure": 5.0}
+
+
+# --- the integral equations
+# -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("x", "moment"), [(1.2, 0.0), (1.9, -2.0)])
+def test_two_flats_solve_their_equation(x: float, moment: float) -> None:
+    def p(t):
+        return two_flats.pressure(t, **FLATS, moment=moment, lib=mp)
+
+    own, at = principal_value(p, x, (1, 2))
+    other = resultant(lambda t: p(-t), (1, 2), lambda t: 1 / (at + t)) / mp.pi
+    tilt = two_flats.tilt(**FLATS, moment=moment, modulus=3, lib=mp)
+    assert abs(own + other - mp.mpf(3) / 2 * tilt) < 1e-22
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer", "part"), [(1.0, 2.0, 0.2), (0.01, 2.0, 0.7), (1.0, 1.001, 0.7)]
+)
+def test_two_parabolas_solve_their_equation(inner: float, outer: float, part: float) -> None:
+    ends = {"inner": inner, "outer": outer}
+
+    def p(t):
+        return two_parabolas.pressure(t, **ends, radius=2, modulus=3, lib=mp)
+
+    own, at = principal_value(p, inner + part * (outer - inner), (inner, outer))
+    other = resultant(p, (inner, outer), lambda t: 1 / (at + t)) / mp.pi
+    slope = two_parabolas.slope(
+        at, distance=two_parabolas.distance(**ends, lib=mp), radius=2, lib=mp
+    )
+    assert abs(own + other - mp.mpf(3) / 2 * slope) < 1e-25
+
+
+@pytest.mark.parametrize("x", [0.1])
+def test_wave_and_row_of_flats_solve_their_equations(x: float) -> None:
+    """1/(x-t) and the smooth rest of (pi/L) cot(pi (x-t)/L)."""
+    for p, slope in (
+        (
+            lambda t: wavy.pressure(t, **WAVE, lib=mp),
+            lambda t: mp.mpf(5) / 2 * wavy.slope(t, wavelength=2, amplitude=0.3, lib=mp),
+        ),
+        (lambda t: flat_row.pressure(t, **ROW, lib=mp), lambda t: 0),
+    ):
+        own, at = principal_value(p, x, (-mp.mpf(0.6), mp.mpf(0.6)))
+
+        def kernel(t, at=at):
+            return mp.pi / 2 * mp.cot(mp.pi * (at - t) / 2) - 1 / (at - t) if t != at else mp.zero
+
+        others = resultant(p, (-mp.mpf(0.6), at, mp.mpf(0.6)), kernel) / mp.pi
+        assert abs(own + others - slope(at)) < 1e-22
+
+
+def test_two_flats_keep_their_difference_of_height() -> None:
+    """Of the potential between the flats, less that of the tilt, the integral vanishes; the tilt's
+    sign is that of -M.
+    """
+    given = {**FLATS, "moment": -2.0}
+    tilt = two_flats.tilt(**given, modulus=2, lib=mp)
+    between = resultant(lambda t: two_flats.potential(t, **given, lib=mp).real - tilt, (-1, 1))
+    assert abs(between) < 1e-22 < tilt
+
+
+def test_the_opening_of_two_cracks_closes_at_both_tips() -> None:
+    """sigma (x² - C)/sqrt(...) is the opening's slope, C from ∫ over a crack = 0: its singular
+    parts are the factors.
+    """
+    a, b = mp.mpf("0.7"), mp.mpf(2)
+    weight = lambda t: 1 / mp.sqrt((t * t - a * a) * (b * b - t * t))  # noqa: E731
+    safe = lambda t: weight(t) if a < t < b else mp.inf  # noqa: E731
+    C = resultant(safe, (a, b), lambda t: t * t) / resultant(safe, (a, b))
+    at_a, at_b = cracks.pair(inner=a, outer=b, tension=3, lib=mp)
+    assert abs(at_a / (3 * mp.sqrt(mp.pi) * (C - a * a) / mp.sqrt(a * (b * b - a * a))) - 1) < 1e-22
+    assert abs(at_b / (3 * mp.sqrt(mp.pi) * (b * b - C) / mp.sqrt(b * (b * b - a * a))) - 1) < 1e-22
+
+
+# --- equilibrium
+# ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("moment", [0.0, 3.2])
+def test_two_flats_carry_load_and_moment(moment: float) -> None:
+    p = lambda t: two_flats.pressure(t, **FLATS, moment=moment, lib=mp)  # noqa: E731
+    right, left = resultant(p, (1, 2)), resultant(lambda t: p(-t), (1, 2))
+    assert abs(right + left - 3) < 1e-22
+    lever = resultant(p, (1, 2), lambda t: t) - resultant(lambda t: p(-t), (1, 2), lambda t: t)
+    assert abs(lever - mp.mpf(moment)) < 1e-22
+
+
+@pytest.mark.parametrize(("inner", "outer"), [(1.0, 2.0), (0.01, 2.0), (1.0, 1.0 + 1e-9)])
+def test_two_parabolas_carry_their_load(inner: float, outer: float) -> None:
+    given = {"inner": inner, "outer": outer, "radius": 2.0, "modulus": 3.0}
+    total = 2 * resultant(lambda t: two_parabolas.pressure(t, **given, lib=mp), (inner, outer))
+    assert abs(two_parabolas.load(**given, lib=mp) / total - 1) < 1e-25
+    assert two_parabolas.load(**given) == pytest.approx(float(total), rel=8 * EPS)
+
+
+@pytest.mark.parametrize("load", [1e-20, 1e-3, 1.0, 30.0, 1e4])
+def test_edges_of_two_parabolas_invert_load_and_distance(load: float) -> None:
+    c1, c2 = two_parabolas.edges(
+        normal_load=load, distance=1.0, radius=2.0, modulus=3.0, lib=coarse
+    )
+    assert (
+        abs(two_parabolas.load(inner=c1, outer=c2, radius=2, modulus=3, lib=coarse) / load - 1)
+        < 1e-18
+    )
+    assert abs(two_parabolas.distance(inner=c1, outer=c2, lib=coarse) - 1) < 1e-28
+    near, far = two_parabolas.edges(normal_load=load, distance=1.0, radius=2.0, modulus=3.0)
+    conditioning = 4 * math.log(c2 / c1) + 4  # how ln c1 answers to ln P
+    assert abs(near / c1 - 1) < conditioning * EPS and abs(far / c2 - 1) < 8 * EPS
+
+
+def test_wave_and_row_of_flats_carry_their_mean_pressure() -> None:
+    ends = (-mp.mpf(0.6), mp.mpf(0.6))
+    assert (
+        abs(
+            resultant(lambda t: wavy.pressure(t, **WAVE, lib=mp), ends)
+            / 2
+            / wavy.mean_pressure(**WAVE, lib=mp)
+            - 1
+        )
+        < 1e-25
+    )
+    assert abs(resultant(lambda t: flat_row.pressure(t, **ROW, lib=mp), ends) / 2 - 5) < 1e-22
+
+
+@pytest.mark.parametrize("a", [1e-9, 0.3, 0.999999, 1.0])
+def test_half_width_of_the_wave_inverts_the_mean_pressure(a: float) -> None:
+    shape = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
+    assert wavy.half_width(
+        mean_pressure=wavy.mean_pressure(half_width=a, **shape), **shape
+    ) == pytest.approx(a, rel=1e-9)
+    exact = wavy.mean_pressure(half_width=mp.mpf(a), **shape, lib=mp)
+    assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
+
+
+# --- potentials
+# ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("z", [0.5, -2.2 - 0.4j, 1e6])
+def test_potential_of_two_flats_is_the_cauchy_integral(z: complex) -> None:
+    given = {**FLATS, "moment": -2.0}
+    p = lambda t: two_flats.pressure(t, **given, lib=mp)  # noqa: E731
+    right = resultant(p, (1, 2), lambda t: 1 / (mp.mpc(z) - t))
+    left = resultant(lambda t: p(-t), (1, 2), lambda t: 1 / (mp.mpc(z) + t))
+    value = two_flats.potential(z, **given)
+    assert abs(complex((right + left) / mp.pi) - value) <= 1e-13 * abs(value)
+
+
+@pytest.mark.parametrize("z", [0.7, -4.3 - 0.5j])
+def test_potentials_of_rows_are_periodic_cauchy_integrals(z: complex) -> None:
+    ends = (-mp.mpf(0.6), mp.mpf(0.6))
+    kernel = lambda t: mp.cot(mp.pi * (mp.mpc(z) - t) / 2) / 2  # noqa: E731
+    for module, given in ((wavy, WAVE), (flat_row, ROW)):
+        exact = resultant(lambda t: module.pressure(t, **given, lib=mp), ends, kernel)  # noqa: B023
+        assert abs(complex(exact) - module.potential(z, **given)) <= 1e-13 * abs(complex(exact))
+
+
+@pytest.mark.parametrize("side", [+1, -1])
+def test_potentials_tend_to_their_side_of_the_contact_and_have_the_slope_there(side: int) -> None:
+    step = mp.mpc(0, side * mp.mpf("1e-40"))
+    for function, given, x in (
+        (two_flats.potential, {**FLATS, "moment": -2.0}, 1.3),
+        (wavy.potential, WAVE, 6.2),
+        (flat_row.potential, ROW, -4.3),
+    ):
+        assert (
+            abs(
+                function(x, **given, side=side, lib=mp)
+                - function(mp.mpf(x) + step, **given, lib=mp)
+            )
+            < 1e-35
+        )
+    slope = wavy.slope(6.2, wavelength=2.0, amplitude=0.3)
+    assert wavy.potential(6.2, **WAVE, side=side).real == pytest.approx(2.5 * slope, rel=1e-13)
+
+
+@pytest.mark.parametrize("height", [3.0, 90.0, 1e9])
+def test_far_from_the_surface_the_potential_of_a_row_is_its_mean_pressure(height: float) -> None:
+    mean = wavy.mean_pressure(**WAVE)
+    assert wavy.potential(0.3 + 1j * height, **WAVE) == pytest.approx(
+        -1j * mean, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS
+    )
+    assert flat_row.potential(0.3 - 1j * height, **ROW) == pytest.approx(
+        5j, rel=10 * math.exp(-min(height, 30) * math.pi) + 4 * EPS
+    )
+
+
+# --- limits
+# ------------------------------------------------------------------------------------------
+
+
+def test_without_a_gap_two_flats_are_one() -> None:
+    x = np.array([0.1, 0.5, 0.9])
+    for M in (0.0, 0.7):
+        whole = flat.pressure(x, half_width=1.0, normal_load=2.0, moment=M)
+        found = two_flats.pressure(x, inner=1e-9, outer=1.0, normal_load=2.0, moment=M)
+        np.testing.assert_allclose(found, whole, rtol=1e-13, atol=0)
+
+
+def test_far_apart_each_of_two_flats_is_one_alone() -> None:
+    x = np.array([-0.9, 0.0, 0.6])
+    found = two_flats.pressure(1e6 + x, inner=1e6 - 1, outer=1e6 + 1, normal_load=2.0)
+    np.testing.assert_allclose(found, flat.pressure(x, half_width=1.0, normal_load=1.0), rtol=1e-5)
+
+
+def test_a_lightly_loaded_parabola_does_not_feel_its_neighbour() -> None:
+    c1, c2 = two_parabolas.edges(normal_load=2e-8, distance=1.0, radius=1.0, modulus=1.0)
+    b = hertz.half_width(normal_load=1e-8, radius=1.0, modulus=1.0)
+    assert (c2 - c1) / 2 == pytest.approx(b, rel=1e-7)
+    peak = two_parabolas.pressure((c1 + c2) / 2, inner=c1, outer=c2, radius=1.0, modulus=1.0)
+    assert peak == pytest.approx(
+        hertz.peak_pressure(half_width=b, radius=1.0, modulus=1.0), rel=1e-7
+    )
+
+
+def test_a_long_wave_is_a_parabola_and_a_sparse_row_one_flat() -> None:
+    x, L = np.linspace(-0.9, 0.9, 7), 1e5
+    radius = 1.0 / (4 * math.pi**2 * 0.3 / L**2)
+    wave = wavy.pressure(x, half_width=1.0, wavelength=L, amplitude=0.3, modulus=5.0)
+    np.testing.assert_allclose(
+        wave, hertz.pressure(x, half_width=1.0, radius=radius, modulus=5.0), rtol=1e-8
+    )
+    row = flat_row.pressure(x, half_width=1.0, period=L, mean_pressure=2.0 / L)
+    np.testing.assert_allclose(row, flat.pressure(x, half_width=1.0, normal_load=2.0), rtol=1e-8)
+
+
+def test_partial_and_complete_contact_of_the_wave_meet() -> None:
+    x, shape = np.linspace(-3, 3, 31), {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
+    whole = wavy.complete_pressure(x, mean_pressure=wavy.closing_pressure(**shape), **shape)
+    np.testing.assert_allclose(
+        wavy.pressure(x, half_width=1.0, **shape), whole, rtol=1e-13, atol=1e-13
+    )
+
+
+def test_cracks_far_from_others_and_with_thin_bridges() -> None:
+    assert cracks.pair(inner=1e9, outer=1e9 + 2, tension=3.0) == pytest.approx(
+        (3 * math.sqrt(math.pi),) * 2, rel=1e-8
+    )
+    merged = cracks.pair(inner=1e-300, outer=1.0, tension=3.0)[1]  # D/K -> 1 - 1/ln(4b/a)
+    assert merged == pytest.approx(3 * math.sqrt(math.pi) * (1 - 1 / math.log(4e300)), rel=8 * EPS)
+    assert cracks.row(half_length=1e-9, period=1.0, tension=3.0) == pytest.approx(
+        3 * math.sqrt(math.pi * 1e-9), rel=8 * EPS
+    )
+
+
+def test_a_row_of_cracks_is_a_row_of_flats_with_the_sign_changed() -> None:
+    """The bridges W - 2a carry what flats of their width would: K_I = lim sqrt(2 pi r) p at their
+    corners.
+    """
+    r, W, a = 1e-12, 2.0, 0.7
+    p = flat_row.pressure((W / 2 - a) - r, half_width=W / 2 - a, period=W, mean_pressure=3.0)
+    assert math.sqrt(2 * math.pi * r) * p == pytest.approx(
+        cracks.row(half_length=a, period=W, tension=3.0), rel=1e-3
+    )
+
+
+# --- what holds for all
+# ------------------------------------------------------------------------------------------
+
+SHAPE = {"wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
+CALLS: list[Call] = [
+    *((two_flats.pressure, {"x": x, **FLATS, "moment": -2.0}) for x in (1.0001, -1.5, 1.999)),
+    (two_flats.largest_moment, FLATS),
+    (two_flats.tilt, {**FLATS, "moment": -2.0, "modulus": 3.0}),
+    *(
+        (two_flats.potential, {"z": z, **FLATS, "moment": -2.0})
+        for z in (0.3, 1.2, 0.3 + 0.1j, -1.4 - 2j, 3e5 + 5j)
+    ),
+    (two_parabolas.height, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
+    (two_parabolas.slope, {"x": 0.7, "distance": 1.5, "radius": 2.0}),
+    (two_parabolas.distance, {"inner": 0.1, "outer": 2.0}),
+    (two_parabolas.load, PARABOLAS),
+    *(
+        (two_parabolas.edges, {"normal_load": P, "distance": 1.5, "radius": 2.0, "modulus": 3.0})
+        for P in (1e-12, 1.0, 20.0)
+    ),
+    *((two_parabolas.pressure, {"x": x, **PARABOLAS}) for x in (1.0001, -1.4, 1.999)),
+    (wavy.height, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
+    (wavy.slope, {"x": 5.3, "wavelength": 2.0, "amplitude": 0.3}),
+    *((wavy.pressure, {"x": x, **WAVE}) for x in (0.1, -6.4, 0.5999)),
+    (wavy.mean_pressure, WAVE),
+    (wavy.half_width, {"mean_pressure": 0.7, **SHAPE}),
+    (wavy.closing_pressure, SHAPE),
+    (wavy.complete_pressure, {"x": 0.3, "mean_pressure": 7.0, **SHAPE}),
+    *((wavy.potential, {"z": z, **WAVE}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
+    *((flat_row.pressure, {"x": x, **ROW}) for x in (0.1, -6.4, 0.5999)),
+    *((flat_row.potential, {"z": z, **ROW}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
+    (cracks.pair, {"inner": 0.1, "outer": 2.0, "tension": -3.0}),
+    (cracks.row, {"half_length": 0.4, "period": 1.0, "tension": 3.0}),
+]
+TestEveryCall = of_every_call(CALLS)
+
+
+def test_pressure_is_zero_beside_the_patches_and_infinite_at_sharp_corners_only() -> None:
+    x = np.array([-2.0, -1.0, 0.0, 1.0, 2.0, 2.5])
+    assert two_flats.pressure(x, **FLATS).tolist() == [math.inf, math.inf, 0, math.inf, math.inf, 0]
+    assert two_parabolas.pressure(x, **PARABOLAS).tolist() == [0] * 6
+    assert flat_row.pressure(np.array([0.6, 1.0, 2.0 - 0.6]), **ROW).tolist()[1] == 0
+    assert wavy.pressure(np.array([0.6, 1.0]), **WAVE).tolist() == [0, 0]
+
+
+def test_a_corner_about_to_lift_carries_nothing() -> None:
+    M = two_flats.largest_moment(**FLATS)
+    assert two_flats.pressure(-2.0, **FLATS, moment=M) == 0
+    assert (
+        two_flats.pressure(-1.9999, **FLATS, moment=M) < 0.01 < two_flats.pressure(-1.9999, **FLATS)
+    )
+
+
+@pytest.mark.parametrize("lib", [np, mp])
+def test_nonsense_is_refused(lib) -> None:
+    with pytest.raises(ValueError, match=r"\|moment\| = .* exceeds largest_moment = .*lifts off"):
+        two_flats.pressure(0.0, **FLATS, moment=9.0, lib=lib)
+    for function, rest in (
+        (two_flats.largest_moment, {"normal_load": 1.0}),
+        (two_parabolas.distance, {}),
+        (cracks.pair, {"tension": 1.0}),
+    ):
+        with pytest.raises(ValueError, match=r"outer = 1\.0 is not more than inner = 2\.0"):
+            function(inner=2.0, outer=1.0, **rest, lib=lib)
+    with pytest.raises(ValueError, match="touch everywhere"):
+        wavy.half_width(mean_pressure=100.0, **SHAPE, lib=lib)
+    with pytest.raises(ValueError, match="troughs are open"):
+        wavy.complete_pressure(0.0, mean_pressure=0.1, **SHAPE, lib=lib)
+    with pytest.raises(ValueError, match=r"half_width = 1\.5 exceeds wavelength/2 = 1\.0"):
+        wavy.mean_pressure(**{**WAVE, "half_width": 1.5}, lib=lib)
+    with pytest.raises(ValueError, match=r"half_width = 1\.5 is not less than period/2"):
+        flat_row.pressure(0.0, **{**ROW, "half_width": 1.5}, lib=lib)
+    with pytest.raises(ValueError, match=r"half_length = 1\.5 is not less than period/2"):
+        cracks.row(half_length=1.5, period=2.0, tension=1.0, lib=lib)
+    with pytest.raises(ValueError, match="give a smaller load"):
+        two_parabolas.edges(normal_load=1e9, distance=1.0, radius=1.0, modulus=1.0, lib=lib)

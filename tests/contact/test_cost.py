@@ -1,0 +1,226 @@
+"""What an answer costs, in counts that no machine changes: searches for edges, resolutions of a
+function, transforms, factorisations.
+"""
+
+from contextlib import contextmanager
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+import sie
+from sie import solution
+from sie.certificate import quadrature
+from sie.contact import edges, normal, pressure, widest_contact
+from sie.friction import dissipation
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.profiles import lowest_points, resolution
+from sie.traction.of_slope import SlopeDensity
+
+PUNCH = sie.RoundedFlat(0.5, 1.0)
+SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
+X = np.linspace(-0.4, 0.4, 1001)
+# The most transforms: one a step, and one more for each size of a series that is tried.
+SMOOTH = (
+    (SINH, {"normal_load": None, "half_width": 1.5}, 2),
+    (SINH, {"normal_load": 1.0}, 8),
+    (sie.FromFunction(np.sinh), {"normal_load": 1.0}, 8),
+    (sie.FromFunction(np.sinh, domain=(-3.0, 3.0)), {"normal_load": 1.0, "tilt": 0.1}, 8),
+    (sie.FromFunction("x + x**3/5 + 0.1*x**2"), {"normal_load": None, "half_width": 0.7}, 6),
+)
+
+
+@contextmanager
+def counted(module, name):
+    """How often a function of a module is called."""
+    function, calls = getattr(module, name), []
+
+    def counting(*args, **given):
+        calls.append(1)
+        return function(*args, **given)
+
+    with patch.object(module, name, counting):
+        yield calls
+
+
+def scene(profile, **given):
+    return sie.Scene(profile=profile, modulus=1.0, poisson=0.3, **{"normal_load": 0.3, **given})
+
+
+def test_a_piecewise_polynomial_slope_needs_no_transform():
+    with counted(chebyshev, "transform") as transforms:
+        solved = sie.solve(scene(PUNCH))
+        _ = solved.pressure(np.linspace(-0.4, 0.4, 1001)), solved.normal_load
+    assert not transforms
+
+
+@pytest.mark.parametrize(
+    ("profile", "most"), [(sie.Parabola(1.0), 3), (PUNCH, 4), (sie.Wedge(0.3), 4)]
+)
+def test_the_edges_of_a_symmetric_profile_take_a_few_evaluations(profile, most):
+    assert sie.solve(scene(profile)).normal.edges.evaluations <= most
+
+
+def test_given_the_half_width_nothing_is_searched():
+    assert (
+        sie.solve(sie.Scene(profile=PUNCH, modulus=1.0, half_width=1.0)).normal.edges.evaluations
+        == 1
+    )
+
+
+def test_a_function_that_rises_is_not_scanned_for_tension_and_overlap():
+    convex, wavy = (
+        sie.FromFunction(np.sinh, domain=(-3.0, 3.0)),
+        sie.FromFunction("x + 0.3*sin(6*x)", domain=(-3.0, 3.0)),
+    )
+    with counted(solution, "verify_inequalities") as scans:
+        assert sie.solve(scene(convex)).half_width > 0.0
+        assert not scans
+        assert sie.solve(scene(wavy, normal_load=2.0)).half_width > 0.0
+        assert len(scans) == 1
+
+
+@pytest.mark.parametrize(("profile", "given", "most"), SMOOTH)
+def test_a_smooth_function_takes_one_transform_a_step_and_no_pieces(profile, given, most):
+    with (
+        counted(normal, "refined") as searched,
+        counted(pressure, "refined") as resolved,
+        counted(chebyshev, "transform") as transforms,
+    ):
+        _ = sie.solve(scene(profile, **given)).pressure(X)
+    assert not searched and not resolved
+    assert len(transforms) <= most
+
+
+def test_a_sweep_over_the_tangential_load_solves_the_normal_problem_once():
+    with counted(solution, "normal_contact") as solves:
+        base = sie.solve(scene(PUNCH, friction=0.5))
+        _ = base.pressure
+        for Q in (0.02, 0.05, 0.1, 0.14):
+            _ = base.with_(tangential_load=Q).shear(0.1)
+    assert len(solves) == 1
+
+
+def test_full_sliding_of_similar_bodies_is_no_second_solve():
+    with counted(normal, "Search") as searches:
+        _ = sie.solve(scene(PUNCH, friction=0.5, sliding=1)).shear(0.1)
+    sliding = len(searches)
+    with counted(normal, "Search") as searches:
+        _ = sie.solve(scene(PUNCH)).pressure(0.1)
+    assert sliding == len(searches)
+
+
+def test_a_cauchy_equation_without_kernel_builds_no_matrix():
+    from sie.cauchy import system  # noqa: PLC0415
+
+    with counted(system.System, "matrix") as matrices:
+        sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0).solve()
+    assert not matrices
+
+
+def test_the_counter_counts():
+    with counted(solution, "normal_contact") as solves:
+        for load in (0.1, 0.2):
+            _ = sie.solve(scene(PUNCH, normal_load=load)).edges
+    assert len(solves) == 2
+
+
+def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
+    patterns, found = (
+        pytestconfig.getini("python_files"),
+        [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
+    )
+    assert found
+    for path in found:
+        assert any(path.match(pattern) for pattern in patterns)
+    assert "benchmarks" not in pytestconfig.getini("testpaths")
+
+
+# -- what grows in proportion, and no faster ---------------------------------------------------
+
+
+def places_for_a_certificate(turns):
+    """At how many points the certificate after so many turning points asks for tractions."""
+    path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])
+    solved = sie.follow(scene(PUNCH, friction=0.5), path)[-1]
+    _, value, places = solved.shear, SlopeDensity.__call__, []
+
+    def counting(density, x):
+        places.append(np.size(x))
+        return value(density, x)
+
+    with patch.object(SlopeDensity, "__call__", counting):
+        solved.check()
+    return sum(places)
+
+
+def test_the_certificate_of_a_remembered_path_is_linear_in_its_turning_points():
+    assert places_for_a_certificate(80) <= 3 * places_for_a_certificate(40)
+
+
+def test_small_steps_of_an_oblique_path_share_their_panels():
+    steps = np.arange(1, 201) / 200
+    loads = np.stack((0.4 * steps, 0.05 * steps * (-1.0) ** np.arange(200)), axis=1)
+    path = sie.Path(loads.tolist())
+    history = sie.follow(scene(PUNCH, friction=0.5), path)
+    with counted(dissipation.Dissipation, "_resolved") as panels:
+        assert history[-1].energy_lost > 0.0
+    assert len(panels) <= 20
+
+
+def calls_for(jumps):
+    """How often a slope with so many undeclared jumps, one of them at x = 0, is called."""
+    places, calls = np.linspace(-0.3, 0.3, jumps), []
+
+    def slope(x):
+        calls.append(1)
+        return x + 0.01 * np.sign(x[..., None] - places).sum(axis=-1)
+
+    assert sie.solve(scene(sie.FromFunction(slope))).half_width > 0.0
+    return len(calls)
+
+
+def test_jumps_are_looked_for_all_at_once():
+    assert calls_for(41) <= 2 * calls_for(5)
+
+
+def test_a_jump_at_the_origin_is_found_without_bisection_to_the_smallest_double():
+    calls = []
+
+    def slope(x):
+        calls.append(1)
+        return x + np.where(x < 0.0, -0.1, 0.2)
+
+    assert lowest_points.lowest_points(sie.FromFunction(slope, domain=(-1.0, 0.9)).pieces) == (
+        0.0,
+        0.0,
+    )
+    assert len(calls) <= 20
+
+
+def test_the_widest_contact_of_a_long_trace_is_looked_for_on_fewer_pieces():
+    x = np.linspace(-1.0, 1.0, 5001)
+    slope = sie.Sampled(x, 0.5 * x * x + 1e-4 * np.sin(5000.0 * x)).pieces
+    assert len(slope.origins) > widest_contact.MANY
+    search = edges.Search(slope, 0.5)
+    assert widest_contact.widest_contact(search, 0.3) is not None
+    assert search.evaluations <= 60
+
+
+def test_the_rule_over_a_sum_of_powers_grows_with_their_number_alone():
+    def nodes(powers):
+        total = sie.Power(1.5, 0.01)
+        for k in range(1, powers):
+            total = total + sie.Power(1.5, 0.01).shifted(k / powers)
+        return len(quadrature.composite_rule(Interval(-0.5, 1.5), total.pieces).x)
+
+    assert nodes(20) <= 20 * 64 * quadrature.NODES
+
+
+def test_the_gap_under_a_function_is_resolved_from_half_widths_outwards():
+    solved = sie.solve(scene(sie.FromFunction("arctan(x) + x/10")))
+    _ = solved.pressure
+    with counted(resolution, "_degrees") as resolutions:
+        solved.check()
+    assert len(resolutions) <= 30

@@ -1,0 +1,284 @@
+"""|x|^m, upright in closed form and tilted by panels, against integrals in mpmath."""
+
+from contextlib import ExitStack
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_cost import counted
+
+import sie
+from analytic import power
+from sie.contact import normal, pressure
+from sie.problem.request import ECONOMY
+from sie.traction import on_panels
+
+EXPONENTS = (1.0001, 1.001, 1.02, 1.3, 1.5, 2.5, 3.0, 3.0 + 1e-9, 5.0 - 1e-12, 6.4, 7.0)
+EXPONENTS += (31.0, 33.0, 59.99, 60.0)
+NARROW = {"normal_load": None, "half_width": 0.3, "tilt": -0.1}
+NEAR_ONE = (1.0001, 1.01, 1.02, 1.05, 1.1)
+DIGITS = mp.MPContext()
+DIGITS.dps = 40
+
+
+def scene(m, **given):
+    profile = sie.Power(m, 0.75)
+    return sie.Scene(profile=profile, modulus=2.0, poisson=0.3, **{"normal_load": 0.3, **given})
+
+
+def superposed(m, xi):
+    """∫_ξ^1 s^(m-1)/sqrt(s² - ξ²) ds: with s = ξ cosh t and t = T - u, or its limit on the axis."""
+    m, xi = DIGITS.mpf(m), DIGITS.mpf(xi)
+    if xi == 0:
+        return 1 / (m - 1)
+    T = DIGITS.acosh(1 / xi)
+    cuts = [T * k / 16 for k in range(17)]
+    return DIGITS.quad(lambda t: (xi * DIGITS.cosh(t)) ** (m - 1), cuts)
+
+
+def pressure_of_unit_width(m, x):
+    """E* = 2, A = 3/4, b = 1."""
+    wallis = DIGITS.quad(lambda phi: DIGITS.sin(phi) ** m, [0, 1, DIGITS.pi / 2])
+    return 2 * m * 0.75 * wallis * m / DIGITS.pi * superposed(m, abs(x))
+
+
+@pytest.mark.parametrize("m", EXPONENTS)
+def test_the_pressure_keeps_1e_14_of_its_peak(m):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    x = np.array([0.0, 2.0**-40, -1e-3, 0.25, -0.5, 0.7071, 0.70711, 0.75, 0.9, 0.96875])
+    exact = [pressure_of_unit_width(m, v) for v in x.tolist()]
+    errors = [abs(p - truth) for p, truth in zip(pressure(x).tolist(), exact, strict=True)]
+    assert max(errors) <= 1e-14 * max(exact)
+
+
+@pytest.mark.parametrize("m", EXPONENTS)
+def test_the_pressure_keeps_its_relative_accuracy_to_the_edge(m):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    for k in (4, 10, 20, 35, 52):
+        x = 1.0 - 2.0**-k
+        for side in (-1.0, 1.0):
+            assert abs(float(pressure(side * x)) / pressure_of_unit_width(m, x) - 1) <= 1e-14
+
+
+@given(
+    m=st.floats(1.0, 60.0, exclude_min=True),
+    load=st.floats(1e-3, 1e3),
+    dx=st.sampled_from([0.0, 0.5, -3.0]),
+)
+def test_the_half_width_carries_the_load_it_was_found_from(m, load, dx):
+    profile = sie.Power(m, 0.75).shifted(dx)
+    given_load = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=load))
+    b = given_load.half_width
+    given_width = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=b))
+    assert given_width.normal_load == pytest.approx(load, rel=4e-16 * (m + 4.0))
+
+
+@given(m=st.floats(1.05, 60.0), s=st.floats(-1.0, 1.0))
+def test_the_pressure_is_that_of_the_closed_form_package(m, s):
+    pressure = sie.solve(scene(m, normal_load=None, half_width=1.0)).pressure
+    shape = {"exponent": m, "coefficient": 0.75, "modulus": 2.0, "half_width": 1.0}
+    truth = power.pressure(np.array([s, 0.0, 0.9]), **shape)
+    assert abs(float(pressure(s)) - truth[0]) <= 3e-14 * truth.max()
+
+
+@pytest.mark.parametrize("m", [1.3, 2.5, 7.0, 45.6])
+def test_the_explicit_form_and_the_panels_agree(m):
+    explicit, panels = sie.solve(scene(m)), sie.solve(scene(m), economy=ECONOMY - {"symmetry"})
+    x = np.linspace(*panels.edges, 103)[1:-1]
+    assert explicit.half_width == pytest.approx(panels.half_width, rel=1e-14)
+    p = explicit.pressure(x)
+    assert np.abs(p - panels.pressure(x)).max() <= 3e-14 * p.max()
+
+
+@pytest.mark.parametrize("m", [1.001, 1.5, 2.5, 7.0, 60.0])
+@pytest.mark.parametrize("given", [{}, {"normal_load": None, "half_width": 0.8}, {"moment": 0.0}])
+def test_an_upright_power_takes_no_search_and_no_panels(m, given):
+    with ExitStack() as stack:
+        parts = (
+            (normal, "Search"),
+            (normal, "refined"),
+            (pressure, "refined"),
+            (on_panels, "Panels"),
+        )
+        calls = [stack.enter_context(counted(*part)) for part in parts]
+        _ = sie.solve(scene(m, **given)).pressure(np.linspace(-0.5, 0.5, 1001))
+    assert not any(calls)
+
+
+def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
+    profile = sie.Power(2.5, 0.75).shifted(0.5)
+    upright = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=0.3, moment=0.15))
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=0.3, moment=0.0))
+    assert upright.tilt == 0.0
+    assert tilted.tilt > 0.0
+    assert tilted.moment == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_load_that_doubles_cannot_answer_is_refused_with_a_reason():
+    for asked in ({"normal_load": 1e240}, {"normal_load": None, "half_width": 1e-140}):
+        with pytest.raises((sie.ContactError, ValueError), match="range"):
+            _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
+
+
+@pytest.mark.parametrize("m", NEAR_ONE)
+@pytest.mark.parametrize("given", [{"tilt": 0.1}, {"moment": 0.02}, NARROW])
+def test_a_tilted_power_next_to_a_wedge_is_right_on_its_axis(m, given):
+    solution = sie.solve(scene(m, **given))
+    truth = float(on_the_axis(m, *solution.edges))
+    assert float(solution.pressure(0.0)) == pytest.approx(truth, rel=1e-13)
+
+
+CUTS = (0, 0.5, 0.9, 0.99, 1)
+
+
+def on_the_axis(m, x1, x2):
+    """w(0)/π ∫ m A |t|^(m-2)/w dt with E* = 2, by |t| = L v^(1/(m-1)) on each side of length L."""
+    m, x1, x2 = (DIGITS.mpf(v) for v in (m, x1, x2))
+    total = DIGITS.zero
+    for L, side in ((x2, 1), (-x1, -1)):
+        slow = DIGITS.quad(lambda v: 1 / w(side * L * v ** (1 / (m - 1)), x1, x2), CUTS)  # noqa: B023
+        total += L ** (m - 1) * slow
+    return w(DIGITS.zero, x1, x2) / DIGITS.pi * m * DIGITS.mpf(0.75) / (m - 1) * total
+
+
+def w(t, x1, x2):
+    return DIGITS.sqrt((t - x1) * (x2 - t))
+
+
+@pytest.mark.parametrize("m", [1.02, 1.2, 1.7])
+@pytest.mark.parametrize("given", [{"tilt": 0.1}, {"friction": 0.5, "sliding": -1, "dundurs": 0.3}])
+def test_the_pressure_next_to_the_axis_joins_that_of_the_panels(m, given):
+    solution = sie.solve(scene(m, **given))
+    far = on_panels.BESIDE_CUSP * min(map(abs, solution.edges))
+    x = far * np.array([-0.99, -0.5, 0.5, 0.99])
+    panels = 1.0 * solution.pressure._by_pieces(x)  # E*/2 = 1
+    assert np.abs(solution.pressure(x) / panels - 1.0).max() <= 1e-14
+
+
+@pytest.mark.parametrize("dx", [-0.25, -0.2537, 3.0])
+def test_a_tilted_power_next_to_a_wedge_far_from_x_0_is_answered(dx):
+    profile = sie.Power(1.0002, 0.142).shifted(dx)
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.086, tilt=0.136))
+    assert tilted.check().force < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("m", "A", "b", "M"), [(50.0, 0.0108, 0.0341, -0.00389), (51.1, 1.237, 0.264, -1.79)]
+)
+def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
+    tilted = sie.solve(sie.Scene(profile=sie.Power(m, A), modulus=1.0, half_width=b, moment=M))
+    assert tilted.moment == pytest.approx(M, rel=1e-12)
+    assert tilted.check().ok
+
+
+@pytest.mark.parametrize("m", [*NEAR_ONE, 51.1, 60.0])
+def test_every_exponent_answers_all_of_a_contact(m):
+    solution = sie.solve(scene(m, friction=0.4, tangential_load=0.05))
+    x = np.linspace(-1.0, 1.0, 41)
+    for answer in (
+        solution.gap,
+        solution.shear,
+        solution.slip,
+        lambda x: solution.stress(x, 0.1).j2,
+    ):
+        assert np.isfinite(answer(x)).all()
+    assert solution.check().ok
+
+
+CUSPS = (1.002, 1.03, 1.1, 1.3, 1.5, 1.9)
+
+
+def potentials_of_unit_width(m, y):
+    """(F, F') at y from the axis, of flats F = dP/(π sqrt(y² - s²)) and dP = m P s^(m-1) ds; b = 1,
+    over P.
+    """
+    m, y = DIGITS.mpf(m), DIGITS.mpmathify(y)
+    F = DIGITS.hyp2f1(0.5, m / 2, m / 2 + 1, 1 / y**2) / (DIGITS.pi * y)
+    flat = 1 / (DIGITS.pi * DIGITS.sqrt(y - 1) * DIGITS.sqrt(y + 1))
+    return F, ((m - 1) * F - m * flat) / y
+
+
+@pytest.mark.parametrize("m", CUSPS)
+@pytest.mark.parametrize("axis", [0.0, 0.35, -40.0])
+def test_the_potential_of_a_cusp_is_right_at_every_depth_beneath_it(m, axis):
+    profile = sie.Power(m, 0.75).shifted(axis)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
+    peak, load = solution.pressure(axis), solution.normal_load
+    for depth in 10.0 ** np.array(
+        [-250, -100, -30, -16, -14, -12, -10, -9.1, -8.9, -7, -4, -1, 0, 3, 6]
+    ):
+        for across in (0.0, -0.7, 20.0):
+            z = axis + across * depth + 1j * depth
+            F, dF = potentials_of_unit_width(m, DIGITS.mpc(z.real - axis, depth))
+            found = solution.pressure.potentials(z)
+            assert abs(found[0] - complex(load * F)) <= 1e-13 * peak
+            assert depth * abs(found[1] - complex(load * dF)) <= 1e-13 * peak
+
+
+@pytest.mark.parametrize("axis", [0.0, 0.375])
+def test_a_wedge_on_the_axis_of_a_cusp_keeps_its_infinite_pressure(axis):
+    profile = (sie.Power(1.5, 0.3) + sie.Wedge(0.2)).shifted(axis)
+    both = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
+    alone = sie.solve(sie.Scene(profile=sie.Power(1.5, 0.3), modulus=2.0, half_width=1.0))
+    assert both.pressure(axis) == np.inf
+    for d in 2.0 ** np.array([-44, -40, -36, -33, -31, -30, -29, -10]):
+        exact = alone.pressure(d) + 0.4 / np.pi * np.arccosh(1.0 / d)
+        assert both.pressure(axis + d) == pytest.approx(exact, rel=1e-13)
+        assert both.pressure.cauchy(axis + 1j * d).real == pytest.approx(0.0, abs=1e-13 * exact)
+
+
+@pytest.mark.parametrize("other", [sie.Power(2.3, 1.0), sie.Power(1.2, 0.1), sie.Power(2.8, 1.0)])
+def test_powers_about_one_axis_add_up(other):
+    cusp = sie.Power(1.4, 0.3)
+    given = {"modulus": 2.0, "half_width": 1.0}
+    solve = [sie.solve(sie.Scene(profile=p, **given)).pressure for p in (cusp + other, cusp, other)]
+    x = np.array([0.0, *2.0 ** np.arange(-60.0, -1.0, 3.0)])
+    both, one, two = (p(x) for p in solve)
+    assert np.abs(both - one - two).max() <= 1e-13 * both.max()
+
+
+def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_seen_at_every_distance():
+    """p = E*/2 w(x)/π ∫ (H(t) - H(x))/(w(t) (t - x)) dt between the edges that were found."""
+    profile = sie.Power(1.3, 0.3) + sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 5.0)))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=1.0))
+    x1, x2 = map(DIGITS.mpf, solution.edges)
+    m, r = (x1 + x2) / 2, (x2 - x1) / 2
+
+    def slope(t):
+        return DIGITS.sign(t) * 1.3 * DIGITS.mpf(0.3) * abs(t) ** DIGITS.mpf(1.3 - 1) + t * (
+            5 if t > 0 else 1
+        )
+
+    for x in (2.0**-31, -(2.0**-31), 2.0**-34, -(2.0**-40)):
+        decades = [DIGITS.mpf(10) ** -k for k in range(1, 16)]
+        beside = [
+            DIGITS.mpf(centre) + side * d for d in decades for centre in (0, x) for side in (-1, 1)
+        ]
+        cuts = sorted({x1, DIGITS.mpf(0), DIGITS.mpf(x), x2, *beside})
+        cuts = [DIGITS.asin(min(max((c - m) / r, -1), 1)) for c in cuts if x1 <= c <= x2]
+
+        def integrand(phi, x=x):
+            t = m + r * DIGITS.sin(phi)
+            return (slope(t) - slope(DIGITS.mpf(x))) / (t - x) if t != x else DIGITS.zero
+
+        exact = DIGITS.sqrt((x - x1) * (x2 - x)) / DIGITS.pi * DIGITS.quad(integrand, cuts)
+        assert solution.pressure(x) == pytest.approx(float(exact), rel=2e-13)
+
+
+@pytest.mark.parametrize("m", [1.02, 1.2, 1.7])
+@pytest.mark.parametrize("other", [sie.Parabola(1.0), sie.Wedge(0.1)])
+def test_beneath_the_axis_of_a_cusp_sliding_bodies_obey_their_law(m, other):
+    """On the surface the potential is hilbert - i p, with hilbert + p tan πε = E*/2 h'."""
+    profile = sie.Power(m, 0.75) + other
+    given = {"friction": 0.5, "sliding": -1, "dundurs": 0.3}
+    scene = sie.Scene(profile=profile, modulus=2.0, normal_load=0.5, **given)
+    pressure = sie.solve(scene).pressure
+    x = np.outer((-1.0, 1.0), 10.0 ** np.array([-120, -60, -20, -12, -9.1, -8, -3])).ravel()
+    F = pressure.cauchy(x + 1e-290j)
+    scale = np.abs(F)
+    assert (np.abs(-F.imag - pressure(x)) <= 1e-13 * scale).all()
+    law = F.real - F.imag * np.tan(np.pi * pressure.epsilon)
+    assert (np.abs(law - profile.slope(x)) <= 1e-13 * scale).all()
+    assert (np.abs(pressure.potentials(x + 1e-290j)[0] - F) <= 1e-13 * scale).all()

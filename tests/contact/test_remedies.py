@@ -1,0 +1,357 @@
+"""Every remedy that a refusal offers is followed: the question that it makes of the one refused is
+answered, and rightly.
+"""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import sie
+from sie.io.scene_file import SceneFileError, parse
+
+PARABOLA, PUNCH, FLAT, WEDGE = (
+    sie.Parabola(1.0),
+    sie.RoundedFlat(1.0, 2.0),
+    sie.Flat(1.0),
+    sie.Wedge(1.0),
+)
+STEEL, ALLOY = sie.Elastic(210e3, 0.3), sie.Elastic(115e3, 0.32)
+
+
+def scene(profile=PUNCH, **given):
+    loads = {} if "half_width" in given else {"normal_load": 1.0}
+    bodies = {} if "body" in given or "indenter" in given else {"modulus": 1.0}
+    return sie.Scene(
+        profile=profile, **{k: v for k, v in (bodies | loads | given).items() if v is not ...}
+    )
+
+
+def solved(scene):
+    solution = sie.solve(scene)
+    assert solution.check().ok
+    return solution
+
+
+def number(pattern, message):
+    """The number that a message offers, exactly as it is printed."""
+    return float(re.search(pattern + r"(-?[\d.]+(?:e[-+]?\d+)?)", message)[1])
+
+
+# What is asked, words of the remedy, and what is asked when it is followed.
+SCENES = {
+    "give exactly one: load": (lambda: scene(half_width=1.5, normal_load=1.0), "exactly one",
+                               lambda: scene(normal_load=1.0)),
+    "give exactly one: width": (lambda: scene(normal_load=...), "exactly one",
+                                lambda: scene(half_width=1.5)),
+    "give body": (lambda: scene(modulus=...), "give body = sie.Elastic", lambda: scene(body=STEEL)),
+    "or modulus": (lambda: scene(modulus=...), "or modulus = E", lambda: scene(modulus=2.0)),
+    "leave poisson out": (lambda: scene(body=STEEL, poisson=0.3), "leave it out",
+                          lambda: scene(body=STEEL)),
+    "leave dundurs out": (lambda: scene(body=STEEL, dundurs=0.1), "leave it out",
+                          lambda: scene(body=STEEL)),
+    "give dundurs 0": (lambda: scene(body=STEEL, dundurs=0.1), "or give 0",
+                       lambda: scene(body=STEEL, dundurs=0)),
+    "leave the indenter out": (lambda: scene(modulus=1.0, indenter=STEEL), "leave it out", scene),
+    "give one of them young": (lambda: scene(body=sie.RIGID), "young and poisson",
+                               lambda: scene(body=sie.RIGID, indenter=STEEL)),
+    "give tilt or moment": (lambda: scene(tilt=0.1, moment=0.1), "give one",
+                            lambda: scene(moment=0.1)),
+    "give friction": (lambda: scene(tangential_load=0.1), "give friction > 0",
+                      lambda: scene(tangential_load=0.1, friction=0.2)),
+    "give a finite friction": (lambda: scene(FLAT, sliding=1, friction=math.inf), "finite",
+                               lambda: scene(FLAT, sliding=1, friction=0.3)),
+    "sliding, 0": (lambda: scene(sliding=1), "leave it 0", lambda: scene(sliding=0)),
+    "sliding, friction": (lambda: scene(sliding=1), "give friction > 0",
+                          lambda: scene(sliding=1, friction=0.3)),
+    "sliding, not Q": (lambda: scene(sliding=1, tangential_load=0.1, friction=0.3), "follows",
+                       lambda: scene(sliding=1, friction=0.3)),
+    "bonded, flat": (lambda: scene(friction=math.inf), "give a flat punch",
+                     lambda: scene(FLAT, friction=math.inf)),
+    "bonded, finite": (lambda: scene(friction=math.inf), "a finite friction",
+                       lambda: scene(friction=0.5)),
+    "bonded, load": (
+        lambda: scene(FLAT, friction=math.inf, half_width=1.0), "give normal_load",
+        lambda: scene(FLAT, friction=math.inf)
+    ),
+    "sharp, load": (lambda: scene(FLAT, half_width=1.0), "any load: give a normal_load",
+                    lambda: scene(FLAT)),
+    "width on the flat, larger": (lambda: scene(half_width=0.5), "give a larger half_width",
+                                  lambda: scene(half_width=1.5)),
+    "width on the flat, load": (lambda: scene(half_width=0.5), "or a normal_load", scene),
+    "width beyond the indenter": (
+        lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=2.0), "at most that",
+        lambda: scene(sie.Piecewise((-1.0, 1.0), ((0.0, 1.0),)), half_width=0.9),
+    ),
+    "less moment": (lambda: scene(FLAT, moment=2.0), "lower the moment",
+                    lambda: scene(FLAT, moment=0.4)),
+    "less tilt": (lambda: scene(WEDGE, tilt=2.0), "prescribe less tilt",
+                  lambda: scene(WEDGE, tilt=0.5)),
+    "narrower domain": (
+        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-1.0, 1.0)), normal_load=5.0),
+        "narrow the domain",
+        lambda: scene(sie.FromFunction("arctanh(x)", domain=(-0.999, 0.999)), normal_load=5.0),
+    ),
+    "a root at the end": (
+        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-1.0, 1.0)), normal_load=5.0),
+        "narrow the domain",
+        lambda: scene(sie.FromFunction("x/sqrt(1 - x*x)", domain=(-0.999, 0.999)), normal_load=5.0),
+    ),
+    "give a domain": (
+        lambda: scene(sie.FromFunction("x/(1 + x*x)"), normal_load=9.0), "give a domain",
+        lambda: scene(sie.FromFunction("x/(1 + x*x)", domain=(-3.0, 3.0)), normal_load=9.0),
+    ),
+    "other units": (
+        lambda: scene(sie.Parabola(1e-200)), "choose other units",
+        lambda: scene(sie.Parabola(1e-100), normal_load=1e-100)
+    ),
+    "shift less": (lambda: scene(FLAT.shifted(1e20)), "shift it less", lambda: scene(FLAT.shifted(2.0))),
+    "shift before adding": (lambda: scene(FLAT + FLAT.shifted(5.0)), "shift one of them", lambda: scene(FLAT + FLAT.shifted(0.5))),
+    "bumps, their load": (
+        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), half_width=0.1), "give normal_load",
+        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=0.05),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_that_follows_its_refusal_s_remedy_is_solved(name):
+    asked, words, followed = SCENES[name]
+    with pytest.raises((ValueError, sie.ContactError)) as refusal:
+        _ = sie.solve(asked()).edges
+    assert words in str(refusal.value)
+    solved(followed())
+
+
+@pytest.mark.parametrize("remedy", ["dundurs", "sliding", "friction"])
+def test_dissimilar_bodies_follow_each_remedy(remedy):
+    asked = scene(body=ALLOY, indenter=STEEL, friction=0.4, tangential_load=0.1)
+    with pytest.raises(sie.ContactError) as refusal:
+        sie.solve(asked)
+    changes = {
+        "dundurs": {"dundurs": 0.0},
+        "sliding": {"sliding": 1, "tangential_load": 0.0},
+        "friction": {"friction": 0.0, "tangential_load": 0.0},
+    }
+    assert {
+        "dundurs": "give dundurs = 0",
+        "sliding": "sliding = ±1",
+        "friction": "set friction = 0",
+    }[remedy] in str(refusal.value)
+    solved(replace(asked, **changes[remedy]))
+
+
+@pytest.mark.parametrize("remedy", ["dundurs", "friction"])
+def test_a_bulk_stress_under_dissimilar_bodies_follows_each_remedy(remedy):
+    asked = scene(body=ALLOY, indenter=STEEL, friction=0.4, bulk_stress=0.1)
+    with pytest.raises(sie.ContactError, match=f"{remedy} = 0"):
+        sie.solve(asked)
+    solved(replace(asked, **{remedy: 0.0}))
+
+
+@pytest.mark.parametrize("Q", [0.5, 0.777, 0.31])
+def test_a_load_raised_to_what_the_refusal_prints_carries_the_tangential_load(Q):
+    asked = scene(PARABOLA, friction=0.3, tangential_load=Q)
+    with pytest.raises(sie.LoadError, match="raise normal_load") as refusal:
+        sie.solve(asked)
+    solved(replace(asked, normal_load=1.01 * number("raise normal_load to ", str(refusal.value))))
+    solved(replace(asked, tangential_load=0.999 * number("exceeds f P = ", str(refusal.value))))
+
+
+def test_poisson_s_ratio_is_given_beside_the_modulus_or_with_the_body():
+    without = sie.solve(scene())
+    with pytest.raises(
+        ValueError, match="give poisson beside modulus, or the body by young and poisson"
+    ):
+        _ = without.stress(0.0, 1.0).zz
+    body = sie.Elastic(2.0 * (1.0 - 0.09), 0.3)  # E* = 1
+    given = [sie.solve(scene(poisson=0.3)), sie.solve(scene(body=body))]
+    values = [float(solution.stress(0.0, 1.0).zz) for solution in given]
+    assert values[0] == pytest.approx(values[1], rel=1e-13)
+
+
+HEAD = "[load]\nnormal_load = 5.0\n"
+BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
+ROUND = '[profile]\nkind = "parabola"\nradius = 10.0\n'
+FILES = {
+    "load is normal_load": (BODY + ROUND + "[load]\nload = 5.0\n", 'did you mean "normal_load"?',
+                            BODY + ROUND + HEAD),
+    "another kind's key": (
+        BODY + HEAD + ROUND + "half_flat = 1.0\n", 'it belongs to kind "rounded-flat"',
+        BODY + HEAD + ROUND.replace("parabola", "rounded-flat") + "half_flat = 1.0\n",
+    ),
+    "a table of its own": (BODY + ROUND + HEAD + "pair = 3\n", "write the header [pair]",
+                           ROUND + HEAD + "[pair]\nmodulus = 3\n"),
+    "top of the file": (BODY + ROUND + HEAD + 'title = "a"\n', "top of the file",
+                        'title = "a"\n' + BODY + ROUND + HEAD),
+    "pair or body": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "leave one out",
+                     BODY + ROUND + HEAD),
+    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "dundurs = 0 alone",
+                      BODY + "[pair]\ndundurs = 0\n" + ROUND + HEAD),
+    "a formula": (
+        BODY + HEAD + '[profile]\nkind = "function"\nslope = "x^3"\n', "did you mean **?",
+        BODY + HEAD + '[profile]\nkind = "function"\nslope = "x**3"\n',
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_that_follows_its_refusal_s_remedy_is_solved(name):
+    asked, words, followed = FILES[name]
+    with pytest.raises(SceneFileError) as refusal:
+        parse(asked)
+    assert words in str(refusal.value)
+    solved(parse(followed).scene)
+
+
+def line(x):
+    return 1.0 + x
+
+
+EQUATIONS = {
+    "as many conditions": ({}, "as many of total", {"total": 0.0}),
+    "bounded or singular": ({}, "make other ends bounded", {"ends": ("singular", "bounded")}),
+    "normal type": (
+        {"a": 1j, "b": 1.0, "total": 0.0},
+        "not of normal type",
+        {"a": 0.5j, "b": 1.0, "total": 0.0},
+    ),
+    "free a constant": (
+        {"g": line, "ends": "bounded"},
+        "free a constant",
+        {"g": line, "ends": "bounded", "free": (1.0,)},
+    ),
+    "a singular end": (
+        {"g": line, "ends": "bounded"},
+        "let an end be singular",
+        {"g": line, "ends": ("bounded", "singular")},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EQUATIONS)
+def test_an_equation_that_follows_its_refusal_s_remedy_is_solved(name):
+    asked, words, followed = EQUATIONS[name]
+    with pytest.raises((ValueError, sie.ContactError)) as refusal:
+        sie.CauchyEquation((-1.0, 1.0), **({"g": 1.0} | asked)).solve()
+    assert words in str(refusal.value)
+    found = sie.CauchyEquation((-1.0, 1.0), **({"g": 1.0} | followed)).solve()
+    assert np.isfinite(found(0.3))
+    assert found.error <= 1e-13
+
+
+# What is asked of a path, words of the remedy, and the path and the scene that follow it.
+SHEARED = scene(PARABOLA, friction=0.4)
+BULK = [(1.0, 0.1, 0.1), (1.2, 0.1, 0.1)]
+MOMENT = [(1.0, 0.1), (1.2, 0.15)]
+PATHS = {
+    "in proportion": (
+        [(1, 0.1, 0.1), (1, -0.1, 0.2)],
+        "in proportion,",
+        [(1, 0.1, 0.1), (1, 0.2, 0.2)],
+    ),
+    "leave σ out": ([(1, 0.1, 0.1), (1, -0.1, 0.2)], "leave σ out", [(1, 0.1), (1, -0.1)]),
+    "reach P before": (BULK, "reach P before Q and σ", [(1.2, 0, 0), (1.2, 0.1, 0.1)]),
+    "P changes, leave σ out": (BULK, "or leave σ out", [point[:2] for point in BULK]),
+    "raise the load": ([(1, 0.1), (1, 0.5)], "raise normal_load", [(1, 0.1), (1.3, 0.5)]),
+    "a later point": ([(0, 0), (1, 0.1)], "ask for a later point", [(1, 0.1)]),
+    "lower Q or σ": (
+        [(1, 0.1, 3.0), (1, 0.05, 1.5)],
+        "lower Q or σ",
+        [(1, 0.1, 0.1), (1, 0.05, 0.05)],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_path_that_follows_its_refusal_s_remedy_is_answered(name):
+    asked, words, followed = PATHS[name]
+    with pytest.raises(sie.ContactError) as refusal:
+        answered(SHEARED, asked)
+    assert words in str(refusal.value)
+    answered(SHEARED, followed)
+
+
+def answered(scene, points):
+    for solution in sie.follow(scene, sie.Path(points)):
+        assert solution.check().ok
+        assert solution.shear.resultant == pytest.approx(solution.tangential_load, abs=1e-12)
+
+
+def test_a_tilt_in_place_of_the_moment_lets_the_normal_load_change():
+    asked = scene(PUNCH, friction=0.4, moment=0.05)
+    with pytest.raises(sie.ContactError, match="give tilt instead"):
+        sie.follow(asked, sie.Path(MOMENT))
+    answered(replace(asked, moment=None, tilt=sie.solve(asked).tilt), MOMENT)
+
+
+def test_a_path_needs_friction_and_a_finite_one():
+    with pytest.raises(ValueError, match="give friction > 0"):
+        sie.follow(scene(PARABOLA), sie.Path([(1.0, 0.1)]))
+    bonded = scene(FLAT, friction=math.inf)
+    with pytest.raises(ValueError, match="give a finite friction, or solve the last point"):
+        sie.follow(bonded, sie.Path([(1.0, 0.1)]))
+    answered(replace(bonded, friction=0.4), [(1.0, 0.1)])
+    solved(replace(bonded, normal_load=1.0, tangential_load=0.1))
+
+
+def test_slip_is_known_at_the_points_that_the_refusal_says_are_in_contact():
+    last = sie.follow(SHEARED, sie.Path([(1.0, 0.1), (1.2, 0.35)]))[-1]
+    with pytest.raises(sie.ContactError, match="within the contact under P = 1") as refusal:
+        last.slip(last.edges[1])
+    within = sie.solve(
+        replace(SHEARED, normal_load=number("under P = ", str(refusal.value)))
+    ).edges[1]
+    assert last.slip(within) != 0.0
+
+
+def half_width(solution):
+    return solution.half_width
+
+
+SWEEPS = {
+    "a field": ({"over": {"load": [1.0]}}, "normal_load", {"over": {"normal_load": [1.0]}}),
+    "of the profile": ({"over": {"profile.R": [1.0]}}, "choose radius",
+                       {"over": {"profile.radius": [1.0]}}),
+    "a quantity": ({"want": "width"}, "half_width", {"want": "half_width"}),
+    "a function": ({"want": "width"}, "a dict of functions", {"want": {"width": half_width}}),
+    "a sequence": ({"over": {"normal_load": 1.0}}, "a sequence", {"over": {"normal_load": [1.0]}}),
+    "a chunk": ({"chunk": 0}, "a whole number > 0", {"chunk": 1}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_a_sweep_that_follows_its_refusal_s_remedy_has_no_reason_left(name):
+    asked, words, followed = SWEEPS[name]
+    given = {"over": {"normal_load": [1.0]}, "want": "half_width", "progress": False}
+    with pytest.raises(ValueError, match=re.escape(words)):
+        sie.sweep(SHEARED, **(given | asked))
+    found = sie.sweep(SHEARED, **(given | followed))
+    assert np.asarray(found["reason"]).tolist() == [""]
+
+
+HEIGHTS = [f"{x:.2f} {0.5 * x * x:.6f}" for x in np.linspace(-1.0, 1.0, 41)]
+TRACES = {
+    "mend passes over lines": ([*HEIGHTS, "1.05 nan"], {}, "mend = true passes over them", None,
+                               {"mend": True}),
+    "delete such lines": ([*HEIGHTS, "1.05 nan"], {}, "delete such lines", HEIGHTS, {}),
+    "mend the file": ([*HEIGHTS, "1.05 oops"], {}, "mend the file", HEIGHTS, {}),
+    "other columns": ([f"a{k} {row}" for k, row in enumerate(HEIGHTS)], {}, "choose other columns",
+                      None, {"columns": (1, 2)}),
+    "a number": (HEIGHTS, {"columns": (0, 2)}, "give numbers from 0 to 1", None,
+                 {"columns": (0, 1)}),
+    "skip fewer": (HEIGHTS, {"skip": 41}, "skip fewer lines", None, {"skip": 4}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TRACES)
+def test_a_trace_that_follows_its_refusal_s_remedy_is_read_and_pressed(name, tmp_path):
+    rows, given, words, mended, options = TRACES[name]
+    path = tmp_path / "trace.txt"
+    path.write_text("\n".join(rows))
+    with pytest.raises(ValueError, match=re.escape(words)):
+        sie.Sampled.read(path, **given)
+    path.write_text("\n".join(mended or rows))
+    solved(scene(sie.Sampled.read(path, **options), normal_load=0.05))

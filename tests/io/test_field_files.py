@@ -1,0 +1,180 @@
+"""Files and pictures of the stress hold what the solution says, and what cannot be written is
+refused before work.
+"""
+
+import base64
+import csv
+import io
+import json
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+import sie
+from sie.cli import main
+from sie.io import scene_file
+from sie.io.stress_grid import Grid, file_bytes
+
+STEEL = sie.Elastic(210e3, 0.3)
+SCENE = sie.Scene(
+    profile=sie.RoundedFlat(1.0, 50.0),
+    body=STEEL,
+    normal_load=500.0,
+    friction=0.3,
+    tangential_load=150.0,
+)
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.toml").write_text(scene_file.example("rounded-flat"))
+    return "scene.toml"
+
+
+@pytest.fixture(scope="module")
+def grid():
+    return Grid(sie.solve(SCENE), 7, 5)
+
+
+def test_the_csv_file_has_one_row_a_point(grid):
+    text = file_bytes(grid, "csv", ("about",)).decode()
+    assert text.startswith("# about\nx,y,xx,")
+    rows = list(csv.DictReader(io.StringIO(text.split("\n", 1)[1])))
+    assert len(rows) == 35
+    for row in (rows[0], rows[17], rows[-1]):
+        s = grid.solution.stress(float(row["x"]), float(row["y"]))
+        assert float(row["xx"]) == pytest.approx(float(s.xx), rel=1e-13)
+        assert float(row["j2"]) == pytest.approx(float(s.j2), rel=1e-13)
+
+
+def test_the_npz_file_has_the_arrays(grid):
+    data = np.load(io.BytesIO(file_bytes(grid, "npz")))
+    assert data["xx"].shape == (5, 7)
+    assert (data["x"] == grid.x).all() and (data["j2"] == grid.stress.j2).all()
+
+
+def test_the_vti_file_decodes_to_the_arrays(grid):
+    image = ET.fromstring(file_bytes(grid, "vti", ('a "title" -- with <signs> & dashes',)))[0]
+    assert image.get("WholeExtent") == "0 6 0 4 0 0"
+    arrays = {a.get("Name"): a for a in image.iter("DataArray")}
+    for name, expected in (("j2", grid.stress.j2), ("mises", grid.stress.mises)):
+        data = base64.b64decode(arrays[name].text)
+        assert np.frombuffer(data[:8], np.uint64)[0] == len(data) - 8
+        assert (np.frombuffer(data[8:]) == expected.ravel()).all()
+    tensor = np.frombuffer(base64.b64decode(arrays["stress"].text)[8:]).reshape(5, 7, 6)
+    assert (tensor[..., 0] == grid.stress.xx).all() and (tensor[..., 3] == grid.stress.xy).all()
+    origin, spacing = (
+        np.array(image.get(name).split(), dtype=float) for name in ("Origin", "Spacing")
+    )
+    assert origin[:2] + spacing[:2] * (6, 4) == pytest.approx((grid.x[-1], grid.y[-1]))
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        "---",
+        "a---b",
+        "-",
+        "--",
+        "-->",
+        "-" * 7,
+        "]]>",
+        "<!-- & -->",
+        "\x00\x08\x0b\x1f\x7f",
+        "\ud800",
+        "\uffff",
+        "a\nb\u2028c",
+        "",
+    ],
+)
+def test_with_any_title_the_vti_file_is_xml_and_the_csv_file_has_its_rows(title, grid):
+    image = ET.fromstring(file_bytes(grid, "vti", (title, title)))
+    assert len(list(image.iter("DataArray"))) == 3
+    lines = file_bytes(grid, "csv", (title,)).decode(errors="surrogatepass").split("\n")
+    assert lines[0].startswith("# ") and lines[1].startswith("x,y,") and len(lines) == 2 + 35 + 1
+
+
+def test_the_command_writes_the_field_and_the_contours(scene, tmp_path):
+    assert (
+        main(
+            [
+                "solve",
+                scene,
+                "--want",
+                "stress",
+                "--field",
+                "field.npz",
+                "--grid",
+                "9x4",
+                "--plot",
+                "stress.png",
+            ]
+        )
+        == 0
+    )
+    assert np.load(tmp_path / "field.npz")["xx"].shape == (4, 9)
+    assert (tmp_path / "stress.png").stat().st_size > 10_000
+
+
+def test_the_json_text_holds_the_numbers_of_the_solution(scene, capsys):
+    main(["solve", scene, "--want", "stress,yield,tension", "--json"])
+    found, solution = json.loads(capsys.readouterr().out), sie.solve(scene_file.read(scene).scene)
+    assert found["yield"]["ratio"] == solution.elastic_limit().ratio
+    assert found["tension"]["value"] == solution.peak_tension().value == 0.0
+    assert found["stress"]["xx"][200] == float(
+        solution.surface_stress(found["stress"]["x"][200]).xx
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--field", "f.vtu"], 'suffix ".vtu": use .csv, .npz, .vti'),
+        (["--grid", "1x5"], "1x5 is not a grid"),
+        (["--grid", "5x5"], "give --field FILE too"),
+        (["--grid", "200"], "200 is not a grid"),
+        (["--field", "scene.toml"], "suffix"),
+    ],
+)
+def test_what_cannot_be_written_is_refused(arguments, words, scene, capsys):
+    assert main(["solve", scene, *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and words in err and err.count("\n") == 1
+
+
+def test_the_picture_marks_the_contact_and_the_weakest_points():
+    pytest.importorskip("matplotlib")
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
+
+    for solution in (sie.solve(SCENE), sie.solve(SCENE).with_(tangential_load=0.0, friction=0.0)):
+        axes = contours(solution).axes[0]
+        lines = {line.get_label(): line for line in axes.lines}
+        assert tuple(lines["contact"].get_xdata()) == solution.edges
+        weakest = next(line for line in axes.lines if line.get_marker() == "x")
+        assert list(zip(weakest.get_xdata(), weakest.get_ydata(), strict=True)) == list(
+            solution.elastic_limit().places
+        )
+        assert axes.get_ylim()[0] > 0.0 > axes.get_ylim()[1]  # depth runs downwards
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        "",
+        "Fretting pad",
+        "Steel punch with rounded edges sliding on rubber-like polymer, dry, unworn, at 20 degrees",
+    ],
+)
+def test_no_title_pushes_a_label_out_of_the_picture(title):
+    pytest.importorskip("matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+
+    from sie.plots.stress_plot import contours  # noqa: PLC0415
+
+    figure = contours(sie.solve(SCENE), title=title)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    label = figure.axes[0].xaxis.label.get_window_extent(canvas.get_renderer())
+    assert 0.0 <= label.y0 < label.y1 <= figure.bbox.height

@@ -1,0 +1,382 @@
+"""Files are read if they are ordinary, written whole or not at all, and nothing that is read is
+overwritten.
+"""
+
+import functools
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from command import run
+
+from sie import files
+from sie.cli import main
+
+posix = pytest.mark.skipif(os.name == "nt", reason="devices, pipes and signals are otherwise")
+TRACE = "x,h\n" + "".join(f"{k / 10.0},{(k / 10.0) ** 2}\n" for k in range(-20, 21))
+SCENE = """
+pair = { modulus = 1.0 }
+load = { half_width = 1.0 }
+[profile]
+kind = "sampled"
+path = "trace.csv"
+"""
+PLUS = """
+pair = { modulus = 1.0 }
+load = { half_width = 1.0 }
+[profile]
+kind = "parabola"
+radius = 1.0
+[[profile.plus]]
+kind = "sampled"
+path = "trace.csv"
+"""
+MESH = "x,p\n-0.5,0.4\n0.0,0.5\n0.5,0.4\n"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The current directory, with a scene that reads a trace, and a mesh result."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in {"scene.toml": SCENE, "trace.csv": TRACE, "mesh.csv": MESH}.items():
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def listing(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def refused(argv, capsys):
+    assert main(argv) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("sie: ") and err.count("\n") == 1
+    return err
+
+
+# -- what is read is not overwritten --------------------------------------------------------------
+
+TARGETS = {"scene.toml": "the scene file", "trace.csv": "a trace", "mesh.csv": "the mesh result"}
+LINKS = {
+    "itself": lambda target: target,
+    "by another way": lambda target: f"../{Path.cwd().name}/{target}",
+    "by a hard link": lambda target: os.link(target, "link.csv") or "link.csv",
+    "by a symbolic link": lambda target: os.symlink(target, "link.csv") or "link.csv",
+    "by links to links": lambda target: (
+        os.symlink(target, "a") or os.symlink("a", "link.csv") or "link.csv"
+    ),
+}
+
+
+@posix
+@pytest.mark.parametrize("link", LINKS)
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("text", [SCENE, PLUS], ids=["profile", "plus"])
+def test_no_output_replaces_a_file_that_is_read(text, target, link, folder, capsys):
+    Path("scene.toml").write_text(text)
+    name = LINKS[link](target)
+    before = listing(folder)
+    argv = (
+        ["compare", "scene.toml", "mesh.csv", "--json"]
+        if target == "mesh.csv"
+        else ["solve", "scene.toml", "--csv"]
+    )
+    assert f"would overwrite {TARGETS[target]}" in refused([*argv, name], capsys)
+    assert listing(folder) == before
+
+
+def test_a_comparison_does_not_replace_the_trace_of_its_scene(folder, capsys):
+    assert "would overwrite a trace" in refused(
+        ["compare", "scene.toml", "mesh.csv", "--json", "trace.csv"], capsys
+    )
+
+
+def test_the_field_is_no_exception(folder, capsys):
+    assert "would overwrite a trace" in refused(
+        ["solve", "scene.toml", "--field", "trace.csv"], capsys
+    )
+
+
+@posix
+def test_a_scene_on_standard_input_is_not_overwritten(folder):
+    before = listing(folder)
+    with open("scene.toml", encoding="utf-8") as scene:
+        found = run("solve", "-", "--csv", "scene.toml", stdin=scene)
+    assert found.returncode == 2 and "would overwrite the scene file" in found.stderr
+    assert listing(folder) == before
+
+
+@posix
+def test_nothing_is_appended_to_a_trace_that_is_read(folder):
+    with open("trace.csv", "ab") as trace:
+        found = subprocess.run(
+            [sys.executable, "-m", "sie", "solve", "scene.toml"],
+            stdout=trace,
+            stderr=subprocess.PIPE,
+            check=False,
+        )
+    assert found.returncode == 2 and b"would overwrite a trace" in found.stderr
+    assert Path("trace.csv").read_text() == TRACE
+
+
+@pytest.mark.parametrize("second", ["out", "./out", "OUT", "link"])
+def test_two_outputs_with_one_target_are_refused(second, folder, capsys):
+    if second == "link":
+        os.symlink("out", "link")
+    before = listing(folder)
+    assert "would overwrite what --csv writes" in refused(
+        ["solve", "scene.toml", "--csv", "out", "--json", second], capsys
+    )
+    assert listing(folder) == before
+
+
+def test_a_file_beside_those_that_are_read_is_written(folder):
+    assert main(["solve", "scene.toml", "--csv", "trace2.csv", "--json", "trace.json"]) == 0
+    assert Path("trace.csv").read_text() == TRACE and Path("trace2.csv").stat().st_size > len(TRACE)
+
+
+# -- only regular files of reasonable length are read ---------------------------------------------
+
+
+def odd_file(kind):
+    path = Path("odd.csv")
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "directory":
+        path.mkdir()
+    elif kind == "device":
+        path.symlink_to("/dev/zero")
+    elif kind == "too long":
+        with open(path, "wb") as stream:
+            stream.truncate(10**9)
+    return "odd.csv"
+
+
+@posix
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("pipe", "is a pipe"),
+        ("directory", "is a directory"),
+        ("device", "is a device"),
+        ("too long", "has more than"),
+    ],
+)
+@pytest.mark.parametrize("role", ["scene", "trace", "topography", "mesh"])
+def test_what_is_no_ordinary_file_is_refused_in_a_sentence(role, kind, said, folder, capsys):
+    name = odd_file(kind)
+    if role == "topography":
+        Path(name).rename("odd.sur")
+        name = "odd.sur"
+    if role in ("trace", "topography"):
+        Path("scene.toml").write_text(SCENE.replace("trace.csv", name))
+    argv = ["solve", name if role == "scene" else "scene.toml"]
+    assert said in refused(["compare", "scene.toml", name] if role == "mesh" else argv, capsys)
+
+
+@pytest.mark.parametrize("column", [0, 1, 2])
+def test_a_mesh_with_marks_for_missing_values_is_refused(column, folder, capsys):
+    rows = [[0.1 * k, 0.0, 1.0] for k in range(-5, 6)]
+    rows[3][column] = 1e300
+    Path("mesh.csv").write_text("x,y,p\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+    assert "1e+300" in refused(["compare", "scene.toml", "mesh.csv"], capsys)
+
+
+def test_a_header_as_long_as_a_file_is_told_in_short(folder, capsys):
+    Path("mesh.csv").write_text("x" * 10**6 + ",p\n0,1\n0.1,2\n")
+    assert len(refused(["compare", "scene.toml", "mesh.csv"], capsys)) < 500
+
+
+def test_a_trace_of_too_many_points_is_refused_before_it_is_taken_apart(folder, capsys):
+    Path("trace.csv").write_text("0 0\n" * 200_000)
+    assert "thin the points out" in refused(["solve", "scene.toml"], capsys)
+
+
+@posix
+def test_a_scene_without_end_on_standard_input_is_refused():
+    with open("/dev/zero", "rb") as zeros:
+        found = run("solve", "-", stdin=zeros)
+    assert (
+        found.returncode == 2
+        and "has more than 1 MB" in found.stderr
+        and found.stderr.count("\n") == 1
+    )
+
+
+# -- whole or not at all --------------------------------------------------------------------------
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from sie import files
+die = lambda *given, **named: os.kill(os.getpid(), signal.SIGKILL)
+setattr(*eval(sys.argv[1]), die)
+files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
+"""
+
+
+@posix
+@pytest.mark.parametrize(
+    "place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'", "files, '_discard'"]
+)
+def test_what_a_killed_run_leaves_behind_the_next_one_removes(place, folder):
+    for name in ("out.csv", "out.json"):
+        Path(name).write_bytes(b"old")
+    before = set(listing(folder))
+    found = subprocess.run([sys.executable, "-c", KILLED, place], check=False, capture_output=True)
+    assert found.returncode == -signal.SIGKILL, found.stderr
+    assert Path("out.csv").read_bytes() in (b"old", b"new" * 10**6) and Path(
+        "out.json"
+    ).read_bytes() in (b"old", b"new")
+    files.write_files({Path("out.csv"): b"newer"})
+    assert set(listing(folder)) == before and Path("out.csv").read_bytes() == b"newer"
+
+
+def test_no_file_of_a_user_is_taken_for_a_part(folder):
+    names = (
+        "out.part",
+        ".0123456789abcdef.part",
+        ".sie-0123456789abcdef-0123456789abcdef.part",
+        ".sie-.part",
+        ".sie-a.part",
+    )
+    for name in names:
+        Path(name).write_text("mine")
+    files.write_files({Path("out.csv"): b"new"})
+    assert all(Path(name).read_text() == "mine" for name in names)
+
+
+@posix
+def test_the_part_of_a_run_that_is_still_writing_is_left_alone(folder):
+    with files.writing({folder / "out.csv": b"first"}):
+        files.write_files({folder / "other.csv": b"second"})
+    assert (folder / "out.csv").read_bytes() == b"first"
+    assert not list(folder.glob(".sie-*"))
+
+
+@posix
+def test_a_full_device_is_told_and_nothing_else_is_written(folder, capsys):
+    before = listing(folder)
+    assert "No space left on device" in refused(
+        ["solve", "scene.toml", "--json", "out.json", "--csv", "/dev/full"], capsys
+    )
+    assert listing(folder) == before
+
+
+@posix
+def test_standard_output_that_is_full_or_closed_is_told_and_nothing_is_written(folder):
+    before = listing(folder)
+    command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv", "out.csv"]
+    with open("/dev/full", "wb") as full:
+        found = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert (found.returncode, found.stderr) == (
+        2,
+        b"sie: standard output: No space left on device\n",
+    )
+    found = subprocess.run(
+        ["sh", "-c", '"$@" >&-', "sh", *command], stderr=subprocess.PIPE, check=False
+    )
+    assert (
+        found.returncode == 2
+        and found.stderr.startswith(b"sie: standard output is closed")
+        and found.stderr.count(b"\n") == 1
+    )
+    assert listing(folder) == before
+
+
+@posix
+@pytest.mark.parametrize(
+    "argv", [["example"], ["--help"], ["solve", "--help"], ["--version"], ["plan", "scene.toml"]]
+)
+def test_a_reader_who_leaves_early_is_exit_code_141(argv, folder):
+    read, write = os.pipe()
+    os.close(read)
+    found = subprocess.run(
+        [sys.executable, "-m", "sie", *argv], stdout=write, stderr=subprocess.PIPE, check=False
+    )
+    os.close(write)
+    assert (found.returncode, found.stderr) == (141, b"")
+
+
+@posix
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_who_leaves_in_the_midst_is_exit_code_141(unbuffered, folder):
+    command = [
+        sys.executable,
+        "-m",
+        "sie",
+        "solve",
+        "scene.toml",
+        "--points",
+        "20000",
+        "--csv",
+        "-",
+    ]
+    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        process.stdout.readline()
+        process.stdout.close()
+        assert (process.wait(), process.stderr.read()) == (141, b"")
+
+
+@posix
+def test_a_reader_who_leaves_early_costs_no_file_and_is_told_of_devices_too(folder):
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv"]
+    for target in ("out.csv", "/dev/stdout"):
+        found = subprocess.run(
+            [*command, target], stdout=write, stderr=subprocess.PIPE, check=False
+        )
+        assert (found.returncode, found.stderr) == (141, b"")
+    os.close(write)
+    assert Path("out.csv").read_text().startswith("#")
+
+
+# -- Ctrl-C ---------------------------------------------------------------------------------------
+
+IMPORTING = """
+import os, signal, sys
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == os.environ["INTERRUPTED_IMPORT"]:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+"""
+
+
+@posix
+@pytest.mark.parametrize("module", ["numpy", "sie.traction.base", "sie.sweep", "sie.io.report"])
+@pytest.mark.parametrize("start", ["-m sie", "as a script"])
+def test_an_interruption_while_modules_are_imported_is_quiet(start, module, folder):
+    (folder / "sitecustomize.py").write_text(IMPORTING)
+    (folder / "sie").write_text("import sys\nfrom sie.cli import main\nsys.exit(main())\n")
+    path = os.pathsep.join([str(folder), *(place for place in sys.path if place)])
+    environment = os.environ | {"INTERRUPTED_IMPORT": module, "PYTHONPATH": path}
+    begin = ["-m", "sie"] if start == "-m sie" else ["sie"]
+    command = [sys.executable, *begin, "solve", "scene.toml"]
+    # A background job inherits that SIGINT is ignored.
+    heeded = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    found = subprocess.run(
+        command, env=environment, capture_output=True, check=False, preexec_fn=heeded
+    )
+    assert (found.returncode, found.stdout, found.stderr) == (130, b"", b"")
+
+
+def test_a_program_of_another_name_keeps_its_handler_of_interruptions():
+    code = (
+        "import signal; before = signal.getsignal(signal.SIGINT); import sie; "
+        "assert signal.getsignal(signal.SIGINT) is before"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_after_main_an_interruption_raises_again_in_the_caller(folder):
+    before = signal.getsignal(signal.SIGINT)
+    main(["--version"])
+    assert signal.getsignal(signal.SIGINT) is before

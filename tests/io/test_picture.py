@@ -1,0 +1,233 @@
+"""The picture shows the numbers of the solution, says what its axes are, and leaves Matplotlib as
+it was.
+"""
+
+import numpy as np
+import pytest
+
+import sie
+from sie.io.scene_file import Units, example, parse
+
+matplotlib = pytest.importorskip("matplotlib")
+plot = pytest.importorskip("sie.plots.contact_plot")
+style = pytest.importorskip("sie.plots.style")
+
+STEEL = sie.Elastic(210e3, 0.3)
+PRESSED = {"body": STEEL, "normal_load": 50.0, "friction": 0.5}
+SCENES = {
+    "rounded flat": parse(example("rounded-flat")).scene,
+    "wedge": parse(example("wedge")).scene,
+    "flat": parse(example("flat")).scene,
+    "tilted": sie.Scene(
+        profile=sie.RoundedFlat(2.0, 20.0).tilted(4e-4), body=STEEL, normal_load=500.0
+    ),
+    "thin rim": sie.Scene(profile=sie.RoundedFlat(0.999, 20.0), body=STEEL, half_width=1.0),
+    "one sharp edge": sie.Scene(profile=sie.Flat(5.0), body=STEEL, normal_load=50.0, tilt=1e-4),
+    "far from x = 0": sie.Scene(
+        profile=sie.Parabola(0.01).shifted(1.0), body=STEEL, normal_load=1e-3
+    ),
+}
+EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+
+
+def lines(axes):
+    return {line.get_label(): line for line in axes.lines}
+
+
+def words(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def panels(scene, **options):
+    upper, lower = plot.picture(sie.solve(scene), **options).axes
+    return upper, lower
+
+
+@EVERY
+def test_both_axes_say_what_they_are_and_in_which_unit(scene):
+    upper, lower = panels(scene)
+    assert upper.get_ylabel().startswith("$p$ (") and upper.get_ylabel().endswith("MPa)")
+    assert lower.get_xlabel().startswith("$x$ (") and lower.get_xlabel().endswith("m)")
+    assert lower.get_ylabel().startswith("gap (") and lower.get_ylabel().endswith("m)")
+
+
+@EVERY
+def test_both_edges_run_through_both_panels_and_are_named(scene):
+    solution = sie.solve(scene)
+    upper, lower = plot.picture(solution).axes
+    factor, _ = style.scaled(solution.half_width, "mm")
+    for axes in (upper, lower):
+        dotted = {
+            line.get_xdata()[0]
+            for line in axes.lines
+            if line.get_linestyle() != "-" and len(set(line.get_xdata())) == 1
+        }
+        assert set(np.multiply(solution.edges, factor)) <= dotted
+    assert [word.split("$")[1] for word in words(upper) if word.startswith("$x_")] == ["x_1", "x_2"]
+
+
+@EVERY
+def test_nothing_that_is_written_leaves_the_picture_or_overlaps(scene):
+    figure = plot.picture(sie.solve(scene), title="A title")
+    figure.draw_without_rendering()
+    upper, lower = figure.axes
+    labels = [
+        upper.yaxis.label,
+        lower.xaxis.label,
+        lower.yaxis.label,
+        figure._suptitle,
+        *lower.get_legend().get_texts(),
+    ]
+    shown = [text for text in (*labels, *upper.texts, *lower.texts) if text.get_text()]
+    boxes = [text.get_window_extent() for text in shown]
+    width, height = figure.get_size_inches() * figure.dpi
+    for k, box in enumerate(boxes):
+        assert min(box.x0, box.y0) >= 0.0 and box.x1 <= width and box.y1 <= height, shown[
+            k
+        ].get_text()
+        for j in range(k):
+            assert not box.overlaps(boxes[j]), (shown[k].get_text(), shown[j].get_text())
+
+
+def test_the_curves_are_the_pressure_the_gap_and_the_unloaded_profile():
+    solution = sie.solve(SCENES["tilted"])
+    upper, lower = plot.picture(solution).axes
+    x, p = lines(upper)["pressure"].get_data()
+    np.testing.assert_array_equal(p, solution.pressure(x))
+    x, gap = lines(lower)["under load"].get_data()
+    np.testing.assert_allclose(gap, 1e3 * solution.gap(x), rtol=1e-14)
+    x, unloaded = lines(lower)["$h(x)$, unloaded"].get_data()
+    assert unloaded.min() == 0.0
+    np.testing.assert_allclose(
+        np.diff(unloaded), 1e3 * np.diff(solution.scene.profile.height(x)), atol=1e-12
+    )
+
+
+def test_the_unloaded_indenter_is_never_closer_than_the_loaded_one():
+    for scene in SCENES.values():
+        curves = list(lines(panels(scene)[1]).values())
+        unloaded, loaded = (
+            next(c for c in curves if word in c.get_label()) for word in ("unloaded", "under load")
+        )
+        assert (unloaded.get_ydata() >= loaded.get_ydata() - 1e-12).all()
+
+
+def test_a_finite_peak_is_marked_by_dots_and_its_value():
+    solution = sie.solve(SCENES["rounded flat"])
+    upper, _ = plot.picture(solution).axes
+    dots = next(line for line in upper.lines if line.get_marker() == "o")
+    (left, right), p = dots.get_data()
+    assert right == pytest.approx(-left, abs=1e-6)
+    np.testing.assert_allclose(p, solution.pressure(right), rtol=1e-12)
+    assert f"$p_{{\\max}}$ = {p[0]:.1f} MPa" in words(upper)
+
+
+@pytest.mark.parametrize(("name", "arrows"), [("flat", 2), ("one sharp edge", 1), ("wedge", 1)])
+def test_an_infinite_pressure_is_cut_and_marked_by_arrows(name, arrows):
+    upper, _ = panels(SCENES[name])
+    assert np.isfinite(upper.get_ylim()).all()
+    assert sum(getattr(text, "arrow_patch", None) is not None for text in upper.texts) == arrows
+    assert r"$p \to \infty$" in words(upper)
+
+
+def test_a_spike_is_cut_but_its_value_is_told():
+    solution = sie.solve(SCENES["thin rim"])
+    upper, _ = plot.picture(solution).axes
+    largest, _ = plot.peak(solution)
+    assert upper.get_ylim()[1] < 0.5 * largest
+    assert any(word == f"$p_{{\\max}}$ = {largest:.3f} MPa" for word in words(upper))
+
+
+def test_a_flat_punch_has_no_gap_but_a_picture():
+    scene = sie.Scene(profile=sie.Flat(1.0), body=STEEL, normal_load=10.0)
+    _, lower = panels(scene)
+    assert lower.get_ylim()[1] > 0.0
+
+
+def test_units_that_are_not_mm_keep_their_name_behind_a_power_of_ten():
+    scene = sie.Scene(profile=sie.Parabola(1.0), body=sie.Elastic(210e9, 0.3), normal_load=1e4)
+    upper, lower = panels(scene, units=Units("m", "N/m", "Pa"))
+    assert upper.get_ylabel() == "$p$ ($10^{6}$ Pa)"
+    assert lower.get_xlabel() == "$x$ ($10^{-6}$ m)"
+
+
+def test_dollars_in_titles_and_units_are_letters():
+    figure = plot.picture(
+        sie.solve(SCENES["wedge"]), units=Units("$", "$", "$"), title="$1 for $x_"
+    )
+    assert style.picture_bytes(figure, "svg").startswith(b"<?xml")
+
+
+@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
+def test_the_same_picture_is_the_same_file(suffix):
+    solution = sie.solve(SCENES["wedge"])
+    one, other = (style.picture_bytes(plot.picture(solution), suffix) for _ in range(2))
+    assert one == other
+
+
+def test_matplotlib_s_settings_stay_as_they_were():
+    before = dict(matplotlib.rcParams)
+    style.picture_bytes(plot.picture(sie.solve(SCENES["wedge"])), "eps")
+    assert dict(matplotlib.rcParams) == before
+
+
+# -- shear ----------------------------------------------------------------------------------------
+
+FRETTING = parse(example("fretting-cycle"))
+SHEARED = {
+    "partial slip": sie.solve(parse(example("partial-slip")).scene),
+    "sharp edges": sie.solve(sie.Scene(profile=sie.Flat(5.0), **PRESSED, tangential_load=-10.0)),
+    "both signs": sie.solve(sie.Scene(profile=sie.Parabola(10.0), **PRESSED, bulk_stress=300.0)),
+    "sliding": sie.solve(sie.Scene(profile=sie.Wedge(0.01), **PRESSED, tangential_load=25.0)),
+    "path": sie.follow(FRETTING.scene, sie.Path(FRETTING.path))[-1],
+}
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_the_shear_lies_between_its_limits_with_the_stick_zones_shaded(solution):
+    axes = plot.picture(solution).axes[2]
+    drawn = lines(axes)
+    x, q = drawn["$q$"].get_data()
+    _, limit = next(line for label, line in drawn.items() if "f p" in label).get_data()
+    assert (np.abs(q) <= limit + 1e-9 * limit.max()).all()
+    factor, _ = style.scaled(solution.half_width, "mm")
+    scale, _ = style.scaled(solution.scene.friction * plot._View(solution, Units()).shown, "MPa")
+    middle = len(x) // 2 + 3
+    assert q[middle] == pytest.approx(
+        float(solution.shear(x[middle] / factor)) * scale, rel=1e-9, abs=1e-9 * limit.max()
+    )
+    shaded = [patch.get_extents().bounds[2] for patch in axes.patches]
+    assert len(shaded) == len(solution.stick)
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
+    axes = plot.picture(solution).axes[2]
+    low, high = axes.get_ylim()
+    limits = [
+        line.get_ydata()
+        for line in axes.lines
+        if line.get_linestyle() == "--" and len(line.get_ydata()) > 2
+    ]
+    assert all(
+        low <= y[2 * len(y) // 5] <= high for y in limits
+    )  # beside the middle, where a wedge's is infinite
+    assert len(limits) == 1 + bool((lines(axes)["$q$"].get_ydata() < 0.0).any())
+
+
+def test_after_a_path_the_loop_goes_through_its_turning_points():
+    solution = SHEARED["path"]
+    loop = plot.picture(solution).axes[-1]
+    shift, Q = loop.lines[-2].get_data()
+    assert pytest.approx([point[1] for point in FRETTING.path]) == Q
+    factor, _ = style.scaled(max(abs(s.shift) for s in solution.history), "mm")
+    assert shift == pytest.approx(
+        [s.shift * factor for s in solution.history], abs=1e-9 * abs(shift).max()
+    )
+
+
+@pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
+def test_a_picture_of_shear_can_be_written(solution):
+    assert style.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(
+        b"\x89PNG"
+    )

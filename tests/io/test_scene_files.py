@@ -1,0 +1,445 @@
+"""Scene files: what they say is what is solved, and what they cannot say is refused in one sentence
+with a remedy.
+"""
+
+import dataclasses
+import tomllib
+
+import numpy as np
+import pytest
+
+import sie
+from sie.io.scene_file import MOST_POINTS, SceneFileError, example, parse, read
+from sie.profiles import kinds
+
+KINDS = list(kinds.KINDS)
+PARABOLA = '[profile]\nkind = "parabola"\nradius = 10.0\n'
+BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
+PAIR = "[pair]\nmodulus = 1e5\n"
+LOAD = "[load]\nnormal_load = 5.0\n"
+
+
+def profile_of(text):
+    return parse(PAIR + LOAD + text).scene.profile
+
+
+def refusal(text):
+    with pytest.raises(SceneFileError) as caught:
+        parse(text, "scene.toml")
+    message = str(caught.value)
+    assert message.startswith("scene.toml") and "\n" not in message
+    return message
+
+
+# -- examples -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_example_solves_and_is_certified(kind):
+    file = parse(example(kind))
+    solution = sie.solve(file.scene)
+    assert solution.check().ok
+    assert type(file.scene.profile) is kinds.KINDS[kind]
+    assert file.title
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_example_reads_back_as_the_same_value(kind, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(example(kind), encoding="utf-8")
+    assert read(path) == parse(example(kind))
+    assert (
+        eval(repr(read(path).scene.profile), vars(sie) | {"inf": float("inf")})
+        == read(path).scene.profile
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_example_is_ascii_so_that_any_shell_may_redirect_it(kind):
+    assert example(kind).isascii()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_kind_of_profile_is_a_public_name(kind):
+    assert kinds.KINDS[kind].__name__ in sie.__all__
+
+
+@dataclasses.dataclass(frozen=True)
+class Cosine(sie.Profile):
+    """h = depth (1 - cos(x/length)), as a new kind of profile."""
+
+    depth: float
+    length: float = 1.0
+
+    @property
+    def pieces(self):
+        return sie.FromFunction(self._slope, domain=(-3.0 * self.length, 3.0 * self.length)).pieces
+
+    def _slope(self, x):
+        return self.depth / self.length * np.sin(x / self.length)
+
+    def height(self, x):
+        return self.depth * (1.0 - np.cos(np.asarray(x) / self.length))
+
+
+@pytest.fixture
+def cosine(monkeypatch):
+    monkeypatch.setitem(kinds.KINDS, "cosine", Cosine)
+
+
+def test_a_line_in_the_table_of_kinds_lets_a_scene_file_name_a_new_kind(cosine):
+    text = PAIR + LOAD + '[profile]\nkind = "cosine"\ndepth = 0.1\nlength = 2.0\n'
+    scene = parse(text).scene
+    assert scene.profile == Cosine(0.1, 2.0)
+    assert sie.solve(scene).check().ok
+
+
+def test_the_parameters_of_a_new_kind_say_what_a_scene_file_must_and_may_hold(cosine):
+    assert profile_of('[profile]\nkind = "cosine"\ndepth = 0.1\n') == Cosine(0.1)
+    missing = PAIR + LOAD + '[profile]\nkind = "cosine"\nlength = 2.0\n'
+    assert "lacks depth: give depth = ..." in refusal(missing)
+    stray = PAIR + LOAD + PARABOLA + "depth = 0.1\n"
+    assert '"depth": it belongs to kind "cosine"' in refusal(stray)
+
+
+def test_the_showcase_still_works_with_its_commented_lines_switched_on():
+    hidden = ("# want", "# mirrored", "# tilted", "# shifted", "# [[", "# kind", "# radius")
+    lines = [
+        line.removeprefix("# ") if line.startswith(hidden) else line
+        for line in example("rounded-flat").splitlines()
+    ]
+    profile = sie.RoundedFlat(1.0, 50.0).mirrored().tilted(1e-4).shifted(0.5) + sie.Parabola(2000.0)
+    assert parse("\n".join(lines)).scene.profile == profile
+
+
+# -- what a file says -----------------------------------------------------------------------------
+
+
+def test_modifiers_are_applied_mirrored_then_tilted_then_shifted():
+    text = (
+        "[profile]\nshifted = 0.5\ntilted = 1e-3\nmirrored = true\n"
+        'kind = "polynomial"\ncoefficients = [0, 0, 1, 1]\n'
+    )
+    assert profile_of(text) == sie.Polynomial((0, 0, 1, 1)).mirrored().tilted(1e-3).shifted(0.5)
+
+
+def test_terms_add_up_and_modifiers_act_on_their_own_term():
+    text = (
+        PARABOLA
+        + '[[profile.plus]]\nkind = "wedge"\nslope = 0.1\nshifted = 1.0\n[[profile.plus]]\nkind = '
+        '"flat"\nhalf_width = 3\n'
+    )
+    assert profile_of(text) == sie.Parabola(10.0) + sie.Wedge(0.1).shifted(1.0) + sie.Flat(3.0)
+
+
+def test_infinite_breaks_and_domains_are_toml_inf():
+    assert profile_of('[profile]\nkind = "function"\nslope = "x"\ndomain = [-1, inf]\n').domain == (
+        -1.0,
+        float("inf"),
+    )
+
+
+@pytest.mark.parametrize(
+    "text", ['indenter = "rigid"\n' + BODY, BODY + "[indenter]\nrigid = true\n"]
+)
+def test_a_rigid_indenter_is_a_word_at_the_top_or_a_table(text):
+    assert parse(text + PARABOLA + LOAD).scene.indenter == sie.RIGID
+
+
+def test_a_pair_beside_the_bodies_neglects_their_beta():
+    text = BODY + "[indenter]\nyoung = 2e5\npoisson = 0.4\n[pair]\ndundurs = 0\n" + PARABOLA + LOAD
+    bodies = {"body": sie.Elastic(1e5, 0.3), "indenter": sie.Elastic(2e5, 0.4)}
+    assert parse(text).scene == sie.Scene(
+        profile=sie.Parabola(10.0), **bodies, dundurs=0.0, normal_load=5.0
+    )
+
+
+def test_without_a_table_the_indenter_is_made_of_the_body_s_material():
+    scene = parse(BODY + PARABOLA + LOAD).scene
+    assert scene.indenter == scene.body == sie.Elastic(1e5, 0.3)
+
+
+def test_every_load_of_a_scene_can_be_written():
+    scene = parse(
+        PAIR
+        + PARABOLA
+        + "[load]\nhalf_width = 1\nmoment = 2\nfriction = 0.5\ntangential_load = 3\nbulk_stress = "
+        "4\n"
+    ).scene
+    assert scene == sie.Scene(
+        profile=sie.Parabola(10.0), modulus=1e5, half_width=1.0, moment=2.0, friction=0.5,
+        tangential_load=3.0, bulk_stress=4.0,
+    )  # fmt: skip
+
+
+def test_units_are_labels_and_default_to_mm_and_mpa():
+    units = parse(PAIR + PARABOLA + LOAD).units
+    assert (units.length, units.force, units.stress, units.moment) == ("mm", "N/mm", "MPa", "N")
+    assert (
+        parse('[units]\nlength = "m"\nforce = "kN"\n' + PAIR + PARABOLA + LOAD).units.moment
+        == "kN m"
+    )
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_what_editors_and_shells_write_is_read(encoding, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text('title = "Grüße"\n' + BODY + PARABOLA + LOAD, encoding=encoding)
+    assert read(path).title == "Grüße"
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+def keys_of(table):
+    return [
+        key
+        for name, value in table.items()
+        for key in (keys_of(value) if isinstance(value, dict) else [name])
+    ]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
+    for key in filter(lambda key: len(key) > 3, keys_of(tomllib.loads(example(kind)))):
+        typo = key[:2] + key[3] + key[2] + key[4:]
+        lines = [
+            typo + line[len(key) :] if line.startswith(key) else line
+            for line in example(kind).splitlines()
+        ]
+        assert typo == key or f'did you mean "{key}"?' in refusal("\n".join(lines))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (
+            BODY + PARABOLA + "[load]\nnormal_laod = 5.0\n",
+            '[load] has no key "normal_laod": did you mean "normal_load"?',
+        ),
+        ("[laod]\nnormal_load = 5.0\n", 'there is no key or table "laod": did you mean "load"?'),
+        (
+            BODY + LOAD + '[profile]\nkind = "wegde"\nslope = 0.1\n',
+            '[profile] kind = "wegde" is not known: did you mean "wedge"?',
+        ),
+        (BODY + LOAD + '[profile]\nkind = "cone"\n', 'choose "parabola", "rounded-flat"'),
+        (
+            BODY + LOAD + '[profile]\nkind = "wedge"\nrise = 0.1\n',
+            'of kind "wedge" has no key "rise"',
+        ),
+        (BODY + LOAD + "[profile]\nradius = 1.0\n", "[profile] lacks kind"),
+        (BODY + LOAD + '[profile]\nkind = "rounded-flat"\nradius = 1.0\n', "lacks half_flat"),
+        (BODY + LOAD + PARABOLA + 'want = ["edges"]\n', '"want": it stands at the top of the file'),
+        ("normal_load = 5.0\n" + BODY + PARABOLA, '"normal_load": it belongs in [load]'),
+        (BODY + PARABOLA + LOAD + "young = 1.0\n", '"young": it belongs in [body] or [indenter]'),
+        (
+            BODY + PARABOLA + "[load]\nload = 500\n",
+            '[load] has no key "load": did you mean "normal_load"?',
+        ),
+        (
+            BODY + LOAD + '[profile]\nprofile = "parabola"\nkind = "parabola"\nradius = 1\n',
+            'has no key "profile": did you mean "kind"?',
+        ),
+        (BODY + "body = 3\n" + PARABOLA + LOAD, '[body] has no key "body": choose "young"'),
+        (
+            BODY + PARABOLA + LOAD + "pair = 3\n",
+            "it is a table of its own, write the header [pair] and its keys below it",
+        ),
+        (
+            BODY + PARABOLA + "half_flat = 1.0\n" + LOAD,
+            'of kind "parabola" has no key "half_flat": it belongs to kind "rounded-flat"',
+        ),
+        (
+            BODY + PARABOLA + "breaks = [1.0]\n" + LOAD,
+            'it belongs to kind "piecewise" or "function"',
+        ),
+        (BODY + PARABOLA + "columns = [0, 1]\n" + LOAD, 'it belongs to kind "sampled"'),
+        (BODY + PARABOLA + LOAD + "radius = 1.0\n", '"radius": it belongs in [profile]'),
+        (BODY + PARABOLA + "shifted = nan\n" + LOAD, "[profile] shifted is nan: give a number"),
+        (BODY + PARABOLA + "tilted = inf\n" + LOAD, "[profile] tilted = inf is infinite"),
+        (
+            BODY + PARABOLA + f"[load]\nnormal_load = 1{'0' * 5000}\n",
+            "a number of more than 4300 digits",
+        ),
+        (
+            "[body]\nrigid = true\n" + PARABOLA + LOAD,
+            "both rigid: nothing can deform; give one of them young and poisson",
+        ),
+        (BODY + PARABOLA, "there is no [load]: give [load]"),
+        (BODY + LOAD, "there is no [profile]: give [profile]"),
+        (PARABOLA + LOAD, "neither [body] nor [pair]"),
+        (BODY + PAIR + PARABOLA + LOAD, "both [pair] and [body]"),
+        ("[pair]\npoisson = 0.3\n" + PARABOLA + LOAD, "[pair] lacks modulus"),
+        ("[body]\nyoung = 1e5\n" + PARABOLA + LOAD, "[body] lacks poisson"),
+        ('indenter = "rigit"\n' + BODY + PARABOLA + LOAD, 'indenter = "rigit" is not known'),
+        (
+            BODY + "[indenter]\nrigid = true\nyoung = 1.0\n" + PARABOLA + LOAD,
+            "[indenter] is rigid and has young",
+        ),
+        (BODY + PARABOLA + '[load]\nnormal_load = "5 N"\n', 'normal_load = "5 N" is not a number'),
+        (BODY + PARABOLA + "[load]\nnormal_load = true\n", "normal_load = true is not a number"),
+        (
+            BODY + PARABOLA + f"[load]\nnormal_load = 1{'0' * 400}\n",
+            "beyond the floating-point range",
+        ),
+        (BODY + PARABOLA + "[load]\nnormal_load = nan\n", "normal_load is nan"),
+        (BODY + PARABOLA + "[load]\nnormal_load = -5\n", "normal_load = -5 is not positive"),
+        (BODY + PARABOLA + LOAD + "half_width = 1.0\n", "both of normal_load and half_width"),
+        ("load = 5.0\n" + BODY + PARABOLA, "load = 5.0 is not a table"),
+        (BODY + PARABOLA + "[[load]]\nnormal_load = 5.0\n", "[load] is a list"),
+        (
+            BODY + LOAD + '[profile]\nkind = "parabola"\nradius = -1.0\n',
+            "[profile] radius = -1 is not positive",
+        ),
+        (
+            BODY + LOAD + '[profile]\nkind = "piecewise"\nbreaks = 1.0\npieces = [[0.0]]\n',
+            "breaks = 1.0 is not a list",
+        ),
+        (
+            BODY + LOAD + '[profile]\nkind = "function"\nslope = "os.remove(x)"\n',
+            "[profile] expression",
+        ),
+        (BODY + LOAD + '[profile]\nkind = "function"\nslope = "x/(1 - 1)/0"\n', "[profile]"),
+        (BODY + LOAD + f'[profile]\nkind = "function"\nslope = "{"-" * 5000}x"\n', "[profile]"),
+        (BODY + LOAD + '[profile]\nkind = "function"\nslope = "sin(x, x, x)"\n', "[profile]"),
+        (
+            BODY + LOAD + PARABOLA + 'mirrored = "yes"\n',
+            'mirrored = "yes" is neither true nor false',
+        ),
+        (BODY + LOAD + PARABOLA + "plus = 3\n", "write the header [[profile.plus]]"),
+        (
+            BODY + LOAD + PARABOLA + '[[profile.plus]]\nkind = "wedge"\nslope = 0\n',
+            "[[profile.plus]] slope = 0 is not positive",
+        ),
+        (
+            "[body]\nyoung = 1e5\npoisson = 0.7\n" + PARABOLA + LOAD,
+            "[body] poisson = 0.7 is outside",
+        ),
+        ('title = "a\\nb"\n' + BODY + PARABOLA + LOAD, "not one line of plain text"),
+        (
+            'want = ["edgse"]\n' + BODY + PARABOLA + LOAD,
+            'want "edgse" is not known: did you mean "edges"?',
+        ),
+        ("[load\n", "is not TOML"),
+        ("a = 1\na = 2\n", "line 2"),
+        ("a = " + "[" * 5000, "nested too deeply"),
+    ],
+)
+def test_a_file_that_makes_no_scene_is_refused_with_the_value_and_the_remedy(text, said):
+    assert said in refusal(text)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b'title = "\xe9"', "not UTF-8 text"),
+        (b"\xff\xfe\x00", "not UTF-8 text"),
+        (b"\x00", "not TOML"),
+    ],
+)
+def test_a_file_that_is_no_text_is_refused(data, said, tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_bytes(data)
+    with pytest.raises(SceneFileError, match=said):
+        read(path)
+
+
+DEEP = 100_000
+PROFILE = BODY + LOAD + "[profile]\n"
+HOSTILE = {
+    "arrays within arrays": "a = " + "[" * DEEP,
+    "arrays within arrays, closed": "a = " + "[" * DEEP + "]" * DEEP,
+    "a coefficient of arrays": PROFILE
+    + 'kind = "polynomial"\ncoefficients = '
+    + "[" * 300
+    + "]" * 300,
+    "tables within tables": "a = " + "{a=" * DEEP,
+    "a long dotted key": "a" + ".a" * DEEP + " = 1",
+    "a long dotted header": "[a" + " . a" * DEEP + "]",
+    "a long dotted key in quotes": '""' + '.""' * DEEP + " = 1",
+    "a long dotted key in apostrophes": "'.'" + ".'.'" * DEEP + " = 1",
+    "a long dotted key with escapes": r'"\"#"' + r'."\"#"' * DEEP + " = 1",
+    "a long dotted key behind five quotes": 'x = ["""a""""", {a' + ".a" * DEEP + "=1}]",
+    "a long dotted key behind four apostrophes": "x = ['''a'''', {a" + ".a" * DEEP + "=1}]",
+    "a string without end": 'a = "' + r"\"" * DEEP,
+    "lines without end": 'a = """' + r'\"""' * DEEP,
+    "quotes": '"' * DEEP,
+    "apostrophes": "'" * DEEP,
+    "backslashes": "\\" * DEEP,
+    "dots": "." * DEEP,
+    "one word": "x" * DEEP,
+    "a key as long as a file": "x" * DEEP + " = 1\n" + BODY + PARABOLA + LOAD,
+    "a key of the load as long as a file": BODY
+    + PARABOLA
+    + LOAD
+    + "normal_load" * (DEEP // 2)
+    + " = 1\n",
+    "a kind as long as a file": PROFILE + 'kind = "' + "parabola" * DEEP + '"',
+    "a want as long as a file": 'want = ["' + "x" * DEEP + '"]\n' + BODY + PARABOLA + LOAD,
+    "a path as long as a file": PROFILE + 'kind = "sampled"\npath = "' + "x" * DEEP + '"',
+    "columns without number": PROFILE
+    + 'kind = "sampled"\npath = "trace.csv"\ncolumns = ['
+    + "0," * DEEP
+    + "]",
+    "an integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = ' + "9" * 5000,
+    "a hexadecimal integer of 5000 digits": PROFILE + 'kind = "parabola"\nradius = 0x' + "f" * 5000,
+    "such an integer in a list": PROFILE
+    + 'kind = "polynomial"\ncoefficients = [[0x'
+    + "f" * 5000
+    + "]]",
+    "such an integer for a table": "load = 0x" + "f" * 5000,
+    "such an integer for a title": "title = 0x" + "f" * 5000 + "\n" + BODY + PARABOLA + LOAD,
+    "more than a megabyte": "#" * 10**6 + "\n" + BODY + PARABOLA + LOAD,
+    "a date": PROFILE + 'kind = "parabola"\nradius = 1979-05-27',
+    "old line ends": (BODY + PARABOLA + LOAD).replace("\n", "\r"),
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
+def test_a_hostile_file_is_refused_in_a_sentence_that_can_be_read(text):
+    assert len(refusal(text)) < 500
+
+
+def test_dots_in_strings_and_comments_nest_nothing():
+    text = f'title = "{"a." * 50}" # {"b." * 50}\n' + PARABOLA + BODY + LOAD
+    assert parse(text).title == "a." * 50
+
+
+def test_a_file_that_cannot_be_read_is_refused(tmp_path):
+    with pytest.raises(SceneFileError, match="does not exist: write one with"):
+        read(tmp_path / "none.toml")
+    with pytest.raises(SceneFileError, match="is a directory"):
+        read(tmp_path)
+
+
+def test_a_load_path_takes_the_place_of_the_loads():
+    file = parse(PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = [[2, 0.5], [2.0, -0.25, 0]]\n")
+    assert file.path == ((2.0, 0.5, 0.0), (2.0, -0.25, 0.0))
+    assert (file.scene.normal_load, file.scene.tangential_load, file.scene.bulk_stress) == (
+        2.0,
+        -0.25,
+        0.0,
+    )
+
+
+@pytest.mark.parametrize(
+    ("load", "said"),
+    [
+        ("path = [[2, 0.5]]\nfriction = 0.5\nnormal_load = 2\n", "both path and normal_load"),
+        ("path = []\n", "no points"),
+        ("path = [[1]]\n", r"give \(P, Q\)"),
+        ("path = [[1, 'a']]\n", "not a number"),
+        ("path = 3\n", "not a list"),
+        ("path = [[0, 0]]\n", "nothing ever touches"),
+    ],
+)
+def test_a_load_path_that_means_nothing_is_refused(load, said):
+    with pytest.raises(SceneFileError, match=said):
+        parse(PAIR + PARABOLA + "[load]\n" + load)
+
+
+def test_a_path_longer_than_a_report_can_list_is_refused():
+    text = PAIR + PARABOLA + "[load]\nfriction = 0.5\npath = {}\n"
+    most = [[1.0, 0.1 * (-1) ** k] for k in range(MOST_POINTS)]
+    assert len(parse(text.format(most)).path) == len(most)
+    assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))

@@ -1,0 +1,468 @@
+"""A sweep answers what single solutions answer, keeps failures and reasons, runs anywhere, and
+loses nothing.
+"""
+
+import builtins
+import os
+import sys
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
+
+import numpy as np
+import pytest
+
+import sie
+from sie import workers
+
+module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
+SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
+THREE_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3]}, "want": "half_width"}
+FOUR_WIDTHS = {"over": {"normal_load": [0.1, 0.2, 0.3, 0.4]}, "want": "half_width"}
+LOADS, TILTS = [0.1, 0.2, 0.4], [0.0, 0.01]
+
+
+def plain(found):
+    """The arrays by name, whatever the kind of the result."""
+    return (
+        {name: np.asarray(found[name]) for name in found}
+        if isinstance(found, dict)
+        else {n: found[n].values for n in found.variables}
+    )
+
+
+def peak(solution):
+    return float(solution.pressure(solution.centre))
+
+
+def single(**changes):
+    return sie.solve(SCENE).with_(**changes)
+
+
+@pytest.fixture(
+    params=[None, ThreadPoolExecutor, ProcessPoolExecutor], ids=["here", "threads", "processes"]
+)
+def executor(request):
+    if request.param is None:
+        yield None
+        return
+    with request.param(max_workers=2) as pool:
+        yield pool
+
+
+def test_every_point_is_what_a_single_solution_says(executor):
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": LOADS, "tilt": TILTS},
+            want=["half_width", "edges"],
+            executor=executor,
+            chunk=2,
+        )
+    )
+    assert found["half_width"].shape == (3, 2)
+    for i, P in enumerate(LOADS):
+        for j, tilt in enumerate(TILTS):
+            alone = single(normal_load=P, tilt=tilt)
+            assert (found["x1"][i, j], found["x2"][i, j]) == alone.edges
+            assert found["half_width"][i, j] == alone.half_width
+    assert (found["reason"] == "").all()
+    assert (found["normal_load"] == LOADS).all()
+
+
+def test_functions_of_the_solution_and_parameters_of_the_profile():
+    found = plain(sie.sweep(SCENE, over={"profile.half_flat": [0.2, 0.4]}, want={"p0": peak}))
+    assert found["p0"][1] == peak(single(profile=sie.RoundedFlat(0.4, 1.0)))
+
+
+def a_punch(a, f):
+    P = 0.1 + a
+    return sie.Scene(
+        profile=sie.RoundedFlat(a, 1.0),
+        modulus=1.0,
+        poisson=0.3,
+        normal_load=P,
+        friction=f,
+        tangential_load=f * P,
+    )
+
+
+def test_a_function_may_build_the_scene():
+    found = plain(
+        sie.sweep(
+            a_punch, over={"a": [0.2, 0.4], "f": [0.1, 0.3]}, want=["elastic_limit", "peak_tension"]
+        )
+    )
+    alone = sie.solve(a_punch(0.4, 0.1)).elastic_limit()
+    assert found["elastic_limit"][1, 0] == alone.ratio
+    assert found["elastic_limit_y"][1, 0] == alone.y
+    assert found["peak_tension"].shape == (2, 2)
+
+
+def test_what_has_no_answer_keeps_its_reason(executor):
+    flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0)
+    found = plain(
+        sie.sweep(
+            flat,
+            over={"moment": [0.5, 2.0], "normal_load": [1.0, -1.0]},
+            want="half_width",
+            executor=executor,
+        )
+    )
+    assert found["half_width"][0, 0] == 1.0
+    assert np.isnan(found["half_width"]).tolist() == [[False, True], [True, True]]
+    assert "moment 2" in found["reason"][1, 0] and "normal_load = -1" in found["reason"][0, 1]
+
+
+def test_arrays_are_kept_with_their_own_dimensions():
+    x = np.linspace(-0.3, 0.3, 5)
+    found = plain(
+        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"p": lambda s: s.pressure(x)})
+    )
+    assert found["p"].shape == (3, 5)
+    assert (found["p"][2] == single(normal_load=0.4).pressure(x)).all()
+
+
+def test_the_normal_problem_is_solved_once_for_all_frictions(monkeypatch):
+    solved = []
+    original = sie.solution.normal_contact
+    monkeypatch.setattr(
+        sie.solution, "normal_contact", lambda *args: solved.append(1) or original(*args)
+    )
+    sie.sweep(
+        SCENE,
+        over={"normal_load": [0.1, 0.2], "friction": np.linspace(0, 1, 20)},
+        want="half_width",
+    )
+    assert len(solved) == 2
+
+
+class Interrupting(Executor):
+    """Runs two chunks, then the user presses Ctrl-C."""
+
+    def __init__(self):
+        self.futures = []
+
+    def submit(self, function, /, *args, **kwargs):
+        future = Future()
+        self.futures.append(future)
+        if len(self.futures) <= 2:
+            future.set_result(function(*args, **kwargs))
+        return future
+
+
+def test_an_interrupt_loses_nothing(monkeypatch):
+    pool = Interrupting()
+
+    def completed(futures):
+        yield from futures[:2]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(workers, "as_completed", completed)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [0.1, 0.2, 0.3, 0.4]},
+            want="half_width",
+            executor=pool,
+            chunk=1,
+        )
+    found = plain(caught.value.result)
+    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, False]
+    assert found["reason"].tolist() == ["", "", "interrupted", "interrupted"]
+    assert all(f.done() or f.cancelled() for f in pool.futures)
+
+
+def test_an_interrupt_within_a_chunk_keeps_its_first_points():
+    asked = []
+
+    def impatient(solution):
+        asked.append(solution)
+        if len(asked) == 3:
+            raise KeyboardInterrupt
+        return solution.half_width
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, over={"normal_load": [0.1, 0.2, 0.3, 0.4]}, want={"b": impatient}, chunk=4)
+    assert np.isfinite(plain(caught.value.result)["b"]).tolist() == [True, True, False, False]
+
+
+def test_an_interrupt_keeps_chunks_that_are_done_but_not_yet_taken(monkeypatch):
+    def completed(futures):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(workers, "as_completed", completed)
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, **THREE_WIDTHS, executor=Interrupting(), chunk=1)
+    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [True, True, False]
+
+
+def test_an_interrupt_while_chunks_are_given_to_the_workers_keeps_what_is_done():
+    class Impatient(Interrupting):
+        def submit(self, function, /, *args, **kwargs):
+            if len(self.futures) == 3:
+                raise KeyboardInterrupt
+            return super().submit(function, *args, **kwargs)
+
+    with pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(SCENE, **FOUR_WIDTHS, executor=Impatient(), chunk=1)
+    assert np.isfinite(plain(caught.value.result)["half_width"]).tolist() == [
+        True,
+        True,
+        False,
+        False,
+    ]
+
+
+def one_in_three(solution):
+    return 1.0 / (solution.normal_load - 0.2)
+
+
+def test_a_function_that_raises_costs_its_own_point_only(executor):
+    found = plain(
+        sie.sweep(SCENE, over={"normal_load": LOADS}, want={"f": one_in_three}, executor=executor)
+    )
+    assert np.isnan(found["f"]).tolist() == [False, True, False]
+    assert found["reason"][1].startswith("ZeroDivisionError")
+
+
+class Broken(Interrupting):
+    """Its third worker dies."""
+
+    def submit(self, function, /, *args, **kwargs):
+        future = super().submit(function, *args, **kwargs)
+        if not future.done():
+            future.set_exception(RuntimeError("a worker died"))
+        return future
+
+
+def test_a_worker_that_dies_costs_its_own_chunk_only():
+    found = plain(sie.sweep(SCENE, **THREE_WIDTHS, executor=Broken(), chunk=1))
+    assert np.isfinite(found["half_width"]).tolist() == [True, True, False]
+    assert found["reason"][2] == "RuntimeError: a worker died"
+
+
+def deadly(solution):
+    """A half-width, but loads above 1 kill the process, as the system does with one that takes all
+    memory.
+    """
+    if solution.normal_load > 1.0:
+        os._exit(1)
+    return solution.half_width
+
+
+# From Python 3.12 on, a process that has threads (those of an older pool) warns when it is forked.
+pools_of_processes = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+
+
+@pools_of_processes
+@pytest.mark.parametrize(
+    "dying",
+    [{0}, {3}, {7}, {0, 4, 7}, set(range(8))],
+    ids=["the first", "one in the middle", "the last", "three", "all"],
+)
+def test_a_process_that_dies_costs_its_own_chunk_only(dying):
+    loads = [0.1 + 0.1 * k + (10.0 if k in dying else 0.0) for k in range(8)]
+    with ProcessPoolExecutor(2) as pool:
+        found = plain(
+            sie.sweep(
+                SCENE, over={"normal_load": loads}, want={"b": deadly}, executor=pool, chunk=1
+            )
+        )
+    assert np.isnan(found["b"]).tolist() == [k in dying for k in range(8)]
+    assert ["died" in reason for reason in found["reason"]] == [k in dying for k in range(8)]
+
+
+@pools_of_processes
+def test_a_pool_that_broke_before_the_sweep_costs_nothing():
+    with ProcessPoolExecutor(2) as pool:
+        assert isinstance(pool.submit(os._exit, 1).exception(), BrokenExecutor)
+        found = plain(
+            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool)
+        )
+    assert found["half_width"].tolist() == [single(normal_load=P).half_width for P in LOADS]
+
+
+@pools_of_processes
+def test_processes_that_cannot_start_are_not_tried_for_each_chunk(monkeypatch):
+    started, original = [], workers._pool_of_one
+    monkeypatch.setattr(workers, "_pool_of_one", lambda pool: started.append(1) or original(pool))
+    with ProcessPoolExecutor(2, initializer=os._exit, initargs=(1,)) as pool:
+        found = plain(
+            sie.sweep(SCENE, over={"normal_load": LOADS}, want="half_width", executor=pool, chunk=1)
+        )
+    assert np.isnan(found["half_width"]).all() and all(
+        "died" in reason for reason in found["reason"]
+    )
+    assert len(started) == 1
+
+
+@pools_of_processes
+def test_an_interrupt_after_a_death_keeps_what_was_found(monkeypatch):
+    original, waited = workers.wait, []
+
+    def wait(futures, **kwargs):
+        waited.append(1)
+        if len(waited) == 3:
+            raise KeyboardInterrupt
+        return original(futures, **kwargs)
+
+    monkeypatch.setattr(workers, "wait", wait)
+    with ProcessPoolExecutor(1) as pool, pytest.raises(sie.Interrupted) as caught:
+        sie.sweep(
+            SCENE,
+            over={"normal_load": [9.0, 0.1, 0.2, 0.3]},
+            want={"b": deadly},
+            executor=pool,
+            chunk=1,
+        )
+    found = plain(caught.value.result)
+    assert np.isfinite(found["b"]).sum() >= 1 and found["reason"][-1] == "interrupted"
+
+
+@pytest.mark.parametrize("works_again", [True, False])
+def test_an_executor_that_refuses_a_chunk_keeps_what_the_others_found(works_again):
+    class Refusing(Executor):
+        asked = 0
+
+        def submit(self, function, /, *args, **kwargs):
+            self.asked += 1
+            if self.asked == 3 or (self.asked > 3 and not works_again):
+                raise BrokenExecutor("a worker died")
+            future = Future()
+            future.set_result(function(*args, **kwargs))
+            return future
+
+    found = plain(sie.sweep(SCENE, **FOUR_WIDTHS, executor=Refusing(), chunk=1))
+    assert np.isfinite(found["half_width"]).tolist() == [True, True, False, works_again]
+    assert "died" in found["reason"][2]
+
+
+@pytest.mark.parametrize(
+    ("odd", "usual"),
+    [(lambda p: p[0], (3,)), (lambda p: p[None], (3,))],
+    ids=["a number among arrays", "a matrix among arrays"],
+)
+def test_a_value_of_another_rank_costs_itself_only(odd, usual):
+    x = np.linspace(-0.1, 0.1, 3)
+    want = {
+        "p": lambda s: odd(s.pressure(x)) if s.normal_load == 0.2 else s.pressure(x),
+        "b": lambda s: s.half_width,
+    }
+    found = plain(sie.sweep(SCENE, over={"normal_load": LOADS}, want=want))
+    assert found["p"].shape == (len(LOADS), *usual)
+    assert np.isnan(found["p"]).all(axis=1).tolist() == [False, True, False]
+    assert np.isfinite(found["b"]).all()
+    assert found["reason"][1].startswith("p has") and found["reason"][0] == ""
+
+
+@pytest.mark.parametrize(
+    "value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()]
+)
+def test_a_value_that_is_no_number_is_told_in_a_sentence(value):
+    found = plain(
+        sie.sweep(
+            SCENE,
+            over={"normal_load": LOADS},
+            want={"v": lambda s: value if s.normal_load == 0.2 else 1.0},
+        )
+    )
+    assert np.isnan(found["v"]).tolist() == [False, True, False]
+    assert found["reason"][1].startswith("v is neither a number nor an array of numbers")
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_what_a_sweep_does_itself_grows_in_proportion_to_its_points(parallel, monkeypatch):
+    class Here(Executor):
+        def submit(self, function, /, *args, **kwargs):
+            future = Future()
+            future.set_result(function(*args, **kwargs))
+            return future
+
+    def counted(points):
+        counts = 0
+
+        def count(values):
+            nonlocal counts
+            counts += 1
+            return builtins.len(values)
+
+        for part in (module, workers):
+            monkeypatch.setattr(part, "len", count, raising=False)
+        sie.sweep(
+            SCENE,
+            over={"normal_load": np.linspace(0.1, 0.4, points)},
+            executor=Here() if parallel else None,
+            chunk=1,
+        )
+        return counts
+
+    assert counted(200) < 2.5 * counted(100)
+
+
+@pytest.mark.parametrize("want", list(sie.QUANTITIES))
+def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
+    sliding = sie.solve(SCENE).with_(friction=0.3).scene
+    answered, failed = (
+        plain(sie.sweep(sliding, over={"tangential_load": [Q]}, want=want)) for Q in (0.01, 9.0)
+    )
+    assert failed.keys() == answered.keys()
+    assert all(
+        np.isnan(failed[name]).all() for name in failed.keys() - {"tangential_load", "reason"}
+    )
+
+
+def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
+    sie.sweep(SCENE, over={"normal_load": LOADS})
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    sie.sweep(SCENE, over={"normal_load": LOADS})
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    sie.sweep(SCENE, over={"normal_load": LOADS})
+    assert "/3" in capsys.readouterr().err
+    sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"over": {}}, "nothing to sweep over"),
+        ({"over": {"normal_laod": [1.0]}}, '"normal_laod" is not known: choose body'),
+        (
+            {"over": {"profile.radiuss": [1.0]}},
+            '"profile.radiuss" is not known: choose half_flat, radius',
+        ),
+        ({"over": {"tilt": []}}, "holds no values"),
+        ({"over": {"tilt": 0.1}}, "holds no values"),
+        ({"over": {"tilt": np.array(0.1)}}, "holds no values"),
+        ({"over": {"tilt": [0.1]}, "want": {"b": "width"}}, 'want "width" is not known'),
+        ({"over": {"tilt": [0.1]}, "want": {"b": 3}}, 'want "3" is not known'),
+        ({"over": {"tilt": [0.1]}, "want": {"reason": peak}}, "another name"),
+        ({"over": {"tilt": [0.1]}, "want": "width"}, 'want "width" is not known'),
+        ({"over": {"tilt": [0.1]}, "chunk": 0}, "chunk = 0"),
+    ],
+)
+def test_a_bad_question_is_refused_before_any_work(arguments, words):
+    with pytest.raises(ValueError, match=words):
+        sie.sweep(SCENE, **arguments)
+
+
+def test_a_value_beyond_all_floats_costs_its_own_point_only():
+    found = plain(sie.sweep(SCENE, over={"normal_load": [0.1, 10**400]}, want="half_width"))
+    assert np.isfinite(found["half_width"]).tolist() == [True, False]
+
+
+def test_with_xarray_the_result_is_labelled():
+    xarray = pytest.importorskip("xarray")
+    found = sie.sweep(SCENE, over={"normal_load": LOADS, "tilt": TILTS}, want="half_width")
+    assert isinstance(found, xarray.Dataset)
+    assert (
+        float(found["half_width"].sel(normal_load=0.2, tilt=0.01))
+        == single(normal_load=0.2, tilt=0.01).half_width
+    )

@@ -1,0 +1,305 @@
+"""Reports of traces: what was measured and mended, and the error that noise implies."""
+
+import json
+
+import numpy as np
+import pytest
+
+import sie
+from sie.certificate import trace_noise
+from sie.io import export, report, scene_file
+
+X = np.linspace(-1.0, 1.0, 401)
+
+
+def white(seed, size=401):
+    return np.random.default_rng(seed).standard_normal(size)
+
+
+def solved(profile, **given):
+    given = {"normal_load": 0.1} | given
+    return sie.solve(sie.Scene(profile=profile, modulus=1.0, **given))
+
+
+def reported(profile, **given):
+    (report,) = solved(profile, **given).trace_reports()
+    return report
+
+
+# -- the error of the pressure --------------------------------------------------------------------
+
+
+def largest_error(found, exact):
+    """The largest difference of the pressures over the peak, up to the outer edges."""
+    lo, hi = np.array([found.edges, exact.edges]).T
+    x = 0.5 * (min(lo) + max(hi)) + 0.5 * (max(hi) - min(lo)) * np.cos(
+        np.linspace(0.0, np.pi, 1001)
+    )
+    p = exact.pressure(x)
+    return np.abs(found.pressure(x) - p).max() / p.max()
+
+
+@pytest.mark.parametrize("moment", [None, 0.03])
+@pytest.mark.parametrize("size", [{"normal_load": 0.4}, {"half_width": 0.7}])
+def test_the_operator_is_the_derivative_of_pressure_and_edges(size, moment):
+    """Central differences of contacts that were solved, about one that is not symmetric."""
+
+    def contact(step):
+        h = np.array([0.0, 0.1, 0.5, 0.07]) + step * np.array([0.0, 0.3, -0.2, 0.5])
+        scene = sie.Scene(profile=sie.Polynomial((*h, 0.1)), modulus=2.0, moment=moment, **size)
+        return sie.solve(scene)
+
+    middle, step = contact(0.0), 1e-5
+    lower, upper = contact(-step), contact(step)
+    interval = middle.normal.edges.contact
+    place = np.linspace(0.5, 2.5, 9)
+    x = interval.m + interval.r * np.cos(place)
+    angle = np.pi * (np.arange(16) + 0.5) / 16
+    t = interval.m + interval.r * np.cos(angle)
+    slope = 0.3 - 0.4 * t + 1.5 * t * t
+    ends = interval.m + interval.r * np.cos([np.pi - 1e-5, 1e-5])
+    kappa = middle.pressure(ends) / 1e-5
+    regular, moved = trace_noise._operator(angle, place, interval, kappa, middle.scene)
+    turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
+    difference = (upper.pressure(x) - lower.pressure(x)) / (2.0 * step)
+    assert (regular + turned @ moved) @ slope == pytest.approx(difference, abs=1e-7)
+    shifts = np.subtract(upper.edges, lower.edges) / (2.0 * step)
+    assert interval.r / kappa * (moved @ slope) == pytest.approx(shifts * [-1.0, 1.0], abs=1e-6)
+
+
+PROFILES = {
+    "parabola": (0.5 * X**2, sie.Parabola(1.0)),
+    "cosh": (0.25 * np.cosh(2.0 * X), sie.FromFunction("sinh(2*x)/2", domain=(-1.0, 1.0))),
+    "rounded": (np.maximum(np.abs(X) - 0.4, 0.0) ** 2 / 0.8, sie.RoundedFlat(0.4, 0.4)),
+}
+ASKED = {
+    "load": {},
+    "half-width": {"normal_load": None, "half_width": 0.5},
+    "moment": {"moment": 2e-3},
+}
+CASES = [(profile, "load") for profile in PROFILES] + [
+    ("parabola", "half-width"),
+    ("parabola", "moment"),
+]
+
+
+@pytest.mark.parametrize(("profile", "asked"), CASES)
+def test_the_stated_error_covers_the_true_one_and_is_no_multiple_of_it(profile, asked):
+    """Noise of 1e-4 of the height; 2.5 standard deviations cover 9 of 10 cases with much to
+    spare.
+    """
+    h, shape = PROFILES[profile]
+    exact = solved(shape, **ASKED[asked])
+    stated, true, edges, moved = [], [], [], []
+    for seed in range(20):
+        found = solved(sie.Sampled(X, h + 1e-4 * np.ptp(h) * white(seed), "gcv"), **ASKED[asked])
+        (report,) = found.trace_reports()
+        stated.append(report.pressure_error)
+        true.append(largest_error(found, exact))
+        edges.append(max(report.edge_errors))
+        moved.append(np.abs(np.subtract(found.edges, exact.edges)).max())
+        assert report.inner_error <= report.pressure_error
+    ratio, ratio_of_edges = np.divide(stated, true), np.divide(edges, moved)
+    assert np.count_nonzero(ratio >= 1.0) >= 18
+    assert np.count_nonzero(ratio_of_edges >= 1.0) >= 18
+    assert np.median(ratio) <= 10.0
+    assert np.median(ratio_of_edges) <= 10.0
+
+
+@pytest.mark.parametrize(
+    ("points", "size", "smoothing"), [(31, 3e-4, 0.0), (15, 1e-3, "gcv"), (401, 1e-4, 1e-3)]
+)
+def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(
+    points, size, smoothing
+):
+    x = np.linspace(-1.0, 1.0, points)
+    exact, ratio = solved(sie.Parabola(1.0)), []
+    for seed in range(20):
+        found = solved(sie.Sampled(x, 0.5 * (x**2 + size * white(seed, points)), smoothing))
+        ratio.append(found.trace_reports()[0].pressure_error / largest_error(found, exact))
+    assert np.count_nonzero(np.array(ratio) >= 1.0) >= 18
+    assert np.median(ratio) <= 10.0
+
+
+def test_what_is_smoothed_away_beyond_cross_validation_counts_as_an_error():
+    h, shape = PROFILES["rounded"]
+    found = solved(sie.Sampled(X, h + 1e-5 * white(0), 0.1))
+    true = largest_error(found, solved(shape))
+    assert true > 0.1
+    assert true <= found.trace_reports()[0].pressure_error <= 2.0 * true
+
+
+def test_noise_that_is_correlated_is_said_to_be_taken_for_the_shape():
+    for seed in range(5):
+        correlated = np.convolve(white(seed, 404), np.full(4, 0.5), "valid")
+        report = reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * correlated), "gcv"))
+        assert not report.separated
+        assert "correlated noise is taken for the shape" in str(report)
+        assert reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(seed)), "gcv")).separated
+
+
+@pytest.mark.parametrize("smoothing", [0.0, "gcv"])
+def test_a_trace_without_noise_is_told_from_a_noisy_one(smoothing):
+    assert reported(sie.Sampled(X, 0.25 * np.cosh(2.0 * X), smoothing)).pressure_error <= 1e-3
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda p: p.mirrored(),
+        lambda p: p.shifted(3.0).mirrored(),
+        lambda p: p + sie.Piecewise((-9.0, 9.0), ((0.0,),)),
+    ],
+    ids=["mirrored", "shifted and mirrored", "sum"],
+)
+def test_a_trace_in_another_profile_has_the_error_that_it_has_alone(made):
+    trace = sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(3)) + 0.01 * X**3, "gcv")
+    alone, within = reported(trace), reported(made(trace))
+    assert within.pressure_error == pytest.approx(alone.pressure_error, rel=1e-6)
+    assert sorted(within.edge_errors) == pytest.approx(sorted(alone.edge_errors), rel=1e-6)
+    assert abs(within.tilt) == pytest.approx(abs(alone.tilt), rel=1e-9)
+
+
+def test_a_corner_does_not_move():
+    punch = sie.Flat(0.3) + sie.Sampled(X, 0.1 * X**2 + 1e-5 * white(0), "gcv")
+    assert reported(punch).edge_errors == (0.0, 0.0)
+    assert 0.0 < reported(punch).pressure_error < 0.1
+
+
+def test_the_error_does_not_depend_on_the_units():
+    h = 0.5 * (X**2 + 1e-4 * white(5))
+    one = reported(sie.Sampled(X, h, "gcv"))
+    other = reported(sie.Sampled(1e-3 * X, 1e-3 * h, "gcv"), normal_load=1e-4)
+    assert other.pressure_error == pytest.approx(one.pressure_error, rel=1e-6)
+    assert other.edge_errors == pytest.approx([1e-3 * e for e in one.edge_errors], rel=1e-6)
+
+
+def test_a_report_solves_no_contact(monkeypatch):
+    solution = solved(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * white(5)), "gcv"))
+    before = solution.edges
+    monkeypatch.setattr("sie.solution.normal_contact", None)
+    monkeypatch.setattr("sie.solution.pressure", None)
+    assert solution.trace_reports()[0].points == 401
+    assert solution.edges == before
+
+
+def test_a_profile_that_is_no_trace_has_no_report():
+    assert solved(sie.Parabola(1.0)).trace_reports() == ()
+    assert solved(sie.Flat(1.0), friction=float("inf")).trace_reports() == ()
+
+
+# -- outliers, gaps, mending, levelling -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("smoothing", [0.0, 1e-4, "gcv"])
+@pytest.mark.parametrize("size", [1e-4, 1e-8])
+def test_outliers_are_found_and_stay(smoothing, size):
+    h = 0.5 * X**2 + size * white(8)
+    bad = [5, 120, 121, 260, 263, 395]
+    h[bad] += size * np.array([40.0, -60.0, -40.0, 200.0, 50.0, 40.0])
+    trace = sie.Sampled(X, h, smoothing)
+    assert list(trace.outliers) == bad
+    assert (trace.heights == h).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("profile", PROFILES)
+def test_noise_alone_and_the_kinks_of_a_pad_are_no_outliers(profile, seed):
+    h = PROFILES[profile][0]
+    assert sie.Sampled(X, h + 1e-4 * white(seed)).outliers == ()
+    assert sie.Sampled(X + 1e-3 * seed, h).outliers == ()
+
+
+@pytest.mark.parametrize(
+    "h",
+    [np.abs(X), np.abs(X - 0.0013), np.zeros(401), X],
+    ids=["wedge", "beside a point", "flat", "line"],
+)
+def test_a_trace_without_noise_has_no_outliers_but_the_point_that_is_off(h):
+    assert sie.Sampled(X, h).outliers == ()
+    off = h.copy()
+    off[90] += 1e-3
+    assert sie.Sampled(X, off).outliers == (90,)
+
+
+def test_missing_points_are_counted_where_they_are():
+    kept = np.ones(401, dtype=bool)
+    kept[100:180] = kept[300] = False
+    (first, second) = sie.Sampled(X[kept], X[kept] ** 2).gaps
+    assert (first.missing, second.missing) == (80, 1)
+    assert (first.lo, first.hi) == (X[99], X[180])
+
+
+@pytest.mark.parametrize(
+    "x",
+    [
+        X,
+        np.sinh(3.0 * X),
+        np.sort(np.random.default_rng(0).uniform(-1.0, 1.0, 401)),
+        X + 1e-4 * white(0),
+    ],
+    ids=["even", "graded", "at random", "jittered"],
+)
+def test_uneven_points_are_no_gaps(x):
+    assert sie.Sampled(x, x**2).gaps == ()
+
+
+def test_what_was_mended_is_told():
+    x = np.concatenate((X[::-1], [0.0, 0.005]))
+    h = np.append(0.5 * X[::-1] ** 2, [0.0, 1e-5])
+    h[100:180] = np.nan
+    report = reported(sie.Sampled(x, h, mend=True))
+    assert report.mended == (80, 2, True)
+    assert [gap.missing for gap in report.gaps] == [80]
+    assert reported(sie.Sampled(X, 0.5 * X**2).smoothed("gcv")).mended == (0, 0, False)
+    assert reported(sie.Sampled(x, h, mend=True).levelled()).mended == report.mended
+
+
+def test_lines_of_a_file_without_a_value_count_as_left_out(tmp_path):
+    file = tmp_path / "trace.csv"
+    file.write_text(
+        "\n".join(f"{x},{0.5 * x * x if abs(x - 0.3) > 0.1 else ''}" for x in X.tolist())
+    )
+    trace = sie.Sampled.read(file, mend=True)
+    assert trace.mended.left_out == 401 - len(trace.points)
+    assert trace.gaps[0].missing == trace.mended.left_out
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_pad_that_was_not_levelled_says_so_and_one_that_was_does_not(sign):
+    h = np.maximum(np.abs(X) - 0.4, 0.0) ** 2 / 0.8
+    askew = sie.Sampled(X, h + sign * 2e-3 * X)
+    report = reported(askew, normal_load=1e-4)
+    assert solved(askew, normal_load=1e-4).centre * sign < -0.3
+    assert report.tilt == pytest.approx(sign * 2e-3, rel=1e-6)
+    assert report.aside
+    assert "is the trace level?" in str(report)
+    assert not reported(askew.levelled()).aside
+    assert not reported(askew, normal_load=0.1, tilt=-sign * 2e-3).aside
+    assert reported(askew.tilted(-sign * 2e-3)).tilt == pytest.approx(0.0, abs=1e-12)
+
+
+# -- where it is read -----------------------------------------------------------------------------
+
+
+def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
+    h = 0.5 * (X**2 + 1e-4 * white(1))
+    h[40] += 0.01
+    h[200:220] = np.nan
+    solution = solved(sie.Sampled(X, h, "gcv", mend=True))
+    file = scene_file.SceneFile(solution.scene, "", scene_file.Units(), ("check",), ())
+    text, parsed = report.summary(solution, file), json.loads(export.json_text(solution, file))
+    for row in (
+        "estimated relative error of the pressure",
+        "noise estimate",
+        "20 points without a value",
+    ):
+        assert text.count(row) == 1
+    (trace,) = parsed["traces"]
+    assert trace["pressure_error"] > 1e-3 > 1e9 * parsed["check"]["error"]
+    assert trace["smoothing"] == solution.scene.profile.lam
+    assert trace["misfit"] == solution.scene.profile.misfit
+    assert trace["mended"] == {"left_out": 20, "averaged": 0, "sorted": False}
+    assert [gap["missing"] for gap in trace["gaps"]] == [20]
+    assert [x for x, _ in trace["outliers"]] == [X[40]]
+    assert "traces" not in json.loads(export.json_text(solved(sie.Parabola(1.0)), file))

@@ -1,0 +1,126 @@
+"""∫p dx = P and ∫p x dx = M, by a quadrature of the tests' own."""
+
+import laws
+import numpy as np
+import pytest
+import strategies
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import sie
+
+PROMISE = 1e-13
+EPS = float(np.finfo(float).eps)
+
+
+def defects(solution):
+    """|∫p - P| / P and |∫p x - M| / (P r), with what rounding of the abscissae explains."""
+    breaks = solution.scene.profile.breaks
+    P, about_centre = laws.load_and_moment(solution.pressure, solution.edges, breaks)
+    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / solution.normal_load
+    moment = about_centre + solution.normal_load * solution.centre - solution.moment
+    return (
+        abs(P / solution.normal_load - 1),
+        abs(moment) / (solution.normal_load * solution.half_width),
+        rounding,
+    )
+
+
+@given(strategies.scenes())
+def test_the_pressure_carries_the_load_and_the_moment(scene):
+    solution = sie.solve(scene)
+    force, moment, rounding = defects(solution)
+    assert force <= PROMISE + 4 * rounding
+    assert moment <= PROMISE * (1 + abs(solution.centre) / solution.half_width) + 4 * rounding
+
+
+@given(strategies.scenes(sharp=False), strategies.between(0.5, 2.0))
+@example(
+    sie.Scene(
+        profile=sie.Polynomial(
+            (0.0, -1.401298464324817e-45, 1.876738192497544, -2.587110489760189, 2.06470087947402)
+        ).shifted(0.47265625),
+        normal_load=1.0,
+        tilt=0.046875,
+        modulus=1.0,
+    ),
+    0.5,
+)
+def test_a_half_width_given_is_in_equilibrium_too(scene, factor):
+    narrow = sie.solve(scene).half_width
+    solution = sie.solve(scene).with_(half_width=narrow * max(factor, 1.0))
+    force, moment, rounding = defects(solution)
+    assert force <= PROMISE + 4 * rounding
+    assert moment <= PROMISE * (1 + abs(solution.centre) / solution.half_width) + 4 * rounding
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_load_of_a_half_width_is_that_of_its_pressure_to_rounding(seed):
+    """Lopsided quartics about an axis away from x = 0, whose centre is found by a search."""
+    rng = np.random.default_rng(seed)
+    lopsided = np.array([1.0, rng.uniform(-1.2, 1.2), rng.uniform(1.0, 1.5)])
+    profile = sie.Polynomial((0.0, 0.0, *(rng.uniform(0.2, 3.0) * lopsided)))
+    scene = sie.Scene(
+        profile=profile.shifted(rng.uniform(-1.0, 1.0)),
+        modulus=1.0,
+        half_width=rng.uniform(0.2, 1.0),
+        tilt=rng.uniform(-0.1, 0.1),
+    )
+    solution = sie.solve(scene)
+    force, moment, rounding = defects(solution)
+    reach = 1 + abs(solution.centre) / solution.half_width
+    assert force <= 16 * EPS + 4 * rounding
+    assert moment <= 16 * EPS * reach + 4 * rounding
+
+
+@given(strategies.scenes(), strategies.between(-0.2, 0.2))
+def test_a_moment_given_is_the_moment_of_the_pressure(scene, lever):
+    """Where the profile can carry it: a lever of 0.2 r may tilt a wedge or a sharp punch beyond its
+    slopes.
+    """
+    upright = sie.solve(scene)
+    wanted = upright.moment + lever * scene.normal_load * upright.half_width
+    solution = upright.with_(moment=wanted)
+    try:
+        found = solution.moment
+    except sie.LoadError:
+        return
+    _, moment, rounding = defects(solution)
+    reach = solution.half_width + abs(solution.centre)
+    assert found == pytest.approx(wanted, abs=PROMISE * scene.normal_load * reach)
+    assert moment <= PROMISE * (1 + abs(solution.centre) / solution.half_width) + 4 * rounding
+
+
+@given(strategies.scenes())
+def test_the_density_reports_the_load_and_the_moment_of_the_solution(scene):
+    solution = sie.solve(scene)
+    assert solution.pressure.resultant == solution.normal_load == scene.normal_load
+    assert solution.pressure.moment == solution.moment
+    assert solution.pressure.interval == solution.edges
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_pressure_is_positive_inside_zero_outside_and_never_nan(scene, seed):
+    solution = sie.solve(scene)
+    (x1, x2), r = solution.edges, solution.half_width
+    inside = x1 + 2 * r * np.random.default_rng(seed).uniform(1e-6, 1 - 1e-6, 200)
+    assert (solution.pressure(inside) > 0).all()
+    outside = np.array(
+        [
+            np.nextafter(x1, -np.inf) - 1e-15 * r,
+            np.nextafter(x2, np.inf) + 1e-15 * r,
+            x1 - r,
+            x2 + 1e6 * r,
+            -np.inf,
+            np.inf,
+        ]
+    )
+    assert (solution.pressure(outside) == 0).all()
+
+
+def test_a_quadrature_of_the_tests_finds_a_load_that_is_wrong():
+    solution = sie.solve(sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0))
+    P, _ = laws.load_and_moment(
+        lambda x: solution.pressure(x) * (1 + 1e-12), solution.edges, (-0.5, 0.5)
+    )
+    assert abs(P / solution.normal_load - 1) == pytest.approx(1e-12, rel=0.1)

@@ -1,0 +1,326 @@
+"""E*/2 h' = 1/π PV∫ p(ξ)/(x - ξ) dξ in contact, and the potential F(z) = 1/π ∫ p(t)/(z - t) dt of
+which it is the limit.
+"""
+
+import laws
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+from hypothesis import strategies as st
+
+import sie
+from oracles import normal_contact
+from oracles.normal_contact import mp
+from validation.cases import CASES, Case, exact, points, solved
+
+PROMISE = 1e-13  # of the peak
+
+
+def interior(solution, seed, n=6, margin=0.02):
+    """Random points off every grid, not closer than `margin` r to an edge or a break."""
+    (x1, x2), r = solution.edges, solution.half_width
+    marks = np.array([x1, x2, *solution.scene.profile.breaks])
+    x = np.random.default_rng(seed).uniform(x1, x2, 200)
+    return x[np.abs(x[:, None] - marks).min(axis=1) > margin * r][:n]
+
+
+# -- the equation ---------------------------------------------------------------------------------
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_pressure_solves_the_integral_equation(scene, seed):
+    solution = sie.solve(scene)
+    breaks = scene.profile.breaks
+    peak = laws.peak(solution.pressure, solution.edges, breaks)
+    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / (
+        peak * solution.half_width
+    )
+    for x in interior(solution, seed):
+        equation = laws.principal_value(solution.pressure, solution.edges, x, breaks)
+        slope = 0.5 * scene.Estar * (scene.profile.slope(x) + solution.tilt)
+        assert abs(equation - slope) <= (5 * PROMISE + 100 * rounding) * peak
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_the_pressure_agrees_with_the_40_digit_reference(case: Case):
+    solution, truth = solved(case), exact(case)
+    x = points(case)
+    expected = [truth.pressure(t) for t in x]
+    peak = max(expected)
+    for value, e in zip(solution.pressure(x), expected, strict=True):
+        assert abs(mp.mpf(float(value)) - e) <= PROMISE * peak
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if c.width is not None and c.symmetric], ids=str)
+def test_the_pressure_is_relatively_accurate_up_to_the_edge(case: Case):
+    """Given the half-width, and centre 0, the edge is known exactly and so is the distance to
+    it.
+    """
+    solution, truth = solved(case), exact(case)
+    b = solution.edges[1]
+    for depth in (1e-4, 1e-8, 1e-12):
+        x = float(np.nextafter(b * (1 - depth), 0))
+        assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=PROMISE)
+
+
+# -- the potential --------------------------------------------------------------------------------
+
+
+def places(case: Case) -> list[complex]:
+    """Off the axis next to the surface, breaks and edges; beside the contact; far away."""
+    solution = solved(case)
+    (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
+    about = (
+        (-0.83, 1e-9),
+        (0.11, 1e-3),
+        (0.37, 0.6),
+        (0.95, -0.02),
+        (1.3, 0.01),
+        (-1.2, -1e-7),
+        (0.2, 9.0),
+    )
+    z = [complex(m + s * r, d * r) for s, d in about]
+    z += [complex(x2 + 1e-5 * r, 1e-5 * r), complex(x1 - 1e-3 * r, 1e-9 * r)]
+    z += [complex(x2 + 0.01 * r), complex(x1 - 0.4 * r), complex(x2 + 30 * r)]
+    z += [complex(b + 1e-6 * r, 1e-6 * r) for b in case.profile.breaks[:3]]
+    return z
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_the_potential_agrees_with_the_40_digit_reference(case: Case):
+    """Relative to the peak near the contact, to itself beyond."""
+    solution, truth = solved(case), exact(case)
+    peak = laws.peak(solution.pressure, solution.edges, case.profile.breaks)
+    z = places(case)
+    for where, value in zip(z, solution.pressure.cauchy(z), strict=True):
+        e = truth.potential(where)
+        size = (
+            max(peak, abs(complex(e)))
+            if abs(where - solution.centre) < 4 * solution.half_width
+            else abs(complex(e))
+        )
+        assert abs(mp.mpmathify(complex(value)) - e) <= PROMISE * size, where
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1), strategies.between(0.05, np.pi - 0.05))
+def test_the_potential_is_the_integral_of_its_pressure(scene, seed, angle):
+    solution = sie.solve(scene)
+    breaks, r = scene.profile.breaks, solution.half_width
+    t, weight = laws.rule(solution.edges, breaks)
+    rounding = laws.rounding_of_x(solution.pressure, solution.edges, breaks) / scene.normal_load
+    for distance in (1.5, 20.0):
+        z = solution.centre + distance * r * np.exp(1j * angle * np.array([1.0, -1.0]))
+        direct = (weight * solution.pressure(t) / (z[:, None] - t)).sum(axis=1) / np.pi
+        assert solution.pressure.cauchy(z) == pytest.approx(direct, rel=PROMISE + 100 * rounding)
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_potential_jumps_by_the_pressure_across_the_contact(scene, seed):
+    """Plemelj: F(x ± i0) = E*/2 h' ∓ i p."""
+    solution = sie.solve(scene)
+    x = interior(solution, seed, 20, margin=0.0)
+    p, slope = solution.pressure, 0.5 * scene.Estar * (scene.profile.slope(x) + solution.tilt)
+    peak = laws.peak(p, solution.edges, scene.profile.breaks)
+    above, below, principal = (p.cauchy(x, side=side) for side in (1, -1, 0))
+    assert above.imag == pytest.approx(-p(x), abs=PROMISE * peak)
+    assert above.real == pytest.approx(slope, abs=PROMISE * peak)
+    assert below == pytest.approx(above.conj(), abs=PROMISE * peak)
+    assert principal == pytest.approx(slope, abs=PROMISE * peak)
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_potential_reaches_its_limit_at_the_surface_continuously(scene, seed):
+    """Down to a depth of 1e-12 r the difference from the surface is the depth times the derivative,
+    and rounding.
+    """
+    solution = sie.solve(scene)
+    r = solution.half_width
+    beside = (
+        solution.edges[1] + r * np.array([0.1, 1.0]),
+        solution.edges[0] - r * np.array([0.1, 3.0]),
+    )
+    x = np.concatenate((interior(solution, seed, 8), *beside))
+    peak = laws.peak(solution.pressure, solution.edges, scene.profile.breaks)
+    F = solution.pressure.cauchy
+    derivative = np.abs(F(x + 1e-5j * r) - F(x)) / 1e-5
+    for side in (1, -1):
+        surface = F(x, side=side)
+        for depth in (1e-6, 1e-9, 1e-12, 1e-15):
+            assert (
+                np.abs(F(x + side * 1j * depth * r) - surface)
+                <= 2 * depth * derivative + 4 * PROMISE * peak
+            ).all()
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_potential_of_the_mirrored_point_is_the_conjugate(scene, seed):
+    solution = sie.solve(scene)
+    rng = np.random.default_rng(seed)
+    z = solution.centre + solution.half_width * (rng.normal(size=20) * 2 + 1j * rng.normal(size=20))
+    assert (solution.pressure.cauchy(z.conj()) == solution.pressure.cauchy(z).conj()).all()
+
+
+FAR = [10.0, 1e2, 1e3, 1e4, 1e6]
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 0.5 * np.pi, 3.0, np.pi])
+def test_far_away_the_potential_is_that_of_a_line_load_to_full_relative_accuracy(case: Case, angle):
+    """π z F(z) = P + M/z + ..., about the centre."""
+    solution = solved(case)
+    P, M, r = (
+        solution.normal_load,
+        solution.moment - solution.centre * solution.normal_load,
+        solution.half_width,
+    )
+    direction = complex(np.cos(angle), 0.0 if angle in (0.0, np.pi) else np.sin(angle))
+    t, weight = laws.rule(solution.edges, case.profile.breaks)
+    second = float((weight * solution.pressure(t) * (t - solution.centre) ** 2).sum())
+    for k in FAR[3:]:
+        z = solution.centre + k * r * direction
+        s = z - solution.centre
+        expected = (P + M / s + second / s**2) / (np.pi * s)
+        assert complex(solution.pressure.cauchy(z)) == pytest.approx(
+            expected, rel=2 * PROMISE + 2 * k**-3
+        )
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_beside_the_contact_the_principal_value_is_the_potential(scene, seed):
+    solution = sie.solve(scene)
+    (x1, x2), r = solution.edges, solution.half_width
+    d = r * 10.0 ** np.random.default_rng(seed).uniform(-6, 2, 10)
+    x = np.concatenate((x2 + d, x1 - d))
+    h, F = solution.pressure.hilbert(x), solution.pressure.cauchy(x)
+    assert (F.imag == 0).all()
+    assert h == pytest.approx(F.real, rel=PROMISE)
+    assert (h[:10] > 0).all()
+    assert (h[10:] < 0).all()
+
+
+def test_infinities_are_infinite_and_nothing_is_nan():
+    tip = sie.solve(sie.Scene(profile=sie.Wedge(0.5), modulus=1.0, normal_load=1.0))
+    assert tip.pressure(0.0) == np.inf
+    assert np.isfinite(tip.pressure(np.array([-5e-324, 5e-324, 1e-300]))).all()
+    shifted = sie.solve(
+        sie.Scene(
+            profile=sie.Wedge(0.5).shifted(0.3) + sie.Parabola(1.0),
+            modulus=1.0,
+            normal_load=1.0,
+            tilt=0.1,
+        )
+    )
+    assert shifted.pressure(0.3) == np.inf
+    flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0))
+    assert (flat.pressure(np.array([-1.0, 1.0])) == np.inf).all()
+    assert (flat.pressure(np.array([-np.nextafter(1.0, 2), np.nextafter(1.0, 2)])) == 0).all()
+
+
+def test_values_keep_the_shape_of_their_argument():
+    p = sie.solve(
+        sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0)
+    ).pressure
+    for shape in ((), (1,), (3, 2), (0,)):
+        x = np.full(shape, 0.3)
+        assert np.shape(p(x)) == np.shape(p.hilbert(x)) == np.shape(p.cauchy(x + 0.1j)) == shape
+    with pytest.raises(ValueError, match="side = 2"):
+        p.cauchy(0.3, side=2)
+
+
+# -- the gap --------------------------------------------------------------------------------------
+
+SAMPLED = (
+    "rounded-P=0.2",
+    "rounded-P=0.2-tilt=0.05",
+    "corners-r=1.125",
+    "eight-P=0.9",
+    "flat-P=1-tilt=1.5",
+    "cut-P=0.6",
+)
+GAP_CASES = [case for case in CASES if str(case) in SAMPLED]
+
+
+@pytest.mark.parametrize("case", GAP_CASES, ids=str)
+def test_the_gap_agrees_with_the_40_digit_reference(case: Case):
+    solution, truth = solved(case), exact(case)
+    (x1, x2), r = solution.edges, solution.half_width
+    lo, hi = case.profile.domain
+    for x in (x2 + 0.01 * r, x2 + 1.3 * r, x1 - 0.4 * r):
+        if lo <= x <= hi:
+            assert float(solution.gap(x)) == pytest.approx(float(truth.gap(x)), rel=1e-11)
+
+
+@given(strategies.scenes())
+def test_the_gap_is_zero_in_contact_positive_outside_and_infinite_beyond_the_indenter(scene):
+    solution = sie.solve(scene)
+    (x1, x2), r = solution.edges, solution.half_width
+    lo, hi = scene.profile.domain
+    assert (solution.gap(x1 + 2 * r * np.linspace(1e-9, 1 - 1e-9, 33)) == 0).all()
+    outside = np.concatenate(
+        (x2 + r * np.array([1e-3, 0.1, 1.0]), x1 - r * np.array([1e-3, 0.1, 1.0]))
+    )
+    gap = solution.gap(outside)
+    beyond = (outside < lo) | (outside > hi)
+    assert (gap[beyond] == np.inf).all()
+    assert (gap[~beyond] > 0).all()
+    assert np.isfinite(gap[~beyond]).all()
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if not any(c.sharp)], ids=str)
+def test_the_gap_opens_like_the_distance_to_the_power_three_halves(case: Case):
+    """Smooth edges: gap(4 d)/gap(d) -> 8."""
+    solution = solved(case)
+    d = 1e-6 * solution.half_width
+    for edge, outwards in zip(solution.edges, (-1.0, 1.0), strict=True):
+        near, far = solution.gap(edge + outwards * d * np.array([1.0, 4.0]))
+        assert far / near == pytest.approx(8.0, rel=1e-4)
+
+
+@given(strategies.scenes(), st.integers(0, 2**32 - 1))
+def test_the_slope_of_the_gap_is_what_the_pressure_leaves_of_the_profile(scene, seed):
+    """gap' = h' - 2/E* F, by differences of the gap."""
+    solution = sie.solve(scene)
+    (x1, x2), r = solution.edges, solution.half_width
+    d = r * np.random.default_rng(seed).uniform(0.3, 2.0, 4)
+    x = np.concatenate((x2 + d, x1 - d))
+    lo, hi = scene.profile.domain
+    step = 1e-4 * r
+    marks = np.array([*scene.profile.breaks, lo, hi])
+    x = x[(x > lo) & (x < hi) & (np.abs(x[:, None] - marks).min(axis=1) > 2 * step)]
+    slope = scene.profile.slope(x) + solution.tilt - 2 / scene.Estar * solution.pressure.hilbert(x)
+    difference = (solution.gap(x + step) - solution.gap(x - step)) / (2 * step)
+    assert difference == pytest.approx(slope, rel=1e-5, abs=1e-6)
+
+
+# -- the reference itself -------------------------------------------------------------------------
+
+
+def test_the_reference_reproduces_the_closed_form_of_the_rounded_punch():
+    """p(0) = E*/(πR) [bθ - a arccosh(b/a)], P = E*b²/(2R) (θ - sin θ cos θ), and F at one point: to
+    30 digits.
+    """
+    a, b = mp.mpf(1) / 2, mp.mpf(1)
+    pieces = normal_contact.Pieces(
+        (-mp.inf, -a, a, mp.inf), (lambda t: t + a, lambda t: 0 * t, lambda t: t - a)
+    )
+    contact = normal_contact.contact(pieces, 1.0, (-1.0, 1.0), half_width=1.0, symmetric=True)
+    theta = mp.acos(a / b)
+    assert abs(contact.P - (theta - mp.sin(theta) * mp.cos(theta)) / 2) < mp.mpf(10) ** -30
+    assert abs(contact.pressure(0) - (b * theta - a * mp.acosh(b / a)) / mp.pi) < mp.mpf(10) ** -30
+    z = mp.mpc("0.4", "1e-7")
+    v, tau, S = mp.sqrt((z + b) / (z - b)), mp.tan(theta / 2), mp.sqrt(z - b) * mp.sqrt(z + b)
+    F = ((z - a) * mp.atan(tau * v) + (z + a) * mp.atan(tau / v) - theta * S) / mp.pi
+    assert abs(contact.potential(z) - F) < mp.mpf(10) ** -30
+
+
+def test_the_two_forms_of_the_reference_agree_where_the_edges_are_smooth():
+    pieces = normal_contact.polynomials((-10.0, 0.0, 10.0), ((0.0, 1.0), (0.0, 3.0)))
+    smooth = normal_contact.contact(pieces, 1.0, (-0.4, 0.3), load=0.7)
+    general = normal_contact.Contact(
+        smooth.pieces, smooth.G, smooth.x1, smooth.x2, smooth.P, sharp=True
+    )
+    for x in (0.1, -0.2):
+        assert abs(smooth.pressure(x) - general.pressure(x)) < mp.mpf(10) ** -28
+    z = mp.mpc(0.1, 0.01)
+    assert abs(smooth.potential(z) - general.potential(z)) < mp.mpf(10) ** -28

@@ -1,0 +1,277 @@
+"""What a scene does not need is skipped: the footprint is the plan's, and every economy leaves the
+answer as it is.
+"""
+
+from contextlib import suppress
+
+import laws
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+
+import sie
+
+STAGES = {"bonded", "normal", "pressure", "inequalities", "tangential", "tractions", "certificate"}
+ECONOMIES = ("symmetry", "transform", "zero panels", "convexity", "shear", "sliding")
+SHEARED = {
+    "profile": sie.RoundedFlat(1.0, 2.0), "modulus": 1.0, "normal_load": 1.0, "friction": 0.5,
+}  # fmt: skip
+SCENES = {
+    "convex": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0),
+    "tilted": sie.Scene(profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, tilt=0.05),
+    "moment": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, normal_load=1.0, moment=0.1
+    ),
+    "cylinder": sie.Scene(profile=sie.Parabola(2.0), modulus=1.0, half_width=0.5),
+    "function": sie.Scene(
+        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0)), modulus=1.0, normal_load=1.0
+    ),
+    "even function": sie.Scene(
+        profile=sie.FromFunction("sinh(x)", domain=(-9.0, 9.0), parity="even"),
+        modulus=1.0,
+        normal_load=1.0,
+    ),
+    "flat": sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0),
+    "many flats": sie.Scene(
+        profile=sie.Piecewise(
+            (-3.0, -2.0, -0.5, 0.5, 1.0),
+            ((1.0, 0.5), (-0.5,), (-0.5,), (0.0,), (0.0,), (-2.0, 2.0)),
+        ),
+        modulus=1.0,
+        half_width=2.75,
+    ),
+    "partial slip": sie.Scene(**SHEARED, tangential_load=0.3),
+    "full sliding": sie.Scene(**SHEARED, tangential_load=-0.5),
+    "both signs": sie.Scene(
+        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5, bulk_stress=0.3
+    ),
+    "rough, not sheared": sie.Scene(
+        profile=sie.Parabola(2.0), modulus=1.0, half_width=1.0, friction=0.5
+    ),
+    "dissimilar": sie.Scene(
+        profile=sie.Parabola(2.0), body=sie.Elastic(1.0, 0.3), indenter=sie.RIGID, normal_load=0.5
+    ),
+    "dissimilar, sliding": sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0),
+        modulus=1.0,
+        dundurs=0.2,
+        normal_load=1.0,
+        friction=0.5,
+        sliding=1,
+    ),
+    "bonded": sie.Scene(
+        profile=sie.Flat(1.0),
+        modulus=1.0,
+        dundurs=0.2,
+        normal_load=1.0,
+        friction=float("inf"),
+        tangential_load=0.3,
+    ),
+}
+
+
+def shear(solution):
+    _ = solution.edges, solution.stick, solution.shear(0.1)
+    with suppress(sie.ContactError):  # slip before dissimilar bodies slide is not known
+        _ = solution.slip(0.1), solution.energy_lost
+
+
+ASK = {
+    "edges": lambda s: s.edges,
+    "pressure": lambda s: s.pressure(0.1),
+    "gap": lambda s: s.gap(9.0),
+    "shear": shear,
+    "check": lambda s: s.check(),
+    "stress": lambda s: s.stress(0.1, 0.2).xx,
+    "tension": lambda s: s.peak_tension(),
+}
+
+
+def footprint(solution):
+    return frozenset(STAGES & vars(solution).keys())
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("want", ASK)
+@pytest.mark.parametrize("economy", [ECONOMIES, ()], ids=["economical", "wasteful"])
+def test_the_footprint_is_the_plan(name, want, economy):
+    solution = sie.solve(SCENES[name], economy=economy)
+    assert footprint(solution) == frozenset()
+    ASK[want](solution)
+    assert footprint(solution) == sie.plan(SCENES[name], want=want, economy=economy).stages
+
+
+@pytest.mark.parametrize(
+    "want",
+    [
+        "half_width",
+        "centre",
+        "stick",
+        "slip",
+        "shift",
+        "energy_lost",
+        "elastic_limit",
+        "peak_tension",
+    ],
+)
+def test_what_a_solution_is_asked_for_may_be_wanted_by_the_same_name(want):
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5,
+        tangential_load=0.3,
+    )  # fmt: skip
+    solution = sie.solve(scene)
+    answer = getattr(solution, want)
+    if callable(answer):
+        answer(0.1) if want == "slip" else answer()
+    assert footprint(solution) == sie.plan(scene, want=want).stages
+
+
+@pytest.mark.parametrize("want", [None, 3, "everything", ["edges", "slipping"], []])
+def test_a_want_that_is_no_name_is_refused(want):
+    with pytest.raises(ValueError, match="ask for edges, pressure"):
+        sie.plan(SCENES["flat"], want=want)
+
+
+@given(strategies.scenes())
+def test_the_footprint_is_the_plan_for_random_scenes(scene):
+    for want, ask in ASK.items():
+        solution = sie.solve(scene)
+        ask(solution)
+        assert footprint(solution) == sie.plan(scene, want=want).stages
+
+
+def test_a_plan_for_several_wants_is_the_union():
+    scene = SCENES["convex"]
+    assert (
+        sie.plan(scene, want=("edges", "check")).stages
+        == sie.plan(scene, want="edges").stages | sie.plan(scene, want="check").stages
+    )
+
+
+def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
+    for scene in SCENES.values():
+        for line in str(sie.plan(scene, want="check")).splitlines():
+            assert line.startswith(("run ", "skip"))
+            assert len(line.split(maxsplit=2)) == 3
+
+
+def test_a_plan_says_why_the_shear_is_or_is_not_solved_for():
+    said = {name: str(sie.plan(scene, want="shear")) for name, scene in SCENES.items()}
+    assert "f = 0: there is no shear traction" in said["convex"]
+    assert "Q = 0 and no bulk stress" in said["rough, not sheared"]
+    assert "full sliding: q is f times the pressure, no second solve" in said["full sliding"]
+    assert "never inside the flat base" in said["partial slip"]
+    assert "one direction or two" in said["both signs"]
+
+
+def test_a_plan_computes_nothing():
+    """Not even the slope is called."""
+    calls = []
+    profile = sie.FromFunction(lambda x: calls.append(1) or x, domain=(-1.0, 1.0))
+    built = len(calls)
+    sie.plan(sie.Scene(profile=profile, modulus=1.0, normal_load=0.1), want="check")
+    sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.1))
+    assert len(calls) == built
+
+
+@given(strategies.scenes())
+def test_every_economy_leaves_the_answer_as_it_is(scene):
+    thrifty = sie.solve(scene)
+    (x1, x2), r, P = thrifty.edges, thrifty.half_width, scene.normal_load
+    x = thrifty.centre + r * np.array([-0.9, -0.4, 0.07, 0.5, 0.95])
+    x = x[np.abs(x[:, None] - np.array([*scene.profile.breaks, 9e9])).min(axis=1) > 1e-6 * r]
+    peak = laws.peak(thrifty.pressure, thrifty.edges, scene.profile.breaks)
+    far = 1 + abs(thrifty.centre) / r
+    for without in (*ECONOMIES, None):
+        economy = () if without is None else [e for e in ECONOMIES if e != without]
+        wasteful = sie.solve(scene, economy=economy)
+        assert wasteful.edges == pytest.approx((x1, x2), abs=1e-14 * r * far)
+        assert wasteful.moment == pytest.approx(thrifty.moment, abs=1e-14 * P * r * far)
+        assert wasteful.pressure(x) == pytest.approx(thrifty.pressure(x), abs=3e-14 * peak * far)
+
+
+# -- with_ ----------------------------------------------------------------------------------------
+
+
+def test_with_keeps_the_stages_that_cannot_have_changed():
+    solution = sie.solve(SCENES["dissimilar"])
+    solution.check()
+    kept = solution.with_(poisson=None, friction=0.0)
+    assert footprint(kept) == footprint(solution)
+    assert kept.normal is solution.normal
+    assert kept.pressure is solution.pressure
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"normal_load": 2.0},
+        {"half_width": 1.25},
+        {"tilt": 0.03},
+        {"moment": 0.05},
+        {"modulus": 3.0},
+        {"profile": sie.Parabola(1.0)},
+    ],
+)
+def test_with_drops_what_may_have_changed_and_answers_the_new_question(changes):
+    solution = sie.solve(SCENES["convex"])
+    solution.check()
+    changed = solution.with_(**changes)
+    assert footprint(changed) == frozenset()
+    for name, value in changes.items():
+        assert getattr(changed.scene, name) == value
+    fresh = sie.solve(changed.scene)
+    assert changed.edges == fresh.edges
+    assert changed.moment == fresh.moment
+
+
+def test_with_leaves_the_solution_it_came_from_alone():
+    solution = sie.solve(SCENES["convex"])
+    edges, seen = solution.edges, dict(vars(solution))
+    solution.with_(normal_load=3.0).check()
+    assert vars(solution) == seen
+    assert solution.edges == edges
+
+
+def test_a_given_load_replaces_a_half_width_and_a_moment_a_tilt():
+    solution = sie.solve(SCENES["tilted"])
+    assert solution.with_(half_width=1.5).scene.normal_load is None
+    assert solution.with_(half_width=1.5).with_(normal_load=1.0).scene.half_width is None
+    assert solution.with_(moment=0.1).scene.tilt == 0.0
+    assert solution.with_(moment=0.1).with_(tilt=0.01).scene.moment is None
+
+
+# -- counts ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "most"),
+    [
+        ("convex", 6),
+        ("cylinder", 2),
+        ("flat", 2),
+        ("even function", 8),
+        ("function", 25),
+        ("tilted", 60),
+        ("dissimilar", 4),
+    ],
+)
+def test_the_edges_cost_few_passes_over_the_pieces(name, most):
+    assert sie.solve(SCENES[name]).normal.edges.evaluations <= most
+
+
+def test_the_slope_of_a_function_is_called_a_few_times_only():
+    calls = []
+    profile = sie.FromFunction(lambda x: calls.append(np.size(x)) or np.sinh(x), domain=(-9.0, 9.0))
+    sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1.0)).pressure(
+        np.linspace(-1, 1, 1001)
+    )
+    assert len(calls) <= 80
+    assert sum(calls) <= 20_000
+
+
+def test_a_pressure_is_computed_once():
+    solution = sie.solve(SCENES["convex"])
+    assert solution.pressure is solution.pressure
+    assert solution.check() is solution.check()

@@ -1,0 +1,225 @@
+"""Units, mirror, shift, tilt, load: what changes in the question changes in the answer as it
+must.
+"""
+
+import laws
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import between, log_between
+
+import sie
+
+PROMISE = 1e-13
+S = np.array([-0.97, -0.6, -0.21, 0.05, 0.33, 0.8, 0.99])  # where, in half-widths from the centre
+
+
+def answers(solution):
+    """Dimensionless: edges over r, pressures over P/r, moment over P r."""
+    P, r, m = solution.normal_load, solution.half_width, solution.centre
+    return (
+        np.array([*solution.edges, *solution.pressure(m + r * S) * r * r / P, solution.moment / P])
+        / r
+    )
+
+
+# -- units ----------------------------------------------------------------------------------------
+
+SCALED = {
+    "parabola": lambda L: sie.Parabola(2.0 * L),
+    "rounded": lambda L: sie.RoundedFlat(0.5 * L, 3.0 * L),
+    "wedge": lambda L: sie.Wedge(0.25),
+    "blunt": lambda L: sie.Wedge(0.25) + sie.Parabola(2.0 * L).shifted(0.125 * L),
+    "flat": lambda L: sie.Flat(1.5 * L),
+    "power": lambda L: sie.Power(2.5, 0.75 * L**-1.5),
+    "polynomial": lambda L: sie.Polynomial((0.0, 0.125, 0.5 / L, 0.125 / L**2, 0.25 / L**3)).tilted(
+        -0.25
+    ),
+    "corners": lambda L: sie.Piecewise((-0.5 * L, L), ((0.25, 0.5 / L), (0.0,), (-2.0, 2.0 / L))),
+    "cut": lambda L: sie.Piecewise((-L, 0.0, 0.5 * L), ((0.0, 0.5 / L), (0.0, 2.0 / L))),
+    "function": lambda L: sie.FromFunction(lambda x: np.sinh(x / L), domain=(-4.0 * L, 3.0 * L)),
+}
+SCALES = (1e-100, 1e-6, 1e12, 1e100)
+
+
+@pytest.mark.parametrize("name", SCALED)
+@pytest.mark.parametrize("tilt", [0.0, 0.0625])
+def test_a_unit_of_length_changes_no_dimensionless_answer(name, tilt):
+    one = sie.solve(sie.Scene(profile=SCALED[name](1.0), modulus=1.0, normal_load=0.5, tilt=tilt))
+    for L in SCALES:
+        other = sie.solve(
+            sie.Scene(profile=SCALED[name](L), modulus=1.0, normal_load=0.5 * L, tilt=tilt)
+        )
+        assert other.half_width == pytest.approx(one.half_width * L, rel=PROMISE)
+        assert answers(other) == pytest.approx(answers(one), rel=PROMISE, abs=PROMISE)
+        x = one.edges[1] + one.half_width
+        if np.isfinite(one.gap(x)):
+            assert float(other.gap(L * x)) == pytest.approx(float(L * one.gap(x)), rel=1e-12)
+        z = one.half_width * (0.4 + 1.1j)
+        assert complex(other.pressure.cauchy(L * z)) == pytest.approx(
+            complex(one.pressure.cauchy(z)), rel=PROMISE
+        )
+        assert other.check().ok
+
+
+@pytest.mark.parametrize("name", SCALED)
+def test_a_unit_of_stress_changes_no_dimensionless_answer(name):
+    one = sie.solve(sie.Scene(profile=SCALED[name](1.0), modulus=1.0, normal_load=0.5))
+    for E in SCALES:
+        other = sie.solve(sie.Scene(profile=SCALED[name](1.0), modulus=E, normal_load=0.5 * E))
+        assert other.half_width == pytest.approx(one.half_width, rel=PROMISE)
+        assert answers(other) == pytest.approx(answers(one), rel=PROMISE, abs=PROMISE)
+        assert other.check().ok
+
+
+@pytest.mark.parametrize("name", SCALED)
+def test_powers_of_two_change_hardly_a_bit(name):
+    """Nothing in the numerics has a length or a stress of its own, so a change of exponent is exact
+    but for logarithms and roots.
+    """
+    one = sie.solve(
+        sie.Scene(profile=SCALED[name](1.0), modulus=1.0, half_width=None, normal_load=0.5)
+    )
+    L, E = 2.0**40, 2.0**-60
+    other = sie.solve(sie.Scene(profile=SCALED[name](L), modulus=E, normal_load=0.5 * L * E))
+    assert np.array(other.edges) == pytest.approx(np.array(one.edges) * L, rel=4e-16)
+
+
+# -- mirror and shift -----------------------------------------------------------------------------
+
+
+@given(strategies.scenes())
+def test_the_mirrored_question_has_the_mirrored_answer(scene):
+    one = sie.solve(scene)
+    other = sie.solve(
+        sie.Scene(
+            profile=scene.profile.mirrored(),
+            modulus=scene.Estar,
+            normal_load=scene.normal_load,
+            tilt=-scene.tilt,
+        )
+    )
+    r = one.half_width
+    assert other.half_width == pytest.approx(r, rel=PROMISE)
+    assert other.centre == pytest.approx(-one.centre, abs=PROMISE * (r + abs(one.centre)))
+    assert other.moment == pytest.approx(
+        -one.moment, abs=PROMISE * scene.normal_load * (r + abs(one.centre))
+    )
+    assert other.sharp == one.sharp[::-1]
+    x = one.centre + r * S
+    rounding = 1e-15 * abs(one.centre) / r
+    peak = laws.peak(one.pressure, one.edges, scene.profile.breaks)
+    x = x[np.abs(x[:, None] - np.array([*scene.profile.breaks, 9e9])).min(axis=1) > 1e-3 * r]
+    assert other.pressure(-x) == pytest.approx(
+        one.pressure(x), abs=(PROMISE + 100 * rounding) * peak
+    )
+
+
+@given(strategies.scenes(), st.integers(-16, 16))
+def test_a_shift_of_the_profile_shifts_the_answer(scene, n):
+    one, dx = sie.solve(scene), n / 8
+    other = sie.solve(
+        sie.Scene(
+            profile=scene.profile.shifted(dx),
+            modulus=scene.Estar,
+            normal_load=scene.normal_load,
+            tilt=scene.tilt,
+        )
+    )
+    r, P = one.half_width, scene.normal_load
+    far = (abs(one.centre) + abs(dx)) / r
+    assert other.half_width == pytest.approx(r, rel=PROMISE)
+    assert other.centre == pytest.approx(one.centre + dx, abs=PROMISE * r * (1 + far))
+    assert other.moment == pytest.approx(one.moment + dx * P, abs=PROMISE * P * r * (1 + far))
+    x = one.centre + r * S
+    x = x[np.abs(x[:, None] - np.array([*scene.profile.breaks, 9e9])).min(axis=1) > 1e-3 * r]
+    peak = laws.peak(one.pressure, one.edges, scene.profile.breaks)
+    assert other.pressure(x + dx) == pytest.approx(
+        one.pressure(x), abs=(PROMISE + 1e-13 * far) * peak
+    )
+
+
+# -- questions and answers exchanged --------------------------------------------------------------
+
+
+@given(strategies.scenes())
+def test_tilt_and_moment_are_inverse_to_each_other(scene):
+    one = sie.solve(scene)
+    other = one.with_(moment=one.moment)
+    r, P = one.half_width, scene.normal_load
+    size = P / (scene.Estar * r) + abs(one.centre) / r * P / (
+        scene.Estar * r
+    )  # dM/dtilt = -π/4 E* r²
+    assert other.tilt == pytest.approx(one.tilt, abs=4 * PROMISE * max(size, abs(one.tilt)))
+    assert other.moment == pytest.approx(one.moment, abs=PROMISE * P * (r + abs(one.centre)))
+    assert other.half_width == pytest.approx(r, rel=2 * PROMISE * (1 + abs(one.centre) / r))
+
+
+@given(strategies.scenes(sharp=False))
+def test_load_and_half_width_are_inverse_to_each_other(scene):
+    one = sie.solve(scene)
+    other = one.with_(half_width=one.half_width)
+    assert other.normal_load == pytest.approx(one.normal_load, rel=1e-12)
+    assert other.centre == pytest.approx(
+        one.centre, abs=PROMISE * (one.half_width + abs(one.centre))
+    )
+
+
+@given(strategies.scenes(), strategies.dyadic(-1, 1))
+def test_a_tilt_of_the_scene_is_a_tilt_of_the_profile(scene, share):
+    tilt = share * scene.tilt
+    one = sie.solve(scene)
+    tilted = scene.profile.tilted(tilt)
+    other = sie.solve(
+        sie.Scene(
+            profile=tilted,
+            modulus=scene.Estar,
+            normal_load=scene.normal_load,
+            tilt=scene.tilt - tilt,
+        )
+    )
+    assert other.half_width == pytest.approx(one.half_width, rel=PROMISE)
+    assert other.moment == pytest.approx(
+        one.moment, abs=PROMISE * scene.normal_load * (one.half_width + abs(one.centre))
+    )
+
+
+# -- growth and superposition ---------------------------------------------------------------------
+
+
+@given(strategies.scenes(profile=sie.RoundedFlat(0.5, 1.0)), between(1.01, 5.0))
+def test_the_pressure_grows_everywhere_with_the_load(scene, factor):
+    light, heavy = sie.solve(scene), sie.solve(scene).with_(normal_load=factor * scene.normal_load)
+    x = light.centre + light.half_width * S
+    assert (heavy.pressure(x) > light.pressure(x)).all()
+
+
+@given(log_between(0.1, 10), log_between(0.1, 10), log_between(0.1, 10), between(-0.9, 0.9))
+def test_slopes_superpose_while_the_edges_are_the_same(rise, radius, width, tilt):
+    """Symmetric profiles, one half-width: pressures, loads and potentials add."""
+    parts = [sie.Wedge(rise), sie.Parabola(radius), sie.Power(4, rise / radius)]
+    alone = [sie.solve(sie.Scene(profile=p, modulus=1.0, half_width=width)) for p in parts]
+    together = sie.solve(
+        sie.Scene(profile=parts[0] + parts[1] + parts[2], modulus=1.0, half_width=width)
+    )
+    assert together.normal_load == pytest.approx(sum(s.normal_load for s in alone), rel=PROMISE)
+    x = width * np.array([-0.9, -0.4, 1e-3, 0.2, 0.7, 0.99])
+    assert together.pressure(x) == pytest.approx(sum(s.pressure(x) for s in alone), rel=PROMISE)
+    z = width * (0.3 + 0.2j)
+    assert complex(together.pressure.cauchy(z)) == pytest.approx(
+        sum(complex(s.pressure.cauchy(z)) for s in alone), rel=PROMISE
+    )
+
+
+def test_a_wedge_and_a_parabola_add_to_their_closed_forms():
+    """p = E* A/π arccosh(b/|x|) + E*/(2R) sqrt(b² - x²),  P = E* A b + π E* b²/(4R)."""
+    A, R, b, E = 0.3, 2.0, 1.25, 7.0
+    s = sie.solve(sie.Scene(profile=sie.Wedge(A) + sie.Parabola(R), modulus=E, half_width=b))
+    x = b * np.array([-0.99, -0.5, 1e-9, 0.1, 0.9])
+    assert s.pressure(x) == pytest.approx(
+        E * A / np.pi * np.arccosh(b / np.abs(x)) + E / (2 * R) * np.sqrt((b - x) * (b + x)),
+        rel=PROMISE,
+    )
+    assert s.normal_load == pytest.approx(E * A * b + np.pi * E * b * b / (4 * R), rel=PROMISE)

@@ -1,0 +1,395 @@
+"""Profiles are values, and say of themselves what is true: slope, height, breaks, parity, domain,
+what moving and adding them means.
+"""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+from strategies import between, dyadic
+
+import sie
+from analytic import power
+from sie.io import scene_file
+from sie.profiles import kinds, slope
+
+INF = float("inf")
+
+
+def module_level_slope(x):
+    return np.sinh(x)
+
+
+EVERY_KIND = (
+    *(scene_file.parse(scene_file.example(kind)).scene.profile for kind in kinds.KINDS),
+    sie.Parabola(2.0),
+    sie.RoundedFlat(0.5, 3.0),
+    sie.Flat(1.5),
+    sie.Wedge(0.25),
+    sie.Power(2.5, 0.75),
+    sie.Power(3, 0.75),
+    sie.Polynomial((0.0, 0.125, 0.5, 0.0, 0.25)),
+    sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
+    sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))),
+    sie.FromFunction("sinh(x) + x/3", domain=(-2.0, 3.0)),
+    sie.FromFunction(module_level_slope, breaks=(0.5,), domain=(-2.0, 3.0)),
+    sie.Parabola(2.0).tilted(0.125),
+    sie.RoundedFlat(0.5, 3.0).shifted(-0.25),
+    sie.Piecewise((-1.0, 0.0, 0.5), ((0.0, 0.5), (0.0, 2.0))).mirrored(),
+    sie.Wedge(0.25) + sie.Parabola(2.0),
+    (sie.Wedge(0.25).shifted(0.5) + sie.Parabola(2.0).tilted(0.0625)).mirrored().shifted(0.25)
+    + (sie.Power(4, 1.0) + sie.Flat(3.0)),
+)
+each = pytest.mark.parametrize("profile", EVERY_KIND, ids=repr)
+
+
+def solved(profile):
+    return sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=1e-3))
+
+
+# -- values ---------------------------------------------------------------------------------------
+
+
+@each
+def test_a_profile_rebuilt_from_its_repr_is_equal(profile):
+    rebuilt = eval(
+        repr(profile),
+        vars(sie) | {"inf": INF, "sie": sie, "module_level_slope": module_level_slope},
+    )
+    assert rebuilt == profile
+    assert repr(rebuilt) == repr(profile)
+
+
+@each
+def test_equal_profiles_have_equal_hashes_and_are_one_key(profile):
+    twin = copy.deepcopy(profile)
+    assert twin == profile
+    assert hash(twin) == hash(profile)
+    assert len({twin, profile}) == 1
+
+
+def test_profiles_of_different_kinds_or_numbers_are_different():
+    for i, one in enumerate(EVERY_KIND):
+        for other in EVERY_KIND[i + 1 :]:
+            assert one != other
+
+
+@each
+def test_a_profile_survives_pickling_before_and_after_solving(profile):
+    assert pickle.loads(pickle.dumps(profile)) == profile
+    edges = solved(profile).edges
+    again = pickle.loads(pickle.dumps(profile))
+    assert again == profile
+    assert solved(again).edges == edges
+
+
+@each
+def test_a_scene_and_its_solution_survive_pickling(profile):
+    solution = solved(profile)
+    value = float(solution.pressure(solution.centre + 0.1 * solution.half_width))
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.scene == solution.scene
+    assert vars(again).keys() == vars(solution).keys()
+    assert float(again.pressure(solution.centre + 0.1 * solution.half_width)) == value
+
+
+@each
+def test_a_profile_is_frozen(profile):
+    with pytest.raises(AttributeError):
+        profile.radius = 7.0
+
+
+@each
+def test_solving_does_not_change_a_profile(profile):
+    before = hash(profile), repr(profile)
+    solved(profile).check()
+    assert (hash(profile), repr(profile)) == before
+
+
+# -- geometry -------------------------------------------------------------------------------------
+
+
+def inside(profile, n=41):
+    lo, hi = (np.clip(e, -2.5, 2.5) for e in profile.domain)
+    x = lo + (hi - lo) * (np.arange(n) + 0.5) / n
+    return x[np.abs(x[:, None] - np.array([*profile.breaks, 1e9])).min(axis=1) > 1e-3]
+
+
+@each
+def test_the_slope_is_the_derivative_of_the_height(profile):
+    x, d = inside(profile), 1e-4
+    difference = (
+        profile.height(x - 2 * d)
+        - 8 * profile.height(x - d)
+        + 8 * profile.height(x + d)
+        - profile.height(x + 2 * d)
+    ) / (12 * d)
+    assert profile.slope(x) == pytest.approx(difference, rel=1e-9, abs=1e-10)
+
+
+@given(strategies.profiles())
+def test_the_slope_is_the_derivative_of_the_height_of_random_profiles(profile):
+    x, d = inside(profile), 1e-5
+    difference = (profile.height(x + d) - profile.height(x - d)) / (2 * d)
+    assert profile.slope(x) == pytest.approx(
+        difference, rel=1e-6, abs=1e-6 * (1 + float(np.abs(profile.slope(x)).max()))
+    )
+
+
+@each
+def test_height_and_slope_keep_the_shape_of_their_argument(profile):
+    for shape in ((), (1,), (3, 2), (0,)):
+        x = np.full(shape, 0.3)
+        assert np.shape(profile.height(x)) == np.shape(profile.slope(x)) == shape
+    assert np.shape(profile.height([0.1, 0.2])) == (2,)
+
+
+@each
+def test_the_height_is_infinite_beyond_the_ends_and_finite_inside(profile):
+    lo, hi = profile.domain
+    assert np.isfinite(profile.height(inside(profile))).all()
+    for end, outwards in ((lo, -1.0), (hi, 1.0)):
+        if np.isfinite(end):
+            assert profile.height(end + outwards * 1e-9) == INF
+            assert profile.slope(end + outwards * 1e-9) == outwards * INF
+            assert np.isfinite(profile.height(end))
+
+
+@each
+def test_breaks_ascend_inside_the_domain(profile):
+    lo, hi = profile.domain
+    assert list(profile.breaks) == sorted(set(profile.breaks))
+    assert all(lo < b < hi for b in profile.breaks)
+
+
+@given(strategies.profiles())
+def test_between_breaks_a_profile_has_no_corner(profile):
+    """The slope's second difference goes like the square of the step where no break is near; at a
+    corner it goes like the step.
+    """
+    x, d = inside(profile, 23), 1e-4
+    x = x[np.abs(x[:, None] - np.array([*profile.breaks, 1e9])).min(axis=1) > 1e-2]
+
+    def bend(step):
+        return np.abs(profile.slope(x + step) - 2 * profile.slope(x) + profile.slope(x - step))
+
+    rounding = 1e-14 * (1 + np.abs(profile.slope(x)).max(initial=0.0))
+    assert (bend(0.1 * d) <= 0.03 * bend(d) + rounding).all()
+
+
+@given(strategies.profiles(), dyadic(-1, 1), dyadic(-1, 1))
+def test_tilted_shifted_mirrored_and_sums_mean_what_they_say(profile, slope, dx):
+    x = inside(profile)
+    h = profile.height
+    assert profile.tilted(slope).height(x) == pytest.approx(h(x) + slope * x, rel=1e-13, abs=1e-13)
+    assert profile.tilted(slope).slope(x) == pytest.approx(
+        profile.slope(x) + slope, rel=1e-13, abs=1e-13
+    )
+    moved = profile.shifted(dx)
+    assert moved.height(x) == pytest.approx(h(x - dx), rel=1e-12, abs=1e-12)
+    assert moved.domain == tuple(e + dx for e in profile.domain)
+    assert profile.mirrored().height(x) == pytest.approx(h(-x), rel=1e-13, abs=1e-13)
+    assert profile.mirrored().slope(x) == pytest.approx(-profile.slope(-x), rel=1e-12, abs=1e-12)
+    both = profile + sie.Parabola(2.0).shifted(dx)
+    assert both.height(x) == pytest.approx(
+        h(x) + sie.Parabola(2.0).shifted(dx).height(x), rel=1e-12, abs=1e-12
+    )
+    assert both.slope(x) == pytest.approx(
+        profile.slope(x) + sie.Parabola(2.0).shifted(dx).slope(x), rel=1e-12, abs=1e-12
+    )
+
+
+@each
+def test_doing_and_undoing_gives_the_same_shape(profile):
+    x = inside(profile)
+    for same in (
+        profile.tilted(0.5).tilted(-0.5),
+        profile.shifted(0.5).shifted(-0.5),
+        profile.mirrored().mirrored(),
+    ):
+        assert same.height(x) == pytest.approx(profile.height(x), rel=1e-14, abs=1e-14)
+    assert profile.tilted(0.0) == profile == profile.shifted(0.0)
+
+
+def test_the_sum_of_profiles_lives_on_the_common_domain():
+    both = sie.Flat(1.0).shifted(0.5) + sie.FromFunction("x", domain=(-1.0, 1.0))
+    assert both.domain == (-0.5, 1.0)
+    with pytest.raises(ValueError, match="do not overlap"):
+        sie.Flat(1.0) + sie.Flat(1.0).shifted(3.0)
+
+
+def nested(depth):
+    """The same modifications of a sum, one inside the other."""
+    profile = sie.Wedge(0.25) + sie.Flat(3.0)
+    for _ in range(depth):
+        profile = (profile.tilted(1e-4).shifted(1e-4) + sie.Parabola(1e3)).mirrored()
+    return profile
+
+
+def chain(terms):
+    total = sie.Parabola(1.0)
+    for k in range(terms):
+        total = total + sie.Wedge(1e-6).shifted(1e-4 * k)
+    return total
+
+
+DEEP = {
+    "sum": lambda: chain(1500),
+    "sum of modified sums": lambda: nested(1500),
+    "sum on the right": lambda: right_handed(1500),
+}
+
+
+def right_handed(terms):
+    total = sie.Parabola(1.0)
+    for k in range(terms):
+        total = sie.Wedge(1e-6).shifted(1e-4 * k) + total
+    return total
+
+
+@pytest.mark.parametrize("build", DEEP.values(), ids=DEEP)
+def test_a_profile_nested_thousands_deep_is_a_value_that_solves(build):
+    profile = build()
+    again = pickle.loads(pickle.dumps(profile))
+    assert again == profile == copy.deepcopy(profile)
+    assert hash(again) == hash(profile)
+    assert repr(again) == repr(profile)
+    assert profile != profile.tilted(0.5)
+    assert np.isfinite(profile.height(0.3))
+    assert profile.ends_are_corners == (True, True)
+    assert solved(again).edges == solved(profile).edges
+
+
+def test_modified_sums_add_up_to_the_profile_that_they_mean():
+    x = np.array([-1.5, -0.2, 0.3, 2.0])
+    height, slope = (lambda u: 0.25 * np.abs(u)), (lambda u: 0.25 * np.sign(u))
+    for _ in range(3):
+        last = height, slope
+        height = lambda u, h=last[0]: h(-u - 1e-4) - 1e-4 * (u + 1e-4) + u * u / 2e3  # noqa: E731
+        slope = lambda u, H=last[1]: -H(-u - 1e-4) - 1e-4 + u / 1e3  # noqa: E731
+    profile = nested(3)
+    assert profile.height(x) == pytest.approx(height(x), rel=1e-14)
+    assert profile.slope(x) == pytest.approx(slope(x), rel=1e-13)
+
+
+@pytest.mark.parametrize("build", [chain, right_handed])
+def test_a_sum_of_n_terms_takes_n_additions(build, monkeypatch):
+    count, added = 0, slope.Slope.__add__
+
+    def counted(one, other):
+        nonlocal count
+        count += 1
+        return added(one, other)
+
+    monkeypatch.setattr(slope.Slope, "__add__", counted)
+    profile = build(200)
+    _ = profile.pieces, profile.axis, profile.convex, profile.ends_are_corners, profile.domain
+    assert count == 200
+
+
+def test_sums_are_the_same_however_they_are_bracketed():
+    a, b, c = sie.Parabola(1.0), sie.Wedge(0.5), sie.Flat(2.0)
+    assert (a + b) + c == a + (b + c)
+    assert hash((a + b) + c) == hash(a + (b + c))
+
+
+def test_a_shift_so_far_that_nothing_is_left_is_refused():
+    with pytest.raises(ValueError, match=r"shifted\(1e\+20\) leaves nothing"):
+        sie.Flat(1.0).shifted(1e20)
+
+
+@each
+def test_even_parity_is_declared_only_where_it_is_true(profile):
+    if profile.parity == "even":
+        x = inside(profile)
+        assert profile.height(-x) == pytest.approx(profile.height(x), rel=1e-14, abs=1e-15)
+        assert profile.domain[0] == -profile.domain[1]
+    else:
+        assert profile.parity == "none"
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [sie.Parabola(1.0), sie.RoundedFlat(1.0, 1.0), sie.Flat(1.0), sie.Wedge(1.0),
+     sie.Power(2.5, 1.0), sie.Polynomial((0, 0, 1)),
+                sie.Piecewise((-1.0, 1.0), ((1.0, 1.0), (0.0,), (-1.0, 1.0))),
+                sie.Wedge(1.0) + sie.Parabola(1.0)], ids=repr,
+)  # fmt: skip
+def test_symmetric_profiles_are_known_to_be_even(profile):
+    assert profile.parity == "even"
+    assert profile.shifted(0.5).parity == "none"
+    assert profile.tilted(0.5).parity == "none"
+    assert profile.mirrored() == profile
+
+
+@given(strategies.profiles(), between(-1.5, 1.5), between(-1.5, 1.5))
+def test_a_profile_known_to_be_convex_is_convex(profile, one, other):
+    if profile.convex and one != other:
+        low, high = min(one, other), max(one, other)
+        assert profile.slope(high) >= profile.slope(low) - 1e-12 * (1 + abs(profile.slope(high)))
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [sie.Polynomial((0, 0, 1, 0, -0.1)), sie.Piecewise((0.0,), ((0.0, 1.0), (-0.1, 1.0))),
+     sie.Piecewise((-1.0, 1.0), ((0.0, 1.0), (-1.5, -0.5), (-3.0, 1.0))),
+     sie.FromFunction("x - sin(x)")],
+    ids=repr,
+)  # fmt: skip
+def test_what_is_not_known_to_be_convex_does_not_say_so(profile):
+    assert not profile.convex
+
+
+def test_heights_are_measured_from_the_nearest_point_to_zero():
+    assert sie.Piecewise((1.0, 2.0), ((0.0, 1.0),)).height(1.0) == 0.0
+    assert sie.FromFunction("x", domain=(1.0, 2.0)).height(2.0) == pytest.approx(1.5)
+    assert sie.FromFunction("x").height(0.0) == 0.0
+
+
+@pytest.mark.parametrize(
+    "text", ["sinh(x)", "x**3 + abs(x)*x", "where(x > 0.5, 2*x - 0.5, x)", "x*exp(-x**2/2)"]
+)
+def test_a_text_slope_is_the_same_profile_as_the_function_it_says(text):
+    profile = sie.FromFunction(text, breaks=(0.0, 0.5), domain=(-1.0, 1.0))
+    x = np.linspace(-0.9, 0.9, 7)
+    expected = eval(
+        text, {"sinh": np.sinh, "abs": np.abs, "where": np.where, "exp": np.exp, "x": x}
+    )
+    assert profile.slope(x) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "__import__('os')",
+        "x.real",
+        "[x]",
+        "lambda: x",
+        "open('a')",
+        "x if x else 1",
+        "'a'",
+        "y + x",
+        "x +",
+        "x; x",
+        "sin(x",
+        "x = 1",
+    ],
+)
+def test_a_text_slope_cannot_run_code(text):
+    with pytest.raises(ValueError, match="expression"):
+        sie.FromFunction(text)
+
+
+@pytest.mark.parametrize("exponent", [1.1, 1.2, 1.5, 1.9, 2.5])
+def test_the_pressure_at_the_apex_of_a_power_law_keeps_13_digits(exponent):
+    """There h' vanishes like |x|^(m-1), and what its pieces miss next to x = 0 is multiplied by the
+    logarithm of their length.
+    """
+    law = {"exponent": exponent, "coefficient": 1.0}
+    pressure = sie.solve(sie.Scene(profile=sie.Power(**law), modulus=2.0, half_width=1.0)).pressure
+    x = np.array([0.0, 1e-30, 1e-20, 1e-9])
+    expected = power.pressure(x, half_width=1.0, modulus=2.0, **law)
+    assert np.abs(pressure(x) / expected - 1.0).max() <= 1e-13

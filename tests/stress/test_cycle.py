@@ -1,0 +1,127 @@
+"""What a cycle does: histories are the states' stresses, ranges their extremes, and Ruiz'
+parameters their products.
+"""
+
+import numpy as np
+import pytest
+
+import sie
+
+SCENE = sie.Scene(
+    profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.4
+)
+X, Y = np.linspace(-1.2, 1.2, 7), np.array([[0.0], [0.1], [0.5]])
+
+
+class Moved:
+    """A solution with a slip of the test's own."""
+
+    def __init__(self, solution, slip):
+        self.solution, self.moved = solution, slip
+
+    def __getattr__(self, name):
+        return getattr(self.solution, name)
+
+    def slip(self, x):
+        return self.moved * np.cos(np.asarray(x))
+
+
+@pytest.fixture(scope="module")
+def cycle():
+    """Sliding to and fro, with a bulk stress in phase."""
+    Q = 0.4 * 0.3
+    states = [(Q, 0.02, 1.0), (-Q, -0.01, -3.0), (Q, 0.02, 1.0)]
+    return sie.Cycle(
+        [
+            Moved(sie.solve(SCENE).with_(tangential_load=q, bulk_stress=s), slip)
+            for q, s, slip in states
+        ]
+    )
+
+
+def test_the_history_holds_the_tensors_of_every_step(cycle):
+    tensors = cycle.history(X, Y)
+    assert tensors.shape == (3, 3, 7, 3, 3)
+    assert (tensors == np.swapaxes(tensors, -1, -2)).all()
+    s = cycle.states[1].stress(X, Y)
+    for (i, j), values in {(0, 0): s.xx, (1, 1): s.yy, (0, 1): s.xy, (2, 2): s.zz}.items():
+        assert (tensors[1, ..., i, j] == values).all()
+
+
+def test_the_range_is_between_the_extremes(cycle):
+    found, stresses = cycle.range(X, Y), [state.stress(X, Y) for state in cycle.states]
+    for name in ("xx", "yy", "xy", "zz"):
+        values = np.stack([getattr(s, name) for s in stresses])
+        assert (found[name].lowest == values.min(axis=0)).all() and (
+            found[name].range == np.ptp(values, axis=0)
+        ).all()
+        assert found[name].mean + found[name].amplitude == pytest.approx(found[name].highest)
+
+
+def test_no_plane_has_a_wider_range_of_shear_than_the_critical_one(cycle):
+    widest, angle = cycle.shear_range(X, Y)
+    tensors = cycle.history(X, Y)[..., :2, :2]
+
+    def on_plane(theta):
+        n, t = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
+        return np.einsum("i...,...ij,j...->...", n, tensors, t)
+
+    for theta in np.linspace(0.0, np.pi, 60):
+        assert (
+            np.ptp(on_plane(np.full(widest.shape, theta)), axis=0) <= widest * (1 + 1e-12) + 1e-15
+        ).all()
+    assert np.ptp(on_plane(angle), axis=0) == pytest.approx(widest, rel=1e-12)
+
+
+def test_ruizs_parameters_are_products_of_amplitude_traction_and_tension(cycle):
+    x = np.linspace(-1.0, 1.0, 9) * cycle.states[0].half_width
+    amplitude = 2.0 * np.cos(x)
+    assert cycle.slip_range(x).amplitude == pytest.approx(amplitude)
+    work = 0.4 * cycle.states[0].pressure(x) * amplitude
+    assert cycle.friction_work(x) == pytest.approx(work, rel=1e-13)
+    tension = np.maximum(*(state.stress(x, 0.0).xx for state in cycle.states[:2]))
+    assert cycle.ruiz(x) == pytest.approx(np.maximum(tension, 0.0) * work, rel=1e-13)
+
+
+def test_one_state_is_no_cycle():
+    with pytest.raises(ValueError, match="1 states make no cycle"):
+        sie.Cycle([sie.solve(SCENE)])
+
+
+def test_in_plane_ranges_need_no_poisson_ratio():
+    scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.3, friction=0.4)
+    states = [sie.solve(scene).with_(tangential_load=q) for q in (0.12, -0.12)]
+    cycle = sie.Cycle(states)
+    assert cycle.range(X, Y).keys() == {"xx", "yy", "xy"}
+    assert (
+        cycle.range(X, Y)["xx"].highest == np.maximum(*(s.stress(X, Y).xx for s in states))
+    ).all()
+    assert cycle.shear_range(X, Y)[0].shape == (3, 7)
+
+
+PATH = sie.Path([(0.3, 0.1), (0.3, -0.1), (0.3, 0.06), (0.3, -0.02), (0.3, 0.1)])
+
+
+def test_a_path_in_parts_comes_to_the_same_states():
+    whole, parts = sie.follow(SCENE, PATH), sie.follow(SCENE, PATH.subdivided(5))
+    assert len(parts) == 1 + 5 * (len(whole) - 1)
+    for one, same in zip(whole, parts[::5], strict=True):
+        assert same.stick[0] == pytest.approx(one.stick[0], rel=1e-12)
+        assert same.energy_lost == pytest.approx(one.energy_lost, rel=1e-12)
+        assert same.shear(X) == pytest.approx(one.shear(X), abs=1e-13)
+
+
+def test_a_path_in_parts_shows_extremes_between_its_turning_points():
+    turning, parts = (
+        sie.Cycle(sie.follow(SCENE, path)).range(X, Y)["xx"] for path in (PATH, PATH.subdivided(8))
+    )
+    assert (parts.lowest <= turning.lowest + 1e-14).all() and (
+        parts.highest >= turning.highest - 1e-14
+    ).all()
+    assert (parts.range > turning.range * (1.0 + 1e-3)).any()
+
+
+@pytest.mark.parametrize("parts", [0, 2.5, True, "3"])
+def test_parts_that_are_no_count_are_refused(parts):
+    with pytest.raises(ValueError, match=f"parts = {parts!r} is not a whole number"):
+        PATH.subdivided(parts)

@@ -1,0 +1,420 @@
+"""Where the body yields first and where its surface is torn most: against 30 digits, and against
+brute force.
+"""
+
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sie
+from analytic import rounded_flat
+from oracles.normal_contact import mp
+from sie.stress import peak_search
+
+NU = 0.3
+# P/(bk) and whether it is on the surface: NUMERICS' table, computed with mpmath from the closed
+# form
+KNOWN = {
+    (0.0, 0.0): (4.88003571108, False), (0.3, 0.0): (5.32116806054, False),
+    (0.5, 0.0): (5.00129193126, False),
+    (0.8, 0.0): (3.52415662624, False), (0.0, 0.3): (4.081253, True), (0.3, 0.3): (3.883460, True),
+    (0.5, 0.3): (3.484226, True), (0.8, 0.3): (2.372888, True),
+}  # fmt: skip
+
+
+def punch(a, friction=0.0, **changes):
+    profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=1.0, poisson=NU))
+    return solution.with_(
+        friction=friction, tangential_load=friction * solution.normal_load, **changes
+    )
+
+
+def exact_j2(a, friction):
+    """J2(x, y) of the sliding rounded punch in closed form, an mpmath function; y may be 0."""
+    f, kappa = mp.mpf(friction), 1 - 2 * mp.mpf(NU)
+    arguments = {
+        "half_flat": mp.mpf(a),
+        "half_width": mp.one,
+        "radius": mp.one,
+        "modulus": mp.one,
+        "lib": mp,
+    }
+
+    def j2(x, y):
+        z = mp.mpc(x, y)
+        F = rounded_flat.potential(z, **arguments)
+        D = (
+            y * mp.mpc(1, -f) * rounded_flat.potential_derivative(z, **arguments) if y else 0
+        ) - f * F
+        return abs(D) ** 2 + kappa**2 / 3 * (mp.im(F) - f * mp.re(F)) ** 2
+
+    return j2
+
+
+def polished(a, friction, x, y):
+    """The stationary point of the exact J2 next to (x, y), to 25 digits."""
+    j2, h = exact_j2(a, friction), mp.mpf(10) ** -12
+
+    def along(function, t):
+        return (
+            8 * (function(t + h) - function(t - h)) - (function(t + 2 * h) - function(t - 2 * h))
+        ) / (12 * h)
+
+    if y == 0.0:
+        x = mp.findroot(
+            lambda x: along(lambda t: j2(t, 0), x),
+            (mp.mpf(x) - 1e-6, mp.mpf(x) + 1e-6),
+            tol=1e-40,
+            verify=False,
+        )
+        return x, mp.zero, j2(x, 0)
+    start = (mp.mpf(x), mp.mpf(y))
+    x, y = mp.findroot(
+        lambda x, y: (along(lambda t: j2(t, y), x), along(lambda t: j2(x, t), y)),
+        start,
+        tol=1e-40,
+        verify=False,
+    )
+    return x, y, j2(x, y)
+
+
+@pytest.mark.parametrize(("a", "f"),
+                         [(0.0, 0.0), (0.05, 0.0), (0.1, 0.1), (0.15, 0.0), (0.3, 0.2), (0.5, 0.0),
+                          (0.8, 0.05), (0.95, 0.0),
+                                      (0.05, 0.3), (0.5, 0.3), (0.8, 0.5),
+                                      (0.95, 0.4)])  # fmt: skip
+def test_the_elastic_limit_has_twelve_digits_and_its_place_eight(a, f):
+    found = punch(a, f).elastic_limit()
+    x, y, j2 = polished(a, f, found.x, found.y)
+    P = rounded_flat.load(
+        half_flat=mp.mpf(a), half_width=mp.one, radius=mp.one, modulus=mp.one, lib=mp
+    )
+    assert found.ratio == pytest.approx(float(P / mp.sqrt(j2)), rel=1e-12)
+    assert abs(found.x - x) <= 1e-8 and abs(found.y - y) <= 1e-8
+
+
+@pytest.mark.parametrize(("a", "f"), KNOWN)
+def test_known_elastic_limits(a, f):
+    value, on_surface = KNOWN[a, f]
+    found = punch(a, f).elastic_limit()
+    assert found.ratio == pytest.approx(
+        value, rel=2e-12 if f == 0 else 2e-7
+    )  # as many digits as the table has
+    assert found.on_surface is on_surface
+
+
+def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_johnson_says():
+    solution = punch(0.0)
+    found = solution.elastic_limit()
+    assert float(solution.pressure(0.0)) / found.stress == pytest.approx(
+        3.10672722353653, rel=1e-14
+    )
+    assert found.y == pytest.approx(0.704291684588, abs=1e-12)
+    for f in (0.3, 0.4, 0.5):
+        sliding = punch(0.0, f).elastic_limit()
+        assert sliding.ratio == pytest.approx(
+            (np.pi / 2) / np.sqrt(f**2 + (1 - 2 * NU) ** 2 * (1 + f**2) / 3), rel=1e-13
+        )
+        assert sliding.x == pytest.approx(f / np.sqrt(1 + f**2), abs=1e-9)
+
+
+@pytest.mark.parametrize("a", [0.13, 0.15, 0.3, 0.7])
+def test_both_of_two_tied_maxima_are_told(a):
+    (left, depth), (right, other) = punch(a).elastic_limit().places
+    assert left == pytest.approx(-right, abs=1e-8) and depth == pytest.approx(other, abs=1e-8)
+
+
+@pytest.mark.parametrize("a", [0.0, 0.05, 0.1, 0.125])
+def test_below_the_fork_there_is_one_maximum_on_the_axis(a):
+    (place,) = punch(a).elastic_limit().places
+    assert abs(place[0]) <= 1e-8
+
+
+def test_the_jump_to_the_surface_leaves_the_limit_continuous():
+    f = np.linspace(0.2, 0.32, 25)
+    for a in (0.0, 0.3):
+        found = [punch(a, float(v)).elastic_limit() for v in f]
+        on_surface = [p.on_surface for p in found]
+        assert not on_surface[0] and on_surface[-1] and sorted(on_surface) == on_surface
+        assert np.abs(np.diff([p.ratio for p in found])).max() <= 0.12
+
+
+@settings(max_examples=15)
+@given(
+    strategies.scenes(sharp=False),
+    strategies.between(0.0, 0.6),
+    st.sampled_from(["mises", "tresca"]),
+)
+def test_no_point_of_a_fine_scan_is_worse_than_the_maximum_found(scene, friction, criterion):
+    solution = sie.solve(scene)
+    solution = solution.with_(
+        modulus=scene.Estar,
+        poisson=NU,
+        friction=friction,
+        tangential_load=friction * solution.normal_load,
+    )
+    found = solution.elastic_limit(criterion)
+    if np.isinf(found.stress):
+        return
+    (x1, x2), r = solution.edges, solution.half_width
+    marks = np.array([x1, *(b for b in scene.profile.breaks if x1 < b < x2), x2])
+    t = np.sin(0.5 * np.pi * np.linspace(0, 1, 61)) ** 2
+    x = np.unique(
+        np.concatenate(
+            [
+                (marks[:-1, None] + np.diff(marks)[:, None] * t).ravel(),
+                np.linspace(x1 - r, x2 + r, 201),
+            ]
+        )
+    )
+    y = np.concatenate(([0.0], r * np.geomspace(1e-5, 3.0, 120)))[:, None]
+    s = solution.stress(x, y)
+    scan = np.sqrt(s.j2) if criterion == "mises" else s.max_shear
+    assert scan[np.isfinite(scan)].max() <= found.stress * (1 + 1e-12)
+    # An edge is known beyond its double, and next to it the stress changes like the root of the
+    # distance.
+    here = solution.stress(found.x + np.spacing(found.x) * np.arange(-4.0, 5.0), found.y)
+    around = np.sqrt(here.j2) if criterion == "mises" else here.max_shear
+    assert abs(around[4] - found.stress) <= 1e-9 * found.stress + np.ptp(
+        around[np.isfinite(around)]
+    )
+
+
+@pytest.mark.parametrize("a", [0.0, 0.3, 0.95, 1 - 1e-9])
+@pytest.mark.parametrize("f", [0.1, 0.5])
+def test_the_largest_tension_is_at_the_trailing_edge(a, f):
+    peak = punch(a, f).peak_tension()
+    assert peak.value == pytest.approx(f * (1 - a), rel=1e-13)
+    assert peak.x == pytest.approx(-1.0, abs=1e-15)
+    assert punch(a, f).with_(
+        tangential_load=-f * punch(a).normal_load
+    ).peak_tension().x == pytest.approx(1.0, abs=1e-15)
+
+
+def test_bulk_stress_adds_to_the_tension_and_is_all_there_is_without_friction():
+    assert punch(0.3, 0.2, bulk_stress=0.5).peak_tension().value == pytest.approx(
+        0.2 * 0.7 + 0.5, rel=1e-13
+    )
+    assert punch(0.3, bulk_stress=0.5).peak_tension().value == pytest.approx(0.5, rel=1e-12)
+
+
+@settings(max_examples=15)
+@given(strategies.scenes(sharp=False), st.floats(0.05, 0.6))
+def test_no_point_of_the_surface_has_more_tension(scene, friction):
+    solution = sie.solve(scene)
+    solution = solution.with_(friction=friction, tangential_load=friction * solution.normal_load)
+    peak = solution.peak_tension()
+    (x1, x2), r = solution.edges, solution.half_width
+    x = np.linspace(x1 - r, x2 + r, 4001)
+    xx = solution.surface_stress(x).xx
+    assert xx.max() <= peak.value + 1e-13 * abs(peak.value)
+
+
+def test_a_sharp_edge_tears_and_yields_at_once():
+    flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, poisson=NU, normal_load=1.0))
+    sliding = flat.with_(friction=0.3, tangential_load=0.3)
+    assert sliding.peak_tension() == sie.Peak(np.inf, -1.0)
+    assert sliding.elastic_limit().load == 0.0
+    assert flat.elastic_limit().places == ((-1.0, 0.0), (1.0, 0.0))
+
+
+def test_an_unknown_criterion_is_refused():
+    with pytest.raises(ValueError, match=r'"rankine".*"mises" or "tresca"'):
+        punch(0.3).elastic_limit("rankine")
+
+
+@pytest.mark.parametrize("length", [1e-100, 1e-40, 1e100])
+@pytest.mark.parametrize("modulus", [1e-100, 1e100])
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_no_unit_of_length_or_stress_changes_the_elastic_limit(length, modulus, criterion):
+    """P/(bk) of a surface maximum: the slope of the stress there needs a side of the surface,
+    however small the contact.
+    """
+
+    def limit(length, modulus):
+        P = 0.01 * modulus * length
+        profile = sie.RoundedFlat(length, 50.0 * length)
+        scene = sie.Scene(
+            profile=profile,
+            modulus=modulus,
+            poisson=NU,
+            normal_load=P,
+            friction=0.3,
+            tangential_load=0.2 * P,
+        )
+        return sie.solve(scene).elastic_limit(criterion)
+
+    here, there = limit(1.0, 1.0), limit(length, modulus)
+    assert there.ratio == pytest.approx(
+        here.ratio, rel=1e-13
+    ) and there.x / length == pytest.approx(here.x, rel=1e-8)
+
+
+RUBBER = sie.Elastic(young=3.0, poisson=0.5)
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_an_incompressible_body_yields_at_once_under_a_sharp_edge(criterion):
+    scene = sie.Scene(profile=sie.Flat(0.8), body=RUBBER, indenter=sie.RIGID, normal_load=2.0)
+    found = sie.solve(scene).elastic_limit(criterion)
+    assert found.load == 0.0 and found.places == ((-0.8, 0.0), (0.8, 0.0))
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+def test_an_incompressible_body_under_a_wedge_yields_beneath_the_apex(criterion):
+    """Straight below the apex the shear stress tends to E*A/π (Johnson 1985, § 5.2), the largest
+    there is: P/k = P π/(E*A).
+    """
+    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2)
+    found = sie.solve(scene).elastic_limit(criterion)
+    assert found.load == pytest.approx(0.2 * np.pi / (0.1 * scene.Estar), rel=1e-13)
+    assert found.places == ((0.0, 0.0),) and found.j2 == pytest.approx(found.stress**2)
+
+
+@pytest.mark.parametrize("tension", [0.0, -0.05])
+def test_an_incompressible_body_in_partial_slip_yields_beside_the_apex_of_a_wedge_in_some_direction(
+    tension,
+):
+    given = {"friction": 0.5, "tangential_load": 0.04, "bulk_stress": tension}
+    scene = sie.Scene(profile=sie.Wedge(0.1), body=RUBBER, normal_load=0.2, **given)
+    solution = sie.solve(scene)
+    angle = np.linspace(1e-3, np.pi - 1e-3, 20001)
+    beside = np.sqrt(solution.stress(1e-13 * np.cos(angle), 1e-13 * np.sin(angle)).j2)
+    assert beside.max() == pytest.approx(solution.elastic_limit().stress, rel=1e-6)
+
+
+def test_a_break_next_to_the_weakest_point_is_not_tied_with_it():
+    f, b = 0.4, 1.0
+    weakest = b * f / np.sqrt(1.0 + f * f)  # of the sliding line contact, on the surface
+    parabola = sie.Piecewise((weakest + 2e-6 * b,), ((0.0, 1.0), (0.0, 1.0)))
+    solution = sie.solve(sie.Scene(profile=parabola, modulus=1.0, poisson=NU, half_width=b))
+    found = solution.with_(friction=f, tangential_load=f * solution.normal_load).elastic_limit()
+    assert len(found.places) == 1 and found.x == pytest.approx(weakest, abs=1e-8)
+
+
+def test_a_compression_that_nothing_relieves_is_the_largest_tension():
+    """With Q = 0 slip only adds to it on both sides; it is approached far away."""
+    scene = sie.Scene(
+        profile=sie.RoundedFlat(0.6, 5.0),
+        modulus=1.0,
+        normal_load=5e-3,
+        friction=0.3,
+        bulk_stress=-1e-4,
+    )
+    value, x = sie.solve(scene).peak_tension()
+    assert value == -1e-4 and abs(x) > 100.0
+
+
+# -- maxima beside edges and breaks, and what they cost -------------------------------------------
+
+
+def around(solution, x, criterion="mises"):
+    """The largest measured stress around x, in all directions, 1e-9 to 1 half-widths away."""
+    radius = solution.half_width * np.geomspace(1e-9, 1.0, 400)[:, None]
+    angle = np.linspace(1e-2, np.pi - 1e-2, 91)
+    stress = solution.stress(x + radius * np.cos(angle), radius * np.sin(angle))
+    return float((np.sqrt(stress.j2) if criterion == "mises" else stress.max_shear).max())
+
+
+LOPSIDED_CORNERS = {
+    "flank and radius": (
+        (-0.78515625, 0.15234375),
+        ((-0.505, 0.371), (0.0, 0.0), (-0.6, 3.94)),
+        0.0375,
+    ),
+    "a short flank": ((0.0, 0.01), ((-0.3, 1.0), (0.2, 0.0), (0.16, 4.0)), 0.02),
+    "a steep flank": ((0.0,), ((-0.1, 0.1), (0.6, 6.0)), 0.05),
+}
+
+
+@pytest.mark.parametrize("criterion", ["mises", "tresca"])
+@pytest.mark.parametrize("case", LOPSIDED_CORNERS)
+def test_beside_the_corner_of_an_incompressible_body_no_depth_is_worse(case, criterion):
+    """The largest stress may lie as near to a jump of h' as 1e-6 half-widths, above what it tends
+    to there.
+    """
+    breaks, pieces, load = LOPSIDED_CORNERS[case]
+    solution = sie.solve(
+        sie.Scene(profile=sie.Piecewise(breaks, pieces), modulus=1.0, poisson=0.5, normal_load=load)
+    )
+    found = solution.elastic_limit(criterion)
+    for x in solution.scene.profile.breaks:
+        assert around(solution, x, criterion) <= found.stress * (1 + 1e-12)
+
+
+def test_the_largest_stress_of_an_incompressible_body_may_lie_just_beside_a_corner():
+    """Ten digits: a search over distances from the corner and directions."""
+    profile = sie.Piecewise(
+        (-0.78515625, 0.15234375),
+        ((-0.5055084228515625, 0.37109375), (0.01171875, 0.0), (-0.5535736083984375, 3.94140625)),
+    )
+    solution = sie.solve(
+        sie.Scene(
+            profile=profile,
+            modulus=0.13998032674729158,
+            poisson=0.5,
+            normal_load=0.005251772486469636,
+        )
+    )
+    found = solution.elastic_limit()
+    r, corner = solution.half_width, profile.breaks[0]
+    assert 0.0 < found.y <= 1e-4 * r and abs(found.x - corner) <= 1e-4 * r
+    depth, angle = np.log(3e-5), 0.5 * np.pi
+    for size in 0.6 ** np.arange(30):
+        radius, turn = np.meshgrid(
+            np.exp(depth + size * np.linspace(-1, 1, 41)),
+            angle + 0.1 * size * np.linspace(-1, 1, 41),
+        )
+        stress = np.sqrt(solution.stress(corner + radius * np.cos(turn), radius * np.sin(turn)).j2)
+        k = stress.argmax()
+        depth, angle = np.log(radius.flat[k]), turn.flat[k]
+    limit = np.sqrt(solution.stress(corner, 1e-14).j2)
+    assert found.stress >= limit * (1 + 1e-6)
+
+
+def test_next_to_the_end_of_a_stick_zone_no_depth_is_worse():
+    profile = sie.Piecewise((-0.25, 0.125), ((0.25, 1.0), (0.5, 2.0), (0.375, 3.0)))
+    scene = sie.Scene(
+        profile=profile,
+        modulus=1.0,
+        poisson=0.2,
+        normal_load=0.02,
+        friction=0.35,
+        tangential_load=-0.005,
+        bulk_stress=-0.3,
+    )
+    solution = sie.solve(scene)
+    found = solution.elastic_limit()
+    for x in (
+        *solution.edges,
+        *solution.stick[0],
+        *(b for b in profile.breaks if solution.edges[0] < b < solution.edges[1]),
+    ):
+        assert around(solution, x) <= found.stress * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("exponent", [1.2644369020018338, 1.51, 1.67])
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.5])
+def test_a_cusp_takes_no_more_points_than_other_profiles(exponent, poisson, monkeypatch):
+    """The panels that resolve a cusp close in on it for hundreds of octaves; the scan does not
+    follow all of them.
+    """
+    counted = []
+    asked = peak_search.potentials
+    monkeypatch.setattr(
+        peak_search,
+        "potentials",
+        lambda tractions, z: (counted.append(len(z)), asked(tractions, z))[1],
+    )
+    scene = sie.Scene(
+        profile=sie.Power(exponent, 0.139),
+        modulus=1.0,
+        poisson=poisson,
+        normal_load=0.05,
+        tilt=1.2e-3,
+    )
+    sie.solve(scene).elastic_limit()
+    assert sum(counted) <= 3e4

@@ -1,0 +1,533 @@
+"""The stress in the body: 40-digit references at every depth, the laws of elasticity, and nothing
+computed that is not asked for.
+"""
+
+import tracemalloc
+from functools import cache
+
+import numpy as np
+import pytest
+import strategies
+from hypothesis import given
+
+import sie
+from analytic import rounded_flat
+from oracles import half_plane_stress
+from oracles.normal_contact import mp
+from sie.stress.half_plane import Stress, Tractions
+from sie.traction.base import Density
+from validation.cases import CASES, SMOOTH_CASES, exact, solved
+
+DEPTHS = (1e-10, 1e-6, 1e-2, 1.0, 1e3)
+F = 0.3
+STEEL = sie.Elastic(210e3, 0.3)
+KINDS = ("parabola", "rounded", "sinh", "corners", "two radii", "blunt", "cubic", "six", "|x|^2.5")
+REFERENCED = [next(c for c in reversed(SMOOTH_CASES) if c.name == kind) for kind in KINDS]
+
+
+def sliding(scene, friction=F, **changes):
+    """The scene in full sliding."""
+    P = sie.solve(scene).normal_load
+    return sie.solve(scene).with_(friction=friction, tangential_load=friction * P, **changes)
+
+
+PUNCH = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, half_width=1.0, poisson=0.3)
+LOPSIDED = sie.Scene(
+    profile=sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))),
+    body=STEEL,
+    normal_load=2e4,
+)
+SHARP = sie.Scene(profile=sie.Flat(1.0), body=STEEL, normal_load=100.0, tilt=1e-5)
+SCENES = {
+    "punch": PUNCH,
+    "lopsided": LOPSIDED,
+    "sharp": SHARP,
+    "wedge": sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0),
+}
+EVERY = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+
+
+def peak(solution):
+    x1, x2 = solution.edges
+    p = solution.pressure(np.linspace(x1, x2, 2003)[1:-1])
+    return float(p[np.isfinite(p)].max())
+
+
+# -- references -----------------------------------------------------------------------------------
+
+
+@cache
+def places(case):
+    """Abscissae of a case and, for the reference, the same ones with the edges as they are beyond
+    double precision.
+    """
+    (x1, x2), r, m, truth = (
+        solved(case).edges,
+        solved(case).half_width,
+        solved(case).centre,
+        exact(case),
+    )
+    inner = [b for b in case.profile.breaks if x1 < b < x2]
+    return [(x, mp.mpf(x)) for x in (m + 0.31 * r, x2 + 0.4 * r, *inner[:2])] + [
+        (x1, truth.x1),
+        (x2, truth.x2),
+    ]
+
+
+@pytest.mark.parametrize("depth", DEPTHS)
+@pytest.mark.parametrize("case", REFERENCED, ids=str)
+def test_every_component_agrees_with_forty_digits_under_kinks_and_edges_too(case, depth):
+    solution = sliding(case.scene, bulk_stress=0.25)
+    y = depth * solution.half_width
+    for x, x_exact in places(case):
+        truth, found = (
+            half_plane_stress.stresses(exact(case), x_exact, y, F, bulk=0.25),
+            solution.stress(x, y),
+        )
+        for component in ("xx", "yy", "xy"):
+            error = float(mp.mpf(float(getattr(found, component))) - getattr(truth, component))
+            assert abs(error) <= 1e-13 * peak(solution), (component, x)
+
+
+SHEARED = {
+    "profile": sie.RoundedFlat(0.5, 1.0),
+    "modulus": 1.0,
+    "normal_load": 0.3,
+    "friction": 0.4,
+}
+TRACTIONS = {
+    "pressure": sie.solve(PUNCH).pressure,
+    "sharp edges": sie.solve(SHARP).pressure,
+    "slip of one sign": sie.solve(sie.Scene(**SHEARED, tangential_load=0.09)).shear,
+    "slip of both signs": sie.solve(
+        sie.Scene(**SHEARED, tangential_load=0.03, bulk_stress=0.5)
+    ).shear,
+    "slip of both signs, mirrored": sie.solve(
+        sie.Scene(**SHEARED, tangential_load=-0.03, bulk_stress=-2.0)
+    ).shear,
+    "after a path": sie.follow(sie.Scene(**SHEARED), sie.Path([(0.3, 0.1), (0.3, -0.05)]))[1].shear,
+    "dissimilar, sliding": sie.solve(sie.Scene(**SHEARED, dundurs=0.2, sliding=1)).shear,
+    "bonded": sie.solve(
+        sie.Scene(profile=sie.Flat(1.0), modulus=1.0, dundurs=0.3, normal_load=1.0, friction=np.inf)
+    ).shear,
+}
+
+
+@pytest.mark.parametrize("density", TRACTIONS.values(), ids=TRACTIONS)
+def test_the_derivative_of_a_potential_is_its_derivative(density):
+    """By Cauchy's formula on a circle that stays within the body."""
+    x1, x2 = density.interval
+    m, r, omega = 0.5 * (x1 + x2), 0.5 * (x2 - x1), np.exp(2j * np.pi * np.arange(32) / 32)
+    for z in (
+        m + r * w
+        for w in (
+            0.3 + 0.2j,
+            -0.9 + 0.05j,
+            1.01 + 0.03j,
+            -1.3 + 0.4j,
+            0.1 + 2.0j,
+            20.0 + 9.0j,
+            0.6 - 0.1j,
+        )
+    ):
+        radius = 0.3 * z.imag
+        around = density.cauchy(z + radius * omega)
+        assert density.cauchy_derivative(z) == pytest.approx(
+            (around / omega).mean() / radius,
+            rel=1e-11,
+            abs=1e-13 * np.abs(around).max() / abs(radius),
+        )
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if c.sharp != (False, False)], ids=str)
+def test_potentials_of_sharp_edges_agree_with_forty_digits(case):
+    """F from the reference's own quadrature, F' from Cauchy's formula on it."""
+    pressure, r, m = solved(case).pressure, solved(case).half_width, solved(case).centre
+    for z in (
+        m + r * (0.3 + 0.2j),
+        m + r * (-1.1 + 0.01j),
+        m + r * (2.0 + 3.0j),
+        m + r * (-30.0 + 40.0j),
+    ):
+        exact_F, exact_dF = _by_circle(exact(case).potential, mp.mpmathify(z))
+        F, dF = pressure.potentials(z)
+        assert abs(complex(exact_F) - F) <= 2e-14 * abs(F)
+        assert abs(complex(exact_dF) - dF) <= 1e-13 * abs(dF)
+        assert pressure.cauchy(z) == pytest.approx(complex(F), rel=1e-14)
+
+
+def _by_circle(function, z, n=40):
+    rho = z.imag / 8
+    turns = [mp.expjpi(mp.mpf(2 * j) / n) for j in range(n)]
+    values = [function(z + rho * w) for w in turns]
+    return sum(values) / n, sum(v / w for v, w in zip(values, turns, strict=True)) / (n * rho)
+
+
+@pytest.mark.parametrize("a", [0.0, 0.3, 0.8, 1 - 1e-6])
+def test_the_potentials_of_the_rounded_punch_are_the_closed_forms_ones(a):
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0), modulus=1.0, half_width=1.0
+        )
+    )
+    x, y = np.meshgrid(
+        [-3.0, -1.0, -a, 0.0, 0.47, a, 1.0, 40.0], [1e-12, 1e-6, 1e-3, 0.1, 1.0, 2.9, 3.1, 1e4]
+    )
+    z = x + 1j * y
+    F, dF = solution.pressure.potentials(z)
+    parameters = {"half_flat": a, "half_width": 1.0, "radius": 1.0, "modulus": 1.0}
+    scale = peak(solution)
+    exact_F, exact_dF = (
+        rounded_flat.potential(z, **parameters),
+        rounded_flat.potential_derivative(z, **parameters),
+    )
+    assert np.abs(F - exact_F).max() <= 1e-13 * scale
+    assert (y * np.abs(dF - exact_dF)).max() <= 1e-13 * scale
+    far = np.abs(z) > 2.0
+    assert np.abs(F / exact_F - 1)[far].max() <= 1e-13
+    assert np.abs(dF / exact_dF - 1)[far].max() <= 1e-13
+
+
+# -- laws -----------------------------------------------------------------------------------------
+
+
+def derivatives(function, x, y, span):
+    """(∂/∂x, ∂/∂y) of functions that are analytic around (x, y), by Chebyshev interpolation in a
+    cross of that size.
+    """
+    nodes = np.polynomial.chebyshev.chebpts1(20)
+
+    def slope(values):
+        c = np.polynomial.chebyshev.chebfit(nodes, values, 19)
+        return np.polynomial.chebyshev.chebval(0.0, np.polynomial.chebyshev.chebder(c)) / span
+
+    return slope(function(x + span * nodes, y)), slope(function(x, y + span * nodes))
+
+
+@EVERY
+@pytest.mark.parametrize("at", [(0.0, 0.5), (0.9, 0.03), (-1.3, 0.2), (4.0, 7.0)])
+def test_the_stress_is_in_equilibrium_and_compatible(scene, at):
+    solution = sliding(scene, bulk_stress=3.0) if scene is not SHARP else sliding(scene)
+    r, m = solution.half_width, solution.centre
+    x, y, span = m + at[0] * r, at[1] * r, 0.25 * at[1] * r
+    stress = solution.stress
+    xx_x, _ = derivatives(lambda x, y: stress(x, y).xx, x, y, span)
+    xy_x, xy_y = derivatives(lambda x, y: stress(x, y).xy, x, y, span)
+    _, yy_y = derivatives(lambda x, y: stress(x, y).yy, x, y, span)
+    scale = peak(solution) / y
+    assert abs(xx_x + xy_y) <= 1e-11 * scale
+    assert abs(xy_x + yy_y) <= 1e-11 * scale
+    # compatibility: σ_xx + σ_yy is harmonic, the mean over a circle is its value at the centre
+    turn = 2 * np.pi * np.arange(64) / 64
+    ring = stress(x + 0.5 * y * np.cos(turn), y + 0.5 * y * np.sin(turn)).in_plane_sum
+    assert ring.mean() == pytest.approx(
+        float(stress(x, y).in_plane_sum), abs=1e-13 * peak(solution)
+    )
+
+
+@EVERY
+def test_strains_are_those_of_the_displacement_gradients_and_rotations_are_theirs_too(scene):
+    if scene.body is None:
+        scene = sie.Scene(profile=scene.profile, body=STEEL, half_width=1.0)
+    solution = sliding(scene)
+    r = solution.half_width
+    x, y = solution.centre + 0.4 * r, 0.3 * r
+    g, e = solution.stress(x, y).gradients, solution.stress(x, y).strain
+    scale = peak(solution) / STEEL.young
+    assert (
+        g.xx == pytest.approx(e.xx)
+        and g.yy == pytest.approx(e.yy)
+        and g.xy + g.yx == pytest.approx(2 * e.xy)
+    )
+    # the gradients of one displacement: ∂y (u_x,x) = ∂x (u_x,y), ∂y (u_y,x) = ∂x (u_y,y)
+    gradient = lambda name: lambda x, y: getattr(solution.stress(x, y).gradients, name)  # noqa: E731
+    of = {name: derivatives(gradient(name), x, y, 0.2 * y) for name in ("xx", "xy", "yx", "yy")}
+    assert of["xx"][1] == pytest.approx(of["xy"][0], abs=1e-10 * scale / y)
+    assert of["yx"][1] == pytest.approx(of["yy"][0], abs=1e-10 * scale / y)
+
+
+def test_the_surface_takes_the_shape_of_a_rigid_punch():
+    """In contact u_y = const - h when the indenter is rigid: u_y,x = -h'."""
+    scene = sie.Scene(
+        profile=sie.Parabola(50.0),
+        body=sie.Elastic(210e3, 0.5),
+        indenter=sie.RIGID,
+        normal_load=100.0,
+    )
+    solution = sie.solve(scene)
+    x = np.linspace(-0.9, 0.9, 7) * solution.half_width
+    assert solution.surface_stress(x).gradients.yx == pytest.approx(-x / 50.0, abs=1e-16)
+
+
+@given(strategies.scenes(sharp=False), strategies.between(0.0, 0.8))
+def test_the_surface_bears_the_tractions(scene, friction):
+    solution = sliding(scene, friction) if scene.moment is None else sie.solve(scene)
+    (x1, x2), r = solution.edges, solution.half_width
+    x = np.linspace(x1 - r, x2 + r, 41)
+    surface = solution.surface_stress(x)
+    p, q = solution.pressure(x), solution.shear(x)
+    finite = np.isfinite(p)
+    assert np.abs(surface.yy[finite] + p[finite]).max() <= 1e-15 * (
+        peak(solution) + np.abs(surface.xx[finite]).max()
+    )
+    assert (surface.xy == -q).all()
+    below = solution.stress(x, 1e-14 * r)
+    marks = np.array([x1, x2, *(b for b in scene.profile.breaks if np.isfinite(b))])
+    near = finite & (np.abs(x[:, None] - marks).min(axis=1) > 0.01 * r)
+    for name in ("xx", "yy", "xy"):
+        assert np.abs(
+            getattr(below, name)[near] - getattr(surface, name)[near]
+        ).max() <= 1e-10 * peak(solution)
+
+
+@EVERY
+@pytest.mark.parametrize("radius", [1.2, 3.0, 1e4])
+def test_a_half_circle_carries_the_load(scene, radius):
+    solution = sliding(scene)
+    nodes, weights = np.polynomial.legendre.leggauss(120)
+    angle = 0.5 * np.pi * (nodes + 1.0)
+    nx, ny, R = np.cos(angle), np.sin(angle), radius * solution.half_width
+    s = solution.stress(solution.centre + R * nx, R * ny)
+    ds = 0.5 * np.pi * R * weights
+    P, Q = solution.normal_load, solution.shear.resultant
+    assert -(ds * (s.xx * nx + s.xy * ny)).sum() == pytest.approx(Q, abs=2e-13 * P)
+    assert -(ds * (s.xy * nx + s.yy * ny)).sum() == pytest.approx(P, rel=2e-13)
+
+
+@EVERY
+def test_far_away_only_the_resultant_tells(scene):
+    """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ), about the line of action; what differs falls off
+    like 1/r³.
+    """
+    solution = sliding(scene)
+    P, Q = solution.normal_load, solution.shear.resultant
+    origin = solution.moment / P
+    angle = np.linspace(0.0, np.pi, 9)
+    for distance in (1e3, 1e6):
+        R = distance * solution.half_width
+        y = R * np.sin(angle)
+        y[-1] = 0.0
+        s = solution.stress(origin + R * np.cos(angle), y)
+        radial = s.xx * np.cos(angle) ** 2 + s.yy * np.sin(angle) ** 2 + s.xy * np.sin(2 * angle)
+        flamant = -2.0 / (np.pi * R) * (P * np.sin(angle) + Q * np.cos(angle))
+        assert (
+            np.abs(radial - flamant).max() <= (20.0 / distance**2 + 2e-15) * np.abs(flamant).max()
+        )
+
+
+@EVERY
+def test_the_mirrored_scene_has_the_mirrored_stress(scene):
+    here, there = sliding(scene), sliding(scene)
+    mirrored = sie.Scene(profile=scene.profile.mirrored(), body=scene.body,
+                         modulus=scene.modulus if scene.body is None else None,
+                         poisson=scene.poisson, normal_load=here.normal_load,
+                         tilt=-scene.tilt)  # fmt: skip
+    there = sie.solve(mirrored).with_(friction=F, tangential_load=-F * here.normal_load)
+    x, y = np.meshgrid(
+        np.linspace(-2, 2, 9) * here.half_width, np.array([0.03, 0.4, 3.0]) * here.half_width
+    )
+    a, b = here.stress(x, y), there.stress(-x, y)
+    for name, sign in (("xx", 1), ("yy", 1), ("xy", -1), ("j2", 1)):
+        scale = peak(here) ** (2 if name == "j2" else 1)
+        assert np.abs(getattr(a, name) - sign * getattr(b, name)).max() <= 1e-12 * scale
+
+
+def test_stresses_scale_with_the_units():
+    solution = sliding(PUNCH)
+    x, y = np.array([0.1, 0.5, 0.9, 7.0]), np.array([1e-9, 0.2, 0.0, 30.0])
+    here = solution.stress(x, y)
+    for length, stress in ((1e-100, 1.0), (1e100, 1.0), (2.0**-20, 2.0**40)):
+        P = solution.normal_load * stress * length
+        scene = sie.Scene(
+            profile=sie.RoundedFlat(0.5 * length, length),
+            modulus=stress,
+            normal_load=P,
+            poisson=0.3,
+        )
+        there = sliding(scene).stress(x * length, y * length)
+        assert there.xx / stress == pytest.approx(here.xx, rel=1e-13)
+
+
+def test_a_stress_unpacks_into_its_components():
+    s = sliding(PUNCH).stress([0.1, 0.5], 0.2)
+    xx, yy, xy, zz = s
+    assert (xx == s.xx).all() and (yy == s.yy).all() and (xy == s.xy).all() and (zz == s.zz).all()
+
+
+def test_bulk_stress_is_added_along_the_surface_only():
+    solution = sliding(PUNCH)
+    x, y = np.array([0.1, 0.5, 7.0]), np.array([0.2, 0.0, 30.0])
+    plain, pulled = solution.stress(x, y), solution.with_(bulk_stress=0.5).stress(x, y)
+    assert pulled.xx - plain.xx == pytest.approx(0.5)
+    assert pulled.yy == pytest.approx(plain.yy, abs=1e-15) and (pulled.xy == plain.xy).all()
+    assert pulled.zz - plain.zz == pytest.approx(0.15)
+
+
+# -- invariants -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("plane", ["strain", "stress"])
+def test_invariants_are_those_of_the_matrix_of_components(plane):
+    body = sie.Elastic(210e3, 0.3, plane)
+    solution = sliding(sie.Scene(profile=sie.RoundedFlat(1.0, 50.0), body=body, normal_load=500.0))
+    s = solution.stress(np.array([0.0, 0.7, -1.2, 3.0]), np.array([0.0, 0.3, 0.1, 2.0]))
+    for k in range(4):
+        matrix = np.array([[s.xx[k], s.xy[k], 0.0], [s.xy[k], s.yy[k], 0.0], [0.0, 0.0, s.zz[k]]])
+        deviator = matrix - np.trace(matrix) / 3.0 * np.eye(3)
+        principal = np.linalg.eigvalsh(matrix)[::-1]
+        assert s.j2[k] == pytest.approx(0.5 * (deviator**2).sum(), rel=1e-12)
+        assert s.mises[k] == pytest.approx(np.sqrt(1.5 * (deviator**2).sum()), rel=1e-12)
+        assert [p[k] for p in s.principal] == pytest.approx(principal, rel=1e-11, abs=1e-10)
+        assert s.max_shear[k] == pytest.approx(0.5 * (principal[0] - principal[2]), rel=1e-11)
+
+
+def test_where_the_pressure_is_infinite_nothing_is_nan():
+    for scene in (SCENES["wedge"], SHARP):
+        for friction in (0.0, 0.3):
+            solution = sliding(scene, friction) if friction else sie.solve(scene)
+            s = solution.surface_stress(np.array([*solution.edges, 0.0]))
+            for values in (s.xx, s.yy, s.xy, s.zz, s.j2, s.mises, s.max_shear, *s.principal):
+                assert not np.isnan(values).any()
+
+
+@pytest.mark.parametrize("body", [STEEL, sie.Elastic(210e3, 0.5)], ids=["steel", "incompressible"])
+def test_where_the_shear_is_infinite_no_displacement_gradient_is_nan(body):
+    for profile in (sie.Wedge(0.2), sie.Flat(1.0)):
+        solution = sliding(sie.Scene(profile=profile, body=body, normal_load=9.0))
+        s = solution.surface_stress(np.array([*solution.edges, 0.0]))
+        for values in (*s.strain, *s.gradients):
+            assert not np.isnan(values).any()
+
+
+def test_displacement_gradients_next_to_an_infinite_shear_have_the_signs_of_those_there():
+    solution = sliding(sie.Scene(profile=sie.Wedge(0.2), body=STEEL, normal_load=9.0))
+    at, beside = solution.stress(0.0, 0.0).gradients, solution.stress(0.0, 1e-200).gradients
+    assert (at.xy, at.yx) == (-np.inf, np.inf) and beside.xy < 0.0 < beside.yx
+
+
+def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
+    body, indenter = sie.Elastic(3.0, 0.2), sie.Elastic(40.0, 0.3)
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.Flat(0.8), body=body, indenter=indenter, normal_load=2.0, friction=np.inf
+        )
+    )
+    s = solution.surface_stress(solution.edges)
+    for values in (*s, s.mises, *s.principal, *s.strain, *s.gradients):
+        assert not np.isnan(values).any()
+    assert solution.elastic_limit().load == 0.0 and solution.peak_tension().value == np.inf
+
+
+# -- only what is asked for -----------------------------------------------------------------------
+
+
+class Watched(Density):
+    """A density that tells what it was asked for."""
+
+    def __init__(self, density):
+        self.density, self.asked = density, []
+        self.resultant, self.moment = density.resultant, density.moment
+
+    @property
+    def interval(self):
+        return self.density.interval
+
+    def __call__(self, x):
+        self.asked.append("p")
+        return self.density(x)
+
+    def cauchy(self, z, side=1):
+        self.asked.append("F")
+        return self.density.cauchy(z, side)
+
+    def cauchy_derivative(self, z, side=1):
+        self.asked.append("F'")
+        return self.density.cauchy_derivative(z, side)
+
+    def hilbert(self, x):
+        self.asked.append("hilbert")
+        return self.density.hilbert(x)
+
+
+def watched():
+    pressure = Watched(sie.solve(PUNCH).pressure)
+    return pressure, Tractions(pressure, sie.superposed((0.3, pressure)), 0.0, 0.3)
+
+
+def test_on_the_surface_no_potential_is_computed():
+    pressure, tractions = watched()
+    s = Stress(tractions, np.linspace(-2, 2, 11), 0.0)
+    assert pressure.asked == []
+    assert s.mises.shape == s.xx.shape == (11,)
+    assert set(pressure.asked) == {"p", "hilbert"}
+
+
+def test_the_sum_of_the_in_plane_stresses_needs_no_derivative():
+    pressure, tractions = watched()
+    s = Stress(tractions, 0.2, 0.5)
+    value = s.in_plane_sum
+    assert pressure.asked == ["F"]
+    assert value == pytest.approx(float(s.xx + s.yy))
+
+
+def test_pressure_and_shear_in_full_sliding_share_one_evaluation():
+    pressure, tractions = watched()
+    s = Stress(tractions, np.array([0.2, 0.3]), 0.5)
+    assert (s.xx.shape, s.mises.shape, s.principal[0].shape) == ((2,), (2,), (2,))
+    assert pressure.asked == ["F", "F'"]
+
+
+def test_a_million_points_hold_at_most_ten_arrays_of_that_size():
+    solution = sliding(PUNCH)
+    x, y = np.linspace(-2, 2, 1000), np.linspace(0, 3, 1000)[:, None]
+    solution.stress(0.1, 0.1).mises  # noqa: B018
+    tracemalloc.start()
+    solution.stress(x, y).mises  # noqa: B018
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most <= 10 * 8e6
+
+
+# -- bad questions --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "words"),
+    [
+        (0.0, -0.1, "y = -0.1 is above the surface"),
+        (np.nan, 0.1, "x = nan is not finite"),
+        (0.0, np.inf, "y = inf"),
+        ("a", 0.0, "x is not"),
+    ],
+)
+def test_bad_points_are_refused(x, y, words):
+    with pytest.raises(ValueError, match=words):
+        sie.solve(PUNCH).stress(x, y)
+
+
+def test_what_needs_an_elastic_constant_says_so():
+    s = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)).stress(
+        0.0, 0.5
+    )
+    assert np.isfinite(s.xx)
+    with pytest.raises(ValueError, match="Poisson's ratio"):
+        s.mises  # noqa: B018
+    with pytest.raises(ValueError, match="elastic constants of the body"):
+        s.strain  # noqa: B018
+
+
+def test_the_stress_in_a_rigid_body_is_refused():
+    scene = sie.Scene(profile=sie.Parabola(1.0), body=sie.RIGID, indenter=STEEL, half_width=0.1)
+    with pytest.raises(sie.ContactError, match="rigid"):
+        sie.solve(scene).stress(0.0, 0.1)
+
+
+def test_partial_slip_is_not_mistaken_for_full_sliding():
+    slipping = sie.solve(sie.Scene(
+        profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0, friction=0.5, tangential_load=0.4,
+    ))  # fmt: skip
+    sliding = slipping.with_(tangential_load=0.5)
+    assert slipping.surface_stress(0.0).xy < 0.99 * sliding.surface_stress(
+        0.0
+    ).xy < 0.0 or slipping.shear(0.0) < 0.9 * sliding.shear(0.0)
+    assert slipping.peak_tension().value < sliding.peak_tension().value

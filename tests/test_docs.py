@@ -1,0 +1,65 @@
+"""The documents name modules, files and links that exist; the picture is that of the imports."""
+
+import importlib
+import re
+import runpy
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import sie
+
+ROOT = Path(__file__).parent.parent
+DOCUMENTS = sorted(
+    [*(ROOT / "docs").rglob("*.md"), *(ROOT / name for name in ("README.md", "CONTRIBUTING.md"))]
+)
+each = pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+PACKAGES = "sie|analytic|validation|oracles"
+
+
+def quoted(document):
+    return re.findall(r"`([^`\n]+)`", document.read_text(encoding="utf-8"))
+
+
+def resolve(name):
+    """The module or the attribute that a dotted name stands for."""
+    module, _, attribute = name.rpartition(".")
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError:
+        return getattr(resolve(module), attribute)
+
+
+@each
+def test_every_module_that_a_document_names_exists(document):
+    names = {n for n in quoted(document) if re.fullmatch(rf"({PACKAGES})(\.\w+)+", n)}
+    for name in names:
+        assert resolve(name) is not None
+
+
+@each
+def test_every_file_that_a_document_names_exists(document):
+    folders = f"{PACKAGES}|docs|tests|benchmarks"
+    paths = {n for n in quoted(document) if re.fullmatch(rf"({folders})/[\w./-]*", n)}
+    links = re.findall(r"\]\(([^)#:]+)\)", document.read_text(encoding="utf-8"))
+    for place in [*(ROOT / path for path in paths), *(document.parent / link for link in links)]:
+        assert place.exists() or place.stem == "KIND", place
+
+
+def test_the_picture_of_the_architecture_is_that_of_the_imports():
+    script = runpy.run_path(str(ROOT / "docs" / "draw_architecture.py"))
+    drawn = (ROOT / "docs" / "architecture.svg").read_text(encoding="utf-8")
+    assert drawn == script["picture"](), "run python docs/draw_architecture.py"
+
+
+def test_the_version_is_written_in_one_module():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert "version" in project["project"]["dynamic"]
+    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "sie.__version__"}
+    assert re.fullmatch(r"\d+\.\d+\.\d+\S*", sie.__version__)
+
+
+def test_the_citation_has_the_version_of_the_package():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {sie.__version__}\n" in citation

@@ -1,0 +1,596 @@
+"""The validation's own machinery: verdicts come from numbers, a measure that cannot fail is called
+blind, the page needs nothing else.
+"""
+
+import json
+import math
+import pkgutil
+import re
+import time
+from io import StringIO
+
+import numpy as np
+import pytest
+
+import sie
+from sie import charts, files
+from sie.numerics import cauchy_sums
+from validation import cases, readme
+from validation.__main__ import TOPICS, main, summary
+from validation.harness import measures
+from validation.harness.drawing import Figure, axes, draw, drawn, heat, labelled
+from validation.harness.measures import largest, smallest
+from validation.harness.progress import Progress
+from validation.harness.records import Claim, Curve, Doing, Found, Map, Table, checked, kept, plain
+from validation.harness.report import Section, number, page
+from validation.harness.running import run, workers
+from validation.harness.timing import medians
+from validation.rivals import solvers
+from validation.rivals.problems import kinked, sliding, wavy
+from validation.topics import certificate, economy, paper, pressure, speed, stability, sweeps
+from validation.topics.sweeps import SPOILED, Outcome
+
+
+def claim(measured, control, **given):
+    return Claim("what", "who", measured, control, "wrong", **({"high": 1.0} | given))
+
+
+# -- verdicts -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("made", "verdict"),
+    [
+        (claim(0.5, 2.0), "holds"),
+        (claim(1.5, 2.0), "fails"),
+        (claim(math.nan, 2.0), "fails"),
+        (claim(0.5, 0.9), "blind"),
+        (claim(0.5, math.nan), "blind"),
+        (claim(math.nan, 0.5, erratum="it is not so"), "fails"),
+        (claim(2.0, 0.5, erratum="it is not so"), "refuted"),
+        (claim(0.5, 0.5, erratum="it is not so"), "fails"),
+        (claim(2.0, 3.0, erratum="it is not so"), "blind"),
+        (claim(2.0, 0.0, low=1.0, high=math.inf), "holds"),
+        (claim(0.5, 0.0, low=1.0, high=math.inf), "fails"),
+    ],
+)
+def test_a_verdict_follows_from_the_numbers(made, verdict):
+    assert made.verdict == verdict
+    assert made.ok == (verdict in ("holds", "refuted"))
+
+
+def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
+    made = checked(lambda v: v * v, 0.1, 3, what="", by="", named="three", high=1.0)
+    assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
+
+
+def test_the_worst_of_answers_of_which_one_is_none_is_none():
+    assert math.isnan(largest([1e-16, math.nan, 1e-15]))
+    assert math.isnan(smallest([1e-16, math.nan, 1e-15]))
+    assert (largest([1.0, 3.0]), smallest([1.0, 3.0])) == (3.0, 1.0)
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_no_measure_passes_over_an_answer_that_is_none(place):
+    found = [1.0, 2.0, 3.0]
+    assert (
+        measures.apart(found, [1, 2, 3])
+        == sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error
+        == 0.0
+    )
+    found[place] = math.nan
+    assert math.isnan(measures.apart(found, [1, 2, 3]))
+    assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
+
+
+def test_a_pressure_that_is_none_fails_the_figures_of_the_paper(monkeypatch):
+    """In the last of ten contacts, at one of the points only."""
+
+    class Holed(sie.Solution):
+        def __getattribute__(self, name):
+            right = super().__getattribute__(name)
+            return (
+                (lambda x: np.where(np.arange(len(x)) == 3, np.nan, right(x)))
+                if name == "pressure"
+                else right
+            )
+
+    punch = charts.punch
+    monkeypatch.setattr(
+        charts,
+        "punch",
+        lambda ratio: Holed(punch(ratio).scene, 1e-13) if ratio == 0.9 else punch(ratio),
+    )
+    made = next(r for r in paper.figure_2() if isinstance(r, Claim))
+    assert not made.ok
+
+
+def test_a_refusal_in_a_map_fails_its_claim(monkeypatch):
+    right = sweeps.scale
+
+    def refused(length, modulus):
+        if length > 1.0 < modulus:
+            raise sie.ContactError("no")
+        return right(length, modulus)
+
+    monkeypatch.setattr(sweeps, "scale", refused)
+    made = next(
+        r for r in stability.maps(quick=True) if isinstance(r, Claim) and "lengths" in r.what
+    )
+    assert made.verdict == "fails"
+
+
+def test_a_run_that_could_not_end_well_does_not_begin(monkeypatch, tmp_path, capsys):
+    def never(*given):
+        raise AssertionError("computed")
+
+    monkeypatch.setattr("validation.__main__.run", never)
+    (tmp_path / "file").write_text("")
+    for given, words in (
+        (["--only", "nonsense"], "invalid choice: 'nonsense'"),
+        (["--out", str(tmp_path / "file")], "is no folder that can be written to"),
+        (["--out", str(tmp_path / "file" / "below")], "is no folder that can be written to"),
+        (["--readme", "--only", "pressure"], "speed"),
+    ):
+        with pytest.raises(SystemExit) as end:
+            main([*given])
+        assert end.value.code == 2
+        assert words in capsys.readouterr().err
+
+
+def test_a_report_that_cannot_be_written_leaves_the_last_one_whole(monkeypatch, tmp_path, capsys):
+    write = files._write_part
+
+    def full(part, data, like):
+        write(part, data[:10], like)
+        if like.suffix == ".json":
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("validation.__main__.run", lambda names, quick: ([], 0.0))
+    monkeypatch.setattr(files, "_write_part", full)
+    for name in ("report.html", "report.json"):
+        (tmp_path / name).write_text("as it was")
+    assert main(["--out", str(tmp_path)]) == 2
+    assert "No space left on device" in capsys.readouterr().err
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
+        "report.html": "as it was",
+        "report.json": "as it was",
+    }
+
+
+def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("validation.__main__.run", interrupted)
+    assert main(["--out", str(tmp_path)]) == 130
+    assert "interrupted: nothing was written" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_failing_claim_is_printed_and_sets_the_exit_status(capsys, tmp_path):
+    sections = [Section("one", "One", "", Found([claim(0.5, 2.0), claim(3.0, 2.0)]), (), 0.1)]
+    assert summary(sections, 0.1, tmp_path) == 1
+    assert "FAILS: one: what" in capsys.readouterr().out
+    assert (
+        summary([Section("one", "One", "", Found([claim(0.5, 2.0)]), (), 0.1)], 0.1, tmp_path) == 0
+    )
+
+
+# -- topics ---------------------------------------------------------------------------------------
+
+
+UNTIMED = (
+    "appendix",
+    "paper",
+    "pressure",
+    "stress",
+    "slip",
+    "sliding",
+    "sampled",
+    "stability",
+    "certificate",
+    "mutation",
+)
+
+
+@pytest.mark.parametrize("name", UNTIMED)
+def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
+    """Topics that do not measure time, or one ratio of it that is far from its bar (stress, slip,
+    sampled).
+    """
+    (section,), _ = run([name], quick=True)
+    assert section.found.claims
+    for made in section.found.claims:
+        assert made.ok or "time" in made.what or "over two logarithms" in made.what, made
+    for figure in section.figures:
+        assert figure.caption
+        assert figure.element.startswith("<svg")
+
+
+def test_every_topic_says_what_it_is():
+    import importlib  # noqa: PLC0415
+
+    for name in TOPICS:
+        topic = importlib.import_module(f"validation.topics.{name}")
+        assert topic.__doc__
+        assert topic.TITLE
+        assert len(topic.SECONDS) == 2
+        assert topic.TIMED in (False, True)
+
+
+def test_every_module_of_figures_is_named_after_a_topic():
+    from validation.topics import figures  # noqa: PLC0415
+
+    drawn_topics = {module.name for module in pkgutil.iter_modules(figures.__path__)}
+    assert drawn_topics < set(TOPICS)
+    assert set(TOPICS) - drawn_topics == {"kinks"}  # a table says it all
+
+
+def test_the_economy_measures_a_difference_and_a_footprint():
+    one = np.array([1.0, 2.0])
+    assert economy.difference((one, one)) == 0.0
+    assert economy.difference((one, one * (1 + 1e-11))) == pytest.approx(1e-11, rel=1e-4)
+
+
+def test_a_skip_that_costs_time_is_seen():
+    assert economy.saved("", [(1.0, 2.0), (3.0, 4.0)], 1.3).verdict == "holds"
+    assert economy.saved("", [(1.0, 2.0), (3.0, 3.0)], 1.3).verdict == "fails"
+
+
+def test_the_states_of_the_frontier():
+    assert Outcome(error=1e-15, estimate=1e-15).state(1e-13) == "full"
+    assert Outcome(error=1e-9, estimate=1e-9).state(1e-13) == "known"
+    assert Outcome(error=1e-9, estimate=1e-12).state(1e-13) == "lost"
+    assert Outcome(error=1e-9).state(1e-13) == "lost"
+    assert Outcome(refused="so").state(1e-13) == "known"
+
+
+def test_a_sweep_sees_an_answer_that_is_off():
+    sweep = stability.all_sweeps(True)[0]
+    outcome = sweep.run(0.5)
+    assert outcome.error < 1e-13
+    assert outcome.spoiled == pytest.approx(SPOILED, rel=0.5)
+
+
+def test_the_sweep_over_pieces_sums_over_all_of_them(monkeypatch):
+    """Pieces without corners between them would never meet the sums over far ones."""
+    assert sweeps.pieces(1000).error < 1e-13
+    right = cauchy_sums._series
+    monkeypatch.setattr(cauchy_sums, "_series", lambda *given: right(*given) * (1 + 1e-9))
+    assert sweeps.pieces(1000).error > 1e-12
+
+
+def test_random_contacts_are_the_same_in_every_run():
+    one, two = (certificate.random_contact(np.random.default_rng(5)) for _ in range(2))
+    assert one[:2] == two[:2]
+
+
+# -- peers and truths -----------------------------------------------------------------------------
+
+
+def test_the_peers_are_right_where_they_should_be():
+    """Hertz, p = sqrt(1 - x²)/2 for E* = R = 1."""
+    x = np.linspace(-0.95, 0.95, 41)
+    exact = 0.5 * np.sqrt(1 - x * x)
+    assert solvers.gauss_chebyshev(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-14)
+    assert solvers.erdogan_gupta(lambda t: t, -1.0, 1.0, 16, x) == pytest.approx(exact, rel=1e-13)
+    errors = []
+    for n in (128, 512):
+        t = ((np.arange(n) + 0.5) / n - 0.5) * 3.2
+        p = solvers.boundary_elements(0.5 * t * t, 3.2 / n, np.pi / 4)
+        inner = np.abs(t) < 0.9
+        errors.append(np.abs(p - 0.5 * np.sqrt(np.maximum(1 - t * t, 0)))[inner].max())
+    assert errors[1] < errors[0] / 3 < 0.01
+
+
+def test_the_periodic_elements_reach_westergaards_wave():
+    problem, n = wavy(), 256
+    x = (np.arange(n) + 0.5) / n - 0.5
+    exact = np.where(np.abs(x) < 0.19, problem.closed(np.tan(np.pi * np.clip(x, -0.19, 0.19))), 0.0)
+    from validation.topics.work_precision import _closed_load  # noqa: PLC0415
+
+    p = solvers.boundary_elements(problem.gap(x), 1 / n, _closed_load(problem), periodic=True)
+    assert np.abs(p - exact)[np.abs(x) < 0.19].max() < 0.02 * exact.max()
+    assert _closed_load(problem) == pytest.approx(
+        np.pi * 0.01 * np.sin(0.2 * np.pi) ** 2, rel=1e-13
+    )
+
+
+def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(monkeypatch):
+    """A module that is always there stands for an installed code, with a wrong answer that the race
+    must see.
+    """
+    from validation.topics import work_precision  # noqa: PLC0415
+
+    def flat(gap, spacing, load):
+        return np.full(len(gap), load / (len(gap) * spacing))
+
+    monkeypatch.setattr(
+        solvers,
+        "INSTALLABLE",
+        {"Tamaas": ("math", flat), "ContactMechanics": ("no_such_module", flat)},
+    )
+    assert [m.name for m in work_precision.methods()][len(work_precision.OURS_AND_TEXTBOOKS) :] == [
+        "Tamaas"
+    ]
+    assert work_precision._absent() == ["ContactMechanics (not installed)"]
+    method = work_precision.methods()[-1]
+    assert method.applies(wavy())
+    assert not method.applies(kinked(0.5))
+    assert all(error > 0.5 for _, error, _, _ in work_precision.race(wavy(), method, quick=True))
+
+
+@pytest.mark.parametrize("problem", [kinked(0.5), wavy(), sliding()], ids=lambda p: p.name)
+def test_a_race_measures_the_error_it_says(problem):
+    p = problem.solution.pressure(problem.x)
+    assert problem.error(p) < 1e-13
+    assert problem.error(p * (1 + 1e-9)) == pytest.approx(1e-9, rel=0.1)
+
+
+def test_the_truth_of_sliding_agrees_with_the_closed_form():
+    from analytic import sliding_rounded_flat  # noqa: PLC0415
+    from validation.rivals.problems import Sliding  # noqa: PLC0415
+
+    truth, scene = Sliding(0.3), sliding().scene
+    P = sie.solve(scene).normal_load
+    for x in (-0.9, -0.2, 0.3, 0.7):
+        closed = sliding_rounded_flat.pressure(
+            x, normal_load=P, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.3
+        )
+        assert float(truth.pressure(x)) == pytest.approx(float(closed), rel=1e-12)
+
+
+def test_the_shortest_of_some_calls_hides_what_a_busy_machine_adds(monkeypatch):
+    """On a clock that only the two programs move; every third call is disturbed."""
+    now, calls = [0.0], [0]
+    monkeypatch.setattr("validation.harness.timing.time.perf_counter", lambda: now[0])
+
+    def work(seconds):
+        calls[0] += 1
+        now[0] += seconds * (1.0 + 5.0 * (calls[0] % 3 == 0))
+
+    one, eight = medians((lambda: work(1e-3), lambda: work(8e-3)), 0.5)
+    assert (one, eight) == (pytest.approx(1e-3), pytest.approx(8e-3))
+
+
+# -- the page -------------------------------------------------------------------------------------
+
+
+def a_section(name="one"):
+    found = Found(
+        [
+            claim(0.5, 2.0),
+            claim(5.0, 0.5, erratum="not <b>so</b>"),
+            Table("A table", ("x", "y"), [("a < b", 1e-9)]),
+        ]
+    )
+    found.append(Curve("figure", "curve", [1.0, 2.0], [1e-3, math.inf]))
+    drawing, ax = axes()
+    draw(ax, found.curves("figure"))
+    labelled(ax, "x [mm]", "y", log="y")
+    return Section(
+        name,
+        "Title",
+        "Words.\n\nMore words.",
+        found,
+        [drawn(Figure(name, drawing, "What is seen."))],
+        0.1,
+    )
+
+
+def test_the_page_needs_no_network_and_fits_a_phone():
+    html = page([a_section("one"), a_section("two")], 1.0, quick=True)
+    assert not re.search(r"<(script|link|iframe|img)|@import|url\((?!#)", html)
+    assert not re.search(r'(src|href)="(?!#)', html)
+    assert 'name="viewport"' in html
+    assert "@media (max-width" in html
+    assert html.count("<svg") == 2
+    assert "<figcaption>What is seen." in html
+    assert "x [mm]" in html
+
+
+def test_a_map_is_vector_graphics_with_a_name_for_those_who_cannot_see_it():
+    drawing, ax = axes()
+    heat(ax, Map("m", [1.0, 2.0], [1.0, 2.0], np.ones((2, 2))), label="error")
+    element = drawn(Figure("map", drawing, 'Errors < "1e-13".')).element
+    assert "<image" not in element
+    assert 'aria-label="Errors &lt; &quot;1e-13&quot;."' in element
+
+
+def test_no_two_elements_of_the_page_share_a_name():
+    names = re.findall(
+        r'\bid="([^"]*)"', page([a_section("one"), a_section("two")], 1.0, quick=False)
+    )
+    assert len(names) > 20
+    assert len(set(names)) == len(names)
+    html = page([a_section("one")], 1.0, quick=False)
+    for used in re.findall(r'(?:url\(#|href="#)([^)"]*)', html):
+        assert f'id="{used}"' in html
+
+
+def test_text_is_escaped_and_the_verdicts_are_shown():
+    html = page([a_section()], 1.0, quick=False)
+    assert "a &lt; b" in html
+    assert "&lt;b&gt;so" in html
+    assert 'class="badge holds"' in html
+    assert 'class="badge refuted"' in html
+    assert "1 holds, 1 refuted, 0 fails, 0 blind" in html
+
+
+def test_every_number_is_in_the_json():
+    found = Found(
+        [
+            claim(0.5, 2.0),
+            Curve("f", "c", np.arange(3.0), [1, math.nan, 2]),
+            Map("m", [1], [2], np.ones((1, 1))),
+        ]
+    )
+    text = json.dumps(found.as_json(), allow_nan=False)
+    back = json.loads(text)
+    assert back[0]["verdict"] == "holds"
+    assert back[1]["y"] == [1, "nan", 2]
+    assert back[2]["values"] == [[1.0]]
+    assert plain(np.float64(0.1)) == 0.1
+
+
+def test_what_comes_next_is_told_and_not_kept():
+    told = []
+    found = kept(iter([Doing("this"), claim(0.5, 2.0)]), told.append)
+    assert (told, len(found)) == (["this"], 1)
+
+
+def test_a_topic_that_breaks_off_fails_and_keeps_what_it_found(monkeypatch, capsys):
+    def broken(quick):
+        yield claim(0.5, 2.0)
+        raise ZeroDivisionError("nothing to divide by")
+
+    monkeypatch.setattr(economy, "compute", broken)
+    (section,), _ = run(["economy"], quick=True)
+    assert [c.verdict for c in section.found.claims] == ["holds", "fails"]
+    assert not section.found.claims[1].ok
+    assert "ZeroDivisionError: nothing to divide by" in section.found.claims[1].what
+    assert "nothing to divide by" in capsys.readouterr().err
+    assert not section.figures
+
+
+def test_numbers_read_as_numbers():
+    assert [number(v) for v in (None, 3, 0.5, 1e-14, 0.0, math.inf, "words")] == [
+        "—",
+        "3",
+        "0.5",
+        "1.0e-14",
+        "0.0",
+        "inf",
+        "words",
+    ]
+
+
+def test_the_bar_moves_forward_and_never_beyond_the_end():
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    progress = Progress({"one": 1.0, "two": 3.0}, Terminal())
+    shares = [progress.share()]
+    for name in ("one", "two"):
+        progress.topic(name)
+        progress.tell("something")
+        shares.append(progress.share())
+        progress.behind(name)
+        shares.append(progress.share())
+    assert shares == sorted(shares)
+    assert shares[2] == 0.25 <= shares[3] < shares[4] == 1.0
+    assert "two: something" in progress.stream.getvalue()
+    silent = Progress({"one": 1.0, "two": 1.0}, StringIO())
+    silent.topic("one")
+    silent.tell("nothing but a line for each topic")
+    silent.behind("one")
+    silent.behind("two")
+    assert silent.stream.getvalue() == "one ...\ntwo done\n"
+
+
+def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("validation.harness.progress.time.perf_counter", lambda: now[0])
+    monkeypatch.setenv("COLUMNS", "40")
+
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    progress = Progress({"one": 4.0, "two": 4.0, "last": 2.0}, Terminal())
+    progress.beside(["one", "two"], at_once=2)
+    shares = []
+    for now[0] in (0.0, 1.0, 2.0, 9.0):
+        progress.tell("a word that is far too long for a terminal as narrow as this one")
+        shares.append(progress.share())
+    assert shares == [0.0, 0.2, 0.4, pytest.approx(0.784)]
+    progress.behind("one")
+    progress.behind("two")
+    assert progress.share() == 0.8
+    assert (
+        max(len(line.removeprefix("\x1b[K")) for line in progress.stream.getvalue().split("\r"))
+        < 40
+    )
+
+
+def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
+    monkeypatch.setattr("validation.harness.running.os.cpu_count", lambda: 2)
+    with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
+        left = [pool.submit(time.sleep, 60.0) for _ in range(4)]
+        raise KeyboardInterrupt
+    assert not [
+        future
+        for future in left
+        if future.done() and not future.cancelled() and future.exception() is None
+    ]
+
+
+def test_topics_beside_each_other_find_what_they_find_alone():
+    alone, beside = (
+        run(["mutation"], quick=True)[0][0],
+        run(["mutation", "appendix"], quick=True)[0],
+    )
+    assert [s.name for s in beside] == ["mutation", "appendix"]
+    assert alone.found.as_json() == beside[0].found.as_json()
+
+
+def test_one_topic_by_the_command_line(tmp_path, capsys):
+    assert main(["--quick", "--only", "mutation", "--out", str(tmp_path)]) == 0
+    numbers = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert list(numbers["topics"]) == ["mutation"]
+    assert "NOT caught" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "report.html" in capsys.readouterr().out
+
+
+# -- the README's table ---------------------------------------------------------------------------
+
+KEPT = json.loads(readme.KEPT.read_text(encoding="utf-8"))
+
+
+def test_the_table_of_the_readme_is_the_one_that_was_measured():
+    text = readme.README.read_text(encoding="utf-8")
+    assert readme.with_table(text, readme.markdown(KEPT["rows"])) == text
+
+
+def test_a_table_that_was_changed_by_hand_is_seen():
+    text = readme.README.read_text(encoding="utf-8")
+    table = readme.markdown(KEPT["rows"])
+    assert readme.with_table(text, table.replace("e-16", "e-17", 1)) != text
+
+
+@pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
+def test_what_the_readme_says_is_still_so(kept_row):
+    """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the
+    machine's, and are not compared.
+    """
+    case = next(c for c in cases.chosen(quick=True) if str(c) == kept_row[0])
+    now = pressure.row(case)
+    for then, fresh in zip(kept_row[1:4], (now.error, now.load, now.estimated), strict=True):
+        assert max(then, 1e-15) / 10 <= max(fresh, 1e-15) <= 10 * max(then, 1e-15)
+    assert now.evaluations <= kept_row[4]
+
+
+def test_the_table_is_made_of_a_report_that_has_it():
+    errors = {
+        "kind": "table",
+        "title": pressure.TABLE,
+        "rows": [[name + "-r=1", 1e-16, 0.0, 1e-16, 3] for name in readme.SHOWN],
+    }
+    times = {
+        "kind": "table",
+        "title": speed.TABLE,
+        "rows": [[name + "-r=1", 0.2, 2.0] for name in reversed(readme.SHOWN)],
+    }
+    assert readme.rows({"topics": {"pressure": [errors], "speed": [times]}})[0] == [
+        "parabola-r=1",
+        1e-16,
+        0.0,
+        1e-16,
+        3,
+        0.2,
+        2.0,
+    ]
+    with pytest.raises(ValueError, match="no topic `speed`"):
+        readme.rows({"topics": {"pressure": [errors]}})

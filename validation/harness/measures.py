@@ -1,0 +1,46 @@
+"""Distances between answers: doubles held against numbers of many digits, nothing lost in the
+comparison.
+
+Of many numbers the worst is taken by `largest` and `smallest`: Python's max and min pass over a
+nan, and so over an answer that is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+
+mp = mpmath.mp.clone()
+mp.dps = 50
+
+
+def largest(numbers: Iterable[float]) -> float:
+    """nan if any of them is."""
+    return float(np.max(np.array([*numbers], dtype=float)))
+
+
+def smallest(numbers: Iterable[float]) -> float:
+    """nan if any of them is."""
+    return float(np.min(np.array([*numbers], dtype=float)))
+
+
+def apart(
+    found: Sequence[float] | np.ndarray[Any, Any], true: Sequence[Any], factor: float = 1.0
+) -> float:
+    """The largest difference over the largest true value; `factor` spoils the answer, for a
+    control.
+    """
+    values = [mp.mpmathify(complex(v) if np.iscomplexobj(v) else float(v)) for v in np.ravel(found)]
+    exact = [mp.mpmathify(t) for t in true]
+    if len(values) != len(exact):
+        raise ValueError(f"{len(values)} answers and {len(exact)} true values: give one for each")
+    scale = max(map(abs, exact))
+    return largest(abs(factor * v - t) / scale for v, t in zip(values, exact, strict=True))
+
+
+def relative(found: float, true: Any, factor: float = 1.0) -> float:
+    """|found/true - 1|."""
+    return float(abs(mp.mpf(float(found)) * factor / mp.mpmathify(true) - 1))

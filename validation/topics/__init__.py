@@ -1,0 +1,1 @@
+"""The topics of the report: each computes records, and `figures` draws them."""

@@ -1,0 +1,1 @@
+"""The figures of the topics, each drawn from its records."""

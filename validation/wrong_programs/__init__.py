@@ -1,0 +1,1 @@
+"""Programs with a known error: the checks must catch each of them."""
