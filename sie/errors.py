@@ -29,9 +29,9 @@ class ContactError(Exception):
     Examples
     --------
     >>> import sie
-    >>> wavy = sie.Polynomial((0.0, 0.0, -1.0, 0.0, 1.0))    # two lowest points
+    >>> hollow = sie.Polynomial((0.0, 0.0, -1.0))    # rises nowhere
     >>> try:
-    ...     sie.solve(sie.Scene(profile=wavy, modulus=1.0, normal_load=0.01)).edges
+    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.01)).edges
     ... except sie.ContactError as error:
     ...     print(type(error).__name__, error.reached)
     LoadError {'load': 0.0}

@@ -273,7 +273,8 @@ class Solution:
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        return dissipated(self.tangential)
+        state = self.tangential
+        return state.energy if isinstance(state, PatchSlip) else dissipated(state)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

@@ -9,6 +9,7 @@ JSON always holds
     sie, title, units {length, force, stress, moment}
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
+    patches [[x1, x2], ..], patch_loads [number, ..] where there are several
 
     patches [[x1, x2], ..], patch_loads [number, ..], where there are several
 
