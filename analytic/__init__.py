@@ -9,6 +9,7 @@ Each module is one indenter under one kind of load:
     sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
     bonded_flat                                           no slip at all, dissimilar bodies
     cattaneo, cattaneo_rounded                            partial slip, bodies alike
+    goodman                                               partial slip of dissimilar bodies, small beta
     cracks                                                what corresponds among cracks
 
 All speak one notation:
@@ -65,6 +66,7 @@ from analytic import (
     dissimilar,
     flat,
     flat_row,
+    goodman,
     hertz,
     interior,
     periodic,
@@ -88,6 +90,7 @@ __all__ = [
     "dissimilar",
     "flat",
     "flat_row",
+    "goodman",
     "hertz",
     "interior",
     "periodic",

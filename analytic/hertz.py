@@ -11,7 +11,7 @@ import numpy as np
 from analytic._core.cut import in_plane, on_cut, root, seen_from
 from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result, cartesian, scaled, sign
-from analytic._core.parameters import point, positive, positives, real
+from analytic._core.parameters import point, positive, positives, real, representable
 from analytic._core.piecewise import pick
 
 SOURCES = (f"{JOHNSON}, section 4.2(c)",)
@@ -25,7 +25,7 @@ def height(x: Number, *, radius: Number, lib: Library = np) -> Number:
     0.5
     """
     x, R = real("x", x, lib), positive("radius", radius, lib)
-    return as_result(x * (x / (2 * R)))
+    return representable("height", lambda x: x * (x / (2 * R)), x)
 
 
 @documented("the slope h', a number", *SOURCES)

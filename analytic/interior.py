@@ -24,7 +24,7 @@ from analytic import hertz as _hertz
 from analytic import rounded_flat as _rounded_flat
 from analytic._core.cut import root
 from analytic._core.documentation import HILLS, MUSKHELISHVILI, documented
-from analytic._core.numbers import Library, Number, as_result, cartesian
+from analytic._core.numbers import Library, Number, as_result, cartesian, larger
 from analytic._core.parameters import not_negative, positive, positives, real, refuse
 
 SOURCES = (
@@ -102,9 +102,11 @@ def mcewen(
     b, p0 = positives(lib, half_width=half_width, peak_pressure=peak_pressure)
     w = root(lib, cartesian(x, y, lib), b)
     n, m = w.real, w.imag
-    share = (y * y + n * n) / (m * m + n * n)
+    largest = larger(abs(n), larger(m, y, lib), lib)  # squares of far points are no doubles
+    nn, mm, yy = (n / largest) ** 2, (m / largest) ** 2, (y / largest) ** 2
+    share = (yy + nn) / (mm + nn)
     scale = p0 / b
-    xy = -scale * n * (m * m - y * y) / (m * m + n * n)
+    xy = -scale * (n * ((mm - yy) / (mm + nn)))
     return Stresses(
         as_result(-scale * (m * (1 + share) - 2 * y)),
         as_result(-scale * m * (1 - share)),
@@ -131,13 +133,19 @@ def chebyshev(
     """
     x, y, f = real("x", x, lib), positive("y", y, lib), real("friction", friction, lib)
     b = positive("half_width", half_width, lib)
+    try:
+        terms = [real("coefficients", term, lib) for term in coefficients]
+    except TypeError:
+        raise ValueError(
+            f"coefficients = {coefficients!r} is not a list; give b_0, b_1, ..."
+        ) from None
     z = cartesian(x, y, lib)
     w = root(lib, z, b)
     rho = b / (z + w)
     F, steep = 0 * rho, 0 * rho
-    for n in range(len(coefficients) - 1, -1, -1):
-        F = F * rho * rho + coefficients[n]
-        steep = steep * rho * rho + (2 * n + 1) * coefficients[n]
+    for n, term in reversed(list(enumerate(terms))):
+        F = F * rho * rho + term
+        steep = steep * rho * rho + (2 * n + 1) * term
     return _combined(F * rho, -steep * rho / w, y, f)
 
 
@@ -150,8 +158,9 @@ def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) ->
     0.333333333333
     """
     nu = real("poisson", poisson, lib)
-    half_sum, half_difference = (stress.xx + stress.yy) / 2, (stress.xx - stress.yy) / 2
-    return as_result(half_difference**2 + stress.xy**2 + (1 - 2 * nu) ** 2 * half_sum**2 / 3)
+    xx, yy, xy = (real(name, getattr(stress, name, None), lib) for name in Stresses._fields)
+    half_sum, half_difference = (xx + yy) / 2, (xx - yy) / 2
+    return as_result(half_difference**2 + xy**2 + (1 - 2 * nu) ** 2 * half_sum**2 / 3)
 
 
 @documented("the load P/(bk), a number", *SOURCES)

@@ -25,7 +25,7 @@ import numpy as np
 
 from analytic._core.documentation import JOHNSON, documented
 from analytic._core.numbers import Library, Number, as_result, bits, fraction, sign
-from analytic._core.parameters import positive, positives, real
+from analytic._core.parameters import positive, positives, real, representable
 from analytic._core.piecewise import nothing, pick
 
 SOURCES = (
@@ -47,7 +47,7 @@ def height(x: Number, *, exponent: Number, coefficient: Number, lib: Library = n
     4.0
     """
     m, C = _shape(exponent, coefficient, lib)
-    return as_result(C * abs(real("x", x, lib)) ** m)
+    return representable("height", lambda x: C * abs(x) ** m, real("x", x, lib))
 
 
 @documented("the slope h', a number", *SOURCES)
@@ -58,8 +58,7 @@ def slope(x: Number, *, exponent: Number, coefficient: Number, lib: Library = np
     -6.0
     """
     m, C = _shape(exponent, coefficient, lib)
-    x = real("x", x, lib)
-    return as_result(sign(x) * m * C * abs(x) ** (m - 1))
+    return representable("slope", lambda x: sign(x) * m * C * abs(x) ** (m - 1), real("x", x, lib))
 
 
 @documented("the pressure p, a stress", *SOURCES)

@@ -43,7 +43,7 @@ from analytic._core import rounded_contact as unit
 from analytic._core.cut import in_plane, on_cut
 from analytic._core.documentation import CIAVARELLA, documented
 from analytic._core.numbers import Library, Number, as_result, bits, most, scaled, sign
-from analytic._core.parameters import not_negative, point, positive, positives, real
+from analytic._core.parameters import not_negative, point, positive, positives, real, representable
 
 SOURCES = (f"{CIAVARELLA}, equations (32) and (35)",)
 
@@ -64,8 +64,13 @@ def height(x: Number, *, half_flat: Number, radius: Number, lib: Library = np) -
     0.5
     """
     x, a = real("x", x, lib), not_negative("half_flat", half_flat, lib)
-    over = unit.beyond(x, a)
-    return as_result(over * (over / (2 * positive("radius", radius, lib))))
+    R = positive("radius", radius, lib)
+
+    def gap(x: Number) -> Number:
+        over = unit.beyond(x, a)
+        return over * (over / (2 * R))
+
+    return representable("height", gap, x)
 
 
 @documented("the slope h', a number", *SOURCES)

@@ -19,7 +19,7 @@ import numpy as np
 from analytic._core.documentation import GLADWELL, documented
 from analytic._core.elliptic import agm, means, ratio_D, third_kind
 from analytic._core.numbers import Library, Number, as_result, bits, most, sign
-from analytic._core.parameters import patch_ends, positive, positives, real, refuse
+from analytic._core.parameters import patch_ends, positive, positives, real, refuse, representable
 from analytic._core.piecewise import nothing, pick
 
 SOURCES = (GLADWELL,)
@@ -36,8 +36,12 @@ def height(x: Number, *, distance: Number, radius: Number, lib: Library = np) ->
     >>> float(height(-3.0, distance=1.0, radius=4.0))
     0.5
     """
-    off = abs(real("x", x, lib)) - positive("distance", distance, lib)
-    return as_result(off * (off / (2 * positive("radius", radius, lib))))
+    x, d, R = (
+        real("x", x, lib),
+        positive("distance", distance, lib),
+        positive("radius", radius, lib),
+    )
+    return representable("height", lambda x: (abs(x) - d) * ((abs(x) - d) / (2 * R)), x)
 
 
 @documented("the slope h', a number", *SOURCES)

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 import sie
+from sie.friction.coupled_flat import flat_punch
+from sie.friction.coupled_functions import flat_functions
 from validation.harness.timing import compared
 from validation.topics.speed import closed_form
 
@@ -144,3 +146,15 @@ def test_stress_on_a_grid(benchmark):
 def test_cauchy_equation_by_transforms(benchmark, n):
     equation = sie.CauchyEquation((-1.0, 1.0), g=np.exp, total=0.0)
     benchmark(lambda: equation.solve(n=n))
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3, 1.0])
+@pytest.mark.parametrize("dundurs", [0.07, 0.3])
+def test_dissimilar_rounded_flat_in_partial_slip(benchmark, dundurs, friction):
+    def solved():
+        flat_punch.cache_clear()
+        flat_functions.cache_clear()
+        solution = sie.solve(scene(sie.RoundedFlat(0.5, 1.0), dundurs=dundurs, friction=friction))
+        return solution.stick, solution.pressure(X)
+
+    benchmark(solved)

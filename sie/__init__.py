@@ -42,6 +42,7 @@ from .problem.scene import Scene
 from .profiles.base import Profile
 from .profiles.from_function import FromFunction
 from .profiles.polynomials import Piecewise, Polynomial
+from .profiles.row import Periodic, Row
 from .profiles.sampled import Sampled
 from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
@@ -73,6 +74,7 @@ __all__ = [
     "Parabola",
     "Path",
     "Peak",
+    "Periodic",
     "Piecewise",
     "Plan",
     "Polynomial",
@@ -80,6 +82,7 @@ __all__ = [
     "Profile",
     "ResolutionError",
     "RoundedFlat",
+    "Row",
     "Sampled",
     "Scene",
     "Solution",

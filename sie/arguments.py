@@ -1,4 +1,4 @@
-"""Refusals of values that mean nothing: one sentence with the value and the remedy."""
+"""Checks of arguments. A refusal is one sentence with the value and the remedy."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ def real(name: str, value: Any) -> float:
     """`value` as a float; ValueError unless it is one number (nan is not a number)."""
     if isinstance(value, (bool, str, bytes)):
         raise ValueError(f"{name} = {value!r} is not a number: give a float")
+    if value is np.ma.masked:
+        raise ValueError(f"{name} is masked: give a number")
     try:
         number = float(value)
     except OverflowError:
@@ -88,9 +90,10 @@ def tolerance(value: Any) -> float:
 
 
 def listed(name: str, values: Any, what: str) -> tuple[Any, ...]:
-    """What a list or another collection holds; ValueError, with what to give, for all else."""
+    """The items of a list or another collection; otherwise ValueError, with what to give."""
     single = isinstance(values, (str, bytes)) or getattr(values, "shape", None) == ()
     if isinstance(values, Iterable) and not single:
+        refuse_masked(name, values)
         return tuple(values)
     raise ValueError(f"{name} = {values!r} is not a list: give {what}")
 
@@ -102,6 +105,7 @@ def among(value: Any, choices: Collection[Any]) -> bool:
 
 def reals(name: str, values: Any) -> NDArray[np.float64]:
     """`values` as an array of floats; ValueError unless they are real numbers, inf or nan."""
+    refuse_masked(name, values)
     array = _array(values)
     if array.dtype == np.float64:
         return array
@@ -117,6 +121,7 @@ def reals(name: str, values: Any) -> NDArray[np.float64]:
 
 def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     """`values` as an array of complex numbers; ValueError unless they are numbers, inf or nan."""
+    refuse_masked(name, values)
     array = _array(values)
     try:
         if array.dtype.kind in "cfiu":
@@ -128,6 +133,15 @@ def complexes(name: str, values: Any) -> NDArray[np.complex128]:
     raise ValueError(f"{name} is not an array of numbers: give points x + iy as complex numbers")
 
 
+def refuse_masked(name: str, values: Any) -> None:
+    """Raises ValueError for an array with masked entries: NumPy's conversion drops the mask."""
+    if np.ma.is_masked(values):
+        raise ValueError(
+            f"{name} has masked entries: fill them, with nan where a value is missing, "
+            "or leave them out"
+        )
+
+
 def _array(values: Any) -> NDArray[Any]:
     try:
         return np.asarray(values)
@@ -136,7 +150,7 @@ def _array(values: Any) -> NDArray[Any]:
 
 
 def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
-    """What a user's function returns. ValueError, with the remedy, if it fails on arrays."""
+    """The result of a user's function. ValueError, with the remedy, if it fails on arrays."""
     try:
         return function(*arrays)
     except Exception as problem:  # whatever a user's function may raise
@@ -150,7 +164,7 @@ def of_arrays(name: str, function: Callable[..., Any], *arrays: Any) -> Any:
 def real_values(
     name: str, function: Callable[..., Any], x: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What a user's function of an array returns, as floats of x's shape.
+    """The result of a user's function of an array, as floats of x's shape.
 
     ValueError unless it returns real numbers of that shape, or one.
     """

@@ -1,7 +1,7 @@
 """The charts of Ciavarella, Hills & Monno (1998) as numbers: Figs 4 to 8, of the rounded punch.
 
-All in units of the contact: b = 1, E* and R drop out, so that a chart depends on a/b, f and ν only.
-Drawing is elsewhere (`python -m validation --only paper`).
+Lengths are in units of the half-width, b = 1. E* and R cancel, so a chart depends on a/b, f and ν
+only. `python -m validation --only paper` draws the charts.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solu
 def yield_parameter(
     ratio: float, friction: float, x: ArrayLike, y: ArrayLike, poisson: float = POISSON
 ) -> Array:
-    """b √J2 / P at (x, y), in units of b: what Fig. 4 draws as contours."""
+    """b √J2 / P at (x, y), in units of b, the contours of Fig. 4."""
     solution = punch(ratio, friction, poisson)
     stress: Stress = solution.stress(x, y)
     return np.sqrt(stress.j2) / solution.normal_load
@@ -59,7 +59,7 @@ def yield_parameter(
 class ElasticLimits:
     """P/(bk) at first yield and where, (ratios, frictions): Figs 5 (f = 0), 6 and 7.
 
-    Of tied maxima x is that of the right one.
+    Where two maxima are equal, x is that of the right one.
     """
 
     ratios: tuple[float, ...]

@@ -10,7 +10,7 @@
     sie example [NAME]              a commented scene file; without NAME, the list of them
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --json). No file that a scene or a command reads is ever written to. Exit codes:
+(--csv, --json). No file that a scene or a command reads is written to. Exit codes:
 
     0      solved
     1      solved, but the certificate is not met, or the mesh result differs by more than --tol
@@ -90,7 +90,7 @@ def _run(argv: Sequence[str]) -> int:
 
 
 def _solve(arguments: argparse.Namespace) -> int:
-    """Everything is checked, then everything is computed, then the files are written."""
+    """Check all requests, then compute all answers, then write the files."""
     outputs = _outputs(arguments)
     if arguments.grid and not arguments.field:
         raise ValueError(
@@ -166,7 +166,7 @@ def _overlay(solution: Solution, comparison: Comparison, file: SceneFile) -> Any
 
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
-    _solution(file, TOL)  # computes nothing, but refuses what is not covered
+    _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
     print_text(f"{plan(file.scene, file.want)}\n")
     return CERTIFIED
 
@@ -185,11 +185,11 @@ def _example(arguments: argparse.Namespace) -> int:
 COMMANDS = {"solve": _solve, "compare": _compare, "plan": _plan, "example": _example}
 
 
-# -- what is asked for, each with the sentence that refuses it -----------------------------------
+# -- checks of the requests ----------------------------------------------------------------------
 
 
 def _scene(arguments: argparse.Namespace) -> SceneFile:
-    """The scene file, with --want in place of what the file wants."""
+    """The scene file, with --want in place of the file's own `want`."""
     want = scene_file.wants(
         "--want",
         [
@@ -220,7 +220,7 @@ def _standard_input() -> bytes:
 
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
-    """Where each kind of output goes. Raises ValueError unless all of them can be written."""
+    """The destination of each kind of output. ValueError unless all can be written."""
     given = ((kind, getattr(arguments, kind, None)) for kind in ("plot", "csv", "json", "field"))
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
     if "plot" in outputs:
@@ -278,7 +278,7 @@ def _check_picture(path: pathlib.Path) -> None:
 
 
 def _pictures() -> ModuleType:
-    """The style of the pictures, whose import shows whether there is Matplotlib."""
+    """The module of the pictures' style; its import shows whether Matplotlib is installed."""
     try:
         from .plots import style  # noqa: PLC0415
     except ImportError:
@@ -286,7 +286,7 @@ def _pictures() -> ModuleType:
     return style
 
 
-# -- what is given back --------------------------------------------------------------------------
+# -- output --------------------------------------------------------------------------------------
 
 
 def _content(

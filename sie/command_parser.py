@@ -1,4 +1,4 @@
-"""The commands and options of `sie`, each mistake with the sentence that refuses it."""
+"""The commands and options of `sie`, and the message for each mistake."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 A bad question (a negative radius, a load of nan) is a `ValueError`, raised where the value is
 built. A good question without an answer (a load that no single contact can carry) is a
-`ContactError`, raised by the stage that notices it. Messages are sentences: what, how much, what
-to do.
+`ContactError`, raised by the stage that finds this out. Messages are sentences: what, how much,
+what to do.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ class ContactError(Exception):
     Examples
     --------
     >>> import sie
-    >>> wavy = sie.Polynomial((0.0, 0.0, -1.0, 0.0, 1.0))    # two lowest points
+    >>> hollow = sie.Polynomial((0.0, 0.0, -1.0))    # rises nowhere
     >>> try:
-    ...     sie.solve(sie.Scene(profile=wavy, modulus=1.0, normal_load=0.01)).edges
+    ...     sie.solve(sie.Scene(profile=hollow, modulus=1.0, normal_load=0.01)).edges
     ... except sie.ContactError as error:
     ...     print(type(error).__name__, error.reached)
     LoadError {'load': 0.0}

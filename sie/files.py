@@ -1,9 +1,9 @@
-"""Reading of ordinary files that are not too long, and writing of files whole or not at all.
+"""Read regular files of limited size, and write files whole or not at all.
 
 A file is written under another name beside its place and then moved there; the move is one step, so
-that no reader opens half a file. A writer that is killed leaves the other name behind. No
-user's file has such a name, and a writer that lives holds a lock on it: the next run that writes in
-the folder removes it.
+that no reader opens half a file. A writer that is killed leaves the other name behind. No user's
+file has such a name, and a running writer holds a lock on it. The next run that writes in the
+folder removes the names without a lock.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def content(path: str | Path, most: int) -> bytes:
         if is_kind(mode):
             raise ValueError(f"{path.name or path} is {kind}: give a regular file")
     with open(path, "rb") as stream:
-        data = stream.read(most + 1)  # some files of /proc tell no length, and have no end
+        data = stream.read(most + 1)  # some files of /proc report no length, and have no end
     if len(data) > most:
         raise ValueError(f"{path.name} has more than {most / 1e6:g} MB: give a shorter file")
     return data

@@ -10,8 +10,8 @@ the next all loads change in proportion to time. What is exact, and covered:
                                        |dQ/dP| on either side of f, or falls
 
 With σ = 0 the contacts of one profile at one tilt must be nested: a given moment would tilt it (but
-for moment = 0 of a symmetric profile). The layers that a step changes are in `friction.memory`,
-what a single step does to a contact is in `friction.partial_slip`.
+for moment = 0 of a symmetric profile). `friction.memory` computes the layers that a step changes,
+and `friction.partial_slip` the slip of a single step.
 
 Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
 at (0, 0, 0).
@@ -95,8 +95,14 @@ def follow(
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     if scene.bonded:
         raise ValueError(
-            "a bonded contact never slips, and forgets its path: give a finite friction, or solve "
-            "the last point as a scene"
+            "a bonded contact never slips, so its path does not matter: give a finite friction, "
+            "or solve the last point as a scene"
+        )
+    if scene.beta and scene.friction and not scene.sliding:
+        raise ContactError(
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: pressure and shear "
+            "are coupled, and only a normal load that grows is solved then; solve its points as scenes, "
+            "or give dundurs = 0 to neglect β"
         )
     return History(scene, path, tol, economy)
 
@@ -121,7 +127,7 @@ class History(Sequence[Solution]):
     Notes
     -----
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
-    asked for. What the points share is solved once. `history.path` is the path.
+    asked for. Stages that the points share are solved once. `history.path` is the path.
     """
 
     def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
@@ -208,7 +214,7 @@ class History(Sequence[Solution]):
         return self._energy[index]
 
     def _step_energies(self, steps: range) -> list[float]:
-        """Lost in the steps that end at these points."""
+        """The energies lost in the steps that end at these points."""
         fronts = [
             (k, o) for k in steps for slip in self.turning_points[k].slips for o in slip.layers
         ]
@@ -221,7 +227,7 @@ class History(Sequence[Solution]):
         return list(lost.values())
 
     def _heat(self, loads: Sequence[float], layers: Sequence[SlippedLayer]) -> Iterable[float]:
-        """What each layer that was overwritten turned into heat, per jump."""
+        """The energy that each overwritten layer dissipated, per jump."""
         if self.unit[1]:
             return [
                 self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
@@ -234,18 +240,19 @@ class History(Sequence[Solution]):
 
     @cached_property
     def dissipation(self) -> Dissipation:
-        """The heat of slip, and the contacts under all loads of the path."""
+        """The dissipated energy, and the contacts under all loads of the path."""
         return Dissipation(
             self.scene,
-            self.plain(max(P for P, _, _ in self.path.points)).normal,
+            self.plain(max(P for P, _, _ in self.path.points)).as_one_patch,
             self.tol,
             self.economy,
         )
 
 
 class KnownZones:
-    """Stick zones already found under one P, by depth: a cubic through the nearest four says where
-    the next one is, about.
+    """Stick zones already computed under one P, by depth.
+
+    A cubic through the nearest four estimates the next one.
     """
 
     def __init__(self) -> None:
@@ -263,7 +270,7 @@ class KnownZones:
         first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
         at, zones = self._depths[first : first + 4], self._contacts[first : first + 4]
         base = zones[0]
-        # Neville's scheme for how far both edges are from those of the first
+        # Neville's scheme for the distances of both edges from those of the first zone
         moves = [
             (c.x1 - base.x1 + (c.tail1 - base.tail1), c.x2 - base.x2 + (c.tail2 - base.tail2))
             for c in zones
@@ -292,7 +299,7 @@ class PathSolution(Solution):
 
     @cached_property
     def normal(self) -> Normal:
-        return self.history.plain(self.history.turning_points[self.index].loads[0]).normal
+        return self.history.plain(self.history.turning_points[self.index].loads[0]).as_one_patch
 
     @cached_property
     def pressure(self) -> SlopeDensity:
@@ -309,14 +316,15 @@ class PathSolution(Solution):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The zones that stick at this point; found without the scene, which a cycle of many steps
-        would spend its time on.
+        """The stick zones at this point.
+
+        The scene is not built for them: in a cycle of many steps that would take most of the time.
         """
         return self.tangential.stick if self.sheared else ()
 
     @property
     def energy_lost(self) -> float:
-        """What friction turned into heat since the beginning of the path."""
+        """Energy that friction dissipated since the beginning of the path."""
         return self.history.energy(self.index) if self.sheared else 0.0
 
     def with_(self, **changes: Any) -> Solution:
@@ -332,8 +340,9 @@ class PathSolution(Solution):
 
 
 class PathSlip(Slip):
-    """Stick, slip and shear at a point of a path: Σ weight × first loading over the corners of the
-    memory.
+    """Stick, slip and shear at a point of a path.
+
+    The shear is Σ weight × first loading over the corners of the memory.
     """
 
     kind = "after a path"
@@ -347,8 +356,10 @@ class PathSlip(Slip):
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
-        """One monotonic loading is what a scene asks, and is answered like one; a return from there
-        depends on the way.
+        """Refuse a return from loads under which slip zones have retreated.
+
+        A scene means one monotonic loading and has an answer; after a return the state depends on
+        the path.
         """
         depth, turned = self.state.memory.deepest
         if turned and not self.history.first_loading(self.P, depth).advancing:
@@ -378,7 +389,7 @@ class PathSlip(Slip):
 
     @property
     def _now(self) -> Slip | None:
-        """The first loading as deep as the last step slipped."""
+        """The first loading whose depth is that of the last step's slip."""
         return (
             self.history.first_loading(self.P, self.state.memory.top.thickness)
             if self.state.last and self.state.memory.top
@@ -402,7 +413,7 @@ class PathSlip(Slip):
 
     @property
     def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
-        """What slipped while P fell, and then left the contact: slip turned there, or stopped."""
+        """Zones that slipped while P fell, and where slip reversed or stopped as they left."""
         zones: list[tuple[float, float, float]] = []
         for gone in self.state.slips:
             if gone is not self.state.last:
@@ -444,7 +455,7 @@ class PathSlip(Slip):
         for weight, loading in terms:
             if (
                 isinstance(loading, OneSignedSlip) and loading.short is None
-            ):  # the pressure that all differences begin with is taken once
+            ):  # the pressure is the first term of all differences, and is taken once
                 scale = weight * loading.sign * loading.friction
                 full += scale
                 rest.append((-scale, loading.corrective))
@@ -453,7 +464,7 @@ class PathSlip(Slip):
         return superposed((full, self.history.plain(self.P).slope_density), *rest)
 
     def slip(self, x: Array) -> Array:
-        """Since x came into contact."""
+        """Relative slip since x came into contact."""
         if all(state.loads[0] == self.P for state in self.history.turning_points[: self.index + 1]):
             return sum(
                 (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
@@ -511,7 +522,7 @@ def _step_slip(history: History, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.turning_points[index]
     P, out = state.loads[0], np.zeros(x.shape)
-    if state.last is not None:  # what slipped before that has left the contact
+    if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
                 if depth > 0.0:

@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from .contact.pressure import upright_law
+from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
@@ -24,7 +25,7 @@ STAGES: dict[str, tuple[str, ...]] = {
     "tension": ("normal", "pressure", "tangential", "tractions"),
 }
 
-# The same for full stick, whose one equation answers pressure and shear alike.
+# The same for full stick, where one equation gives the pressure and the shear.
 FULL_STICK: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
@@ -34,6 +35,17 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
     "stress": ("normal", "pressure", "tractions"),
     "yield": ("normal", "pressure", "tractions"),
     "tension": ("normal", "pressure", "tractions"),
+}
+# And for dissimilar bodies in partial slip.
+COUPLED: dict[str, tuple[str, ...]] = {
+    "edges": ("coupled", "normal"),
+    "pressure": ("coupled", "normal", "pressure"),
+    "gap": ("coupled", "normal"),
+    "shear": ("coupled", "normal"),
+    "check": ("coupled", "normal", "certificate"),
+    "stress": ("coupled", "normal", "pressure", "tractions"),
+    "yield": ("coupled", "normal", "pressure", "tractions"),
+    "tension": ("coupled", "normal", "pressure", "tractions"),
 }
 
 
@@ -121,6 +133,8 @@ def plan(
     stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
         return _of_bonded(scene, names)
+    if scene.coupled:
+        return _of_coupled(scene, names)
     profile = scene.profile
     convex = profile.convex and "convexity" in economy
     steps = [
@@ -162,6 +176,24 @@ def plan(
     ]
     steps += [_stress(stages), _maxima(names), _certificate(stages)]
     return Plan(tuple(steps))
+
+
+def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
+    stages = {stage for name in names for stage in COUPLED[name]}
+    asked = "pressure" in stages
+    how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
+    growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
+    steps = (
+        Step("coupling", True, how, "coupled"),
+        Step("edges", True, growth, "normal"),
+        Step("pressure", asked, "flats superposed" if asked else "not asked for", "pressure"),
+        Step("inequalities", False, "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"),
+        Step("slip", False, "the shear and the slip come with the pressure"),
+        _stress(stages),
+        _maxima(names),
+        _certificate(stages),
+    )
+    return Plan(steps)
 
 
 def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
@@ -211,6 +243,8 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
+    if asks_for_patches(scene.profile):
+        return "load given: patches from a grid, their edges by Newton, verified by bounds"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"

@@ -1,4 +1,4 @@
-"""How much a rough trace must be smoothed to touch in one patch, found by trying."""
+"""The least smoothing of a rough trace that touches in one patch, found by trials."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
 
     Notes
     -----
-    What so much smoothing takes from the heights is a part of the surface that is not pressed.
-    `Sampled.misfit` tells how high it is, `Solution.trace_reports` what it means for the pressure.
+    The smoothing removes a part of the surface, which is missing from the contact. `Sampled.misfit`
+    gives the height of that part, `Solution.trace_reports` its effect on the pressure.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
     def one_patch(lam: float) -> bool:
         smooth = replace(scene, profile=_replaced(scene.profile, trace, trace.smoothed(lam)))
         try:
-            _ = solve(smooth, tol).normal
+            _ = solve(smooth, tol).one_patch()
         except ContactError:
             return False
         return True
@@ -82,7 +82,7 @@ def least_smoothing(scene: Scene, tol: float = 1e-13) -> float:
             "which leaves a straight line: raise the load or lower it"
         )
     step = COARSE
-    for _ in range(HALVINGS if lam > start else 0):  # below the start noise would be pressed
+    for _ in range(HALVINGS if lam > start else 0):  # below the start the spline would follow noise
         step = math.sqrt(step)
         less = _rounded_up(lam / step)
         lam = less if one_patch(less) else lam

@@ -1,6 +1,6 @@
 """The solution of a scene: a lazy view over the stages of the work.
 
-Nothing is computed until it is asked for, and `vars(solution)` shows what was.
+Each result is computed when it is read first, and `vars(solution)` shows the computed ones.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .cauchy.density import JacobiDensity
+from .certificate.coupled_check import coupled_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
@@ -25,13 +26,19 @@ from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
-from .errors import ContactError
+from .errors import ContactError, InequalityError, LoadError
+from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
+from .friction.coupled_traction import CoupledTraction
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .numerics.interval import Interval
+from .patches.answer import SeveralPatches, asks_for_patches, several_patches
+from .patches.certificate import PatchCertificate, worst_of
+from .patches.friction import PatchSlip
+from .patches.full import FullContact
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene
@@ -59,6 +66,7 @@ _NORMAL_FIELDS = frozenset(
         "moment",
         "epsilon",
         "bonded",
+        "coupled",
     }
 )
 _SHEAR_FIELDS = _NORMAL_FIELDS | {
@@ -77,7 +85,9 @@ NEGLECTED = (
 _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
 )
-_STAGES |= dict.fromkeys(("bonded", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS)
+_STAGES |= dict.fromkeys(
+    ("bonded", "coupled", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS
+)
 
 
 class Solution:
@@ -101,7 +111,7 @@ class Solution:
     -----
     Lengths, stresses and loads are in the units of the scene, loads per unit length of the line of
     contact. An attribute computes what it needs when it is read, and keeps it. This class is longer
-    than 200 lines because it holds every question that a user asks; the answers are elsewhere.
+    than 200 lines because it holds every attribute that a user reads; other modules compute them.
     """
 
     def __init__(
@@ -114,16 +124,58 @@ class Solution:
     # -- stages ------------------------------------------------------------------------------------
 
     @cached_property
-    def normal(self) -> Normal:
+    def normal(self) -> Normal | SeveralPatches | FullContact:
         """Edges, load, moment and tilt; verified where the profile may not be convex."""
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
+        if self.scene.coupled:
+            return Normal(self.coupled[0], True)
+        if asks_for_patches(self.scene.profile):
+            return self._in_patches()
         try:
-            if not (self.scene.profile.convex and "convexity" in self.economy):
-                _ = self.inequalities
-            return self.unverified
+            return self.one_patch()
+        except (InequalityError, LoadError) as error:
+            if self._may_be_in_patches:
+                return self._in_patches(error)
+            raise explained(error, self.scene.profile) from None
         except ContactError as error:
             raise explained(error, self.scene.profile) from None
+
+    def one_patch(self) -> Normal:
+        """The contact if it is one patch. Raises ContactError if it is not."""
+        if not (self.scene.profile.convex and "convexity" in self.economy):
+            _ = self.inequalities
+        return self.unverified
+
+    def _in_patches(self, one_patch: ContactError | None = None) -> SeveralPatches | FullContact:
+        """Contact in several patches; `one_patch` is why it is not one."""
+        try:
+            return several_patches(self.scene)
+        except ContactError as error:
+            told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            raise explained(told, self.scene.profile) from None
+
+    @property
+    def _may_be_in_patches(self) -> bool:
+        scene = self.scene
+        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+
+    @property
+    def as_one_patch(self) -> Normal:
+        """The contact, for what is solved on one patch only. Raises ContactError for several."""
+        found = self.normal
+        if isinstance(found, Normal):
+            return found
+        raise ContactError(
+            f"contact in {len(found.patches)} patches: load paths and cycles are covered for one "
+            "patch only; give tangential_load and bulk_stress of one step, or a load under which "
+            "the patches have merged"
+        )
+
+    @property
+    def _several(self) -> SeveralPatches | FullContact | None:
+        """The contact, if it is in several patches or per period."""
+        return self.normal if isinstance(self.normal, (SeveralPatches, FullContact)) else None
 
     @cached_property
     def unverified(self) -> Normal:
@@ -150,6 +202,11 @@ class Solution:
         """The edges of a flat punch in full stick, and p + i q."""
         return full_stick_contact(self.scene, self.tol)
 
+    @cached_property
+    def coupled(self) -> tuple[Edges, CoupledContact]:
+        """The edges and the state of dissimilar bodies in partial slip."""
+        return coupled_contact(self.scene, self.tol)
+
     @property
     def normal_and_shear(self) -> JacobiDensity:
         """The traction p + i q in full stick."""
@@ -157,7 +214,7 @@ class Solution:
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component:
+    def pressure(self) -> SlopeDensity | Component | CoupledTraction:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns
@@ -176,7 +233,10 @@ class Solution:
         if self.scene.bonded:
             return Component(self.normal_and_shear, imaginary=False)
         _ = self.normal
-        return self.density
+        if self.scene.coupled:
+            return self.coupled[1].tractions[0]
+        several = self._several
+        return self.density if several is None else cast(SlopeDensity, several.pressure)
 
     @property
     def _loads(self) -> tuple[float, float]:
@@ -192,18 +252,21 @@ class Solution:
     @property
     def carries_shear(self) -> bool:
         """Whether there is a shear traction, of partial slip, sliding or full stick."""
-        return self.sheared or bool(self.scene.epsilon) or self.scene.bonded
+        scene = self.scene
+        return self.sheared or bool(scene.epsilon) or scene.bonded or scene.coupled
 
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        if self._several is not None:
+            return PatchSlip(self.scene, self._several, *self._loads)
         return slip(self.load_step(*self._loads))
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
-        """The load Q and the strain τ on this contact; `near` is a stick zone that the one asked
-        for may be close to, which saves work and changes nothing.
+        """The load Q and the strain τ on this contact of one patch; `near` is a stick zone that may
+        be close to the one sought: it saves work, and does not change the answer.
         """
-        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.normal
+        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under = partial(
             contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
         )
@@ -212,15 +275,23 @@ class Solution:
 
     @cached_property
     def dissipated(self) -> float:
-        """The energy that slip turned into heat."""
-        return dissipated(self.tangential)
+        """The energy dissipated by slip."""
+        state = self.tangential
+        return state.energy if isinstance(state, PatchSlip) else dissipated(state)
 
     @cached_property
-    def certificate(self) -> Certificate:
+    def certificate(self) -> Certificate | PatchCertificate:
         if self.scene.bonded:
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
+        if self.scene.coupled:
+            return coupled_certificate(self.coupled[1], self.scene, self.tol)
+        if self._several is not None:
+            stages = [self._several]
+            if self.sheared and isinstance(self.tangential, PatchSlip):
+                stages += [self.tangential.corrective] if self.tangential.corrective else []
+            return worst_of([stage.certificate(self.tol) for stage in stages])
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
@@ -253,6 +324,16 @@ class Solution:
         """
         contact = self.normal.edges.contact
         return contact.x1, contact.x2
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        """The patches of contact as (x1, x2), ascending; per period those of one period."""
+        return (self.edges,) if self._several is None else self._several.patches
+
+    @property
+    def patch_loads(self) -> tuple[float, ...]:
+        """∫p over each patch, force per length."""
+        return (self.normal_load,) if self._several is None else self._several.pressure.loads
 
     @property
     def half_width(self) -> float:
@@ -305,7 +386,9 @@ class Solution:
             return ()
         if self.sheared:
             return self.tangential.stick
-        return (self.edges,) if self.scene.friction else ()
+        if self.scene.coupled:
+            return self.coupled[1].stick
+        return self.patches if self.scene.friction else ()
 
     @property
     def shear(self) -> Density:
@@ -320,6 +403,9 @@ class Solution:
             return Component(self.normal_and_shear, imaginary=True)
         if self.scene.epsilon:
             return scaled(self.scene.slides * self.scene.friction, self.pressure)
+        if self.scene.coupled:
+            _ = self.normal
+            return self.coupled[1].tractions[1]
         return self.tangential.shear if self.sheared else ZERO
 
     @property
@@ -354,6 +440,8 @@ class Solution:
         Notes
         -----
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
+        Where dissimilar bodies are pressed together it is counted from when a point came into
+        contact: what slipped first sticks later, and keeps its slip.
 
         Examples
         --------
@@ -364,6 +452,8 @@ class Solution:
         [0.0, 0.0]
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled:
+            return self.coupled[1].relative_slip(x)
         slipped: Array = on_line(self.tangential.slip if self.sheared else np.zeros_like, x)
         return slipped
 
@@ -382,6 +472,8 @@ class Solution:
             As for `slip`.
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled:
+            return self.coupled[1].energy
         return self.dissipated if self.sheared else 0.0
 
     @property
@@ -528,11 +620,15 @@ class Solution:
         x = arguments.reals("x", x)
         if self.scene.bonded:
             return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
+        if self.scene.coupled:
+            return self.coupled[1].gap(x, self.scene.profile)
+        if self._several is not None:
+            return self._several.gap(x.ravel()).reshape(x.shape)
         return gap(x.ravel(), self.slope_density, self._slope).reshape(x.shape)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Sentences on what the equations leave out for this scene.
+        """Sentences on effects that the equations neglect for this scene.
 
         Returns
         -------
@@ -552,16 +648,17 @@ class Solution:
     @property
     def strain_notes(self) -> tuple[str, ...]:
         """Sentences on strains that are not small: a slope above 0.2, p above E*/4."""
-        if self.scene.bonded or "certificate" in self.__dict__:
+        measured = self.scene.bonded or self.scene.coupled or self._several is not None
+        if measured or "certificate" in self.__dict__:
             return self.certificate.notes
         return certificate(self.slope_density, self._slope, self.tol).notes
 
-    def check(self) -> Certificate:
+    def check(self) -> Certificate | PatchCertificate:
         """The certificate: how well this answer satisfies the equations.
 
         Returns
         -------
-        Certificate
+        Certificate or PatchCertificate
             Measured at points that were not used to find the answer; `.ok` sums it up.
 
         Examples
@@ -578,17 +675,17 @@ class Solution:
         implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
-        The certificate is another thing: it says how well the equations are solved for the spline
-        as it is. The cost is a smoothing by cross validation; no contact is solved again.
+        The certificate measures something else: how well the equations are solved for this spline.
+        The cost is a smoothing by cross validation; no contact is solved again.
 
         Returns
         -------
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        return (
-            () if self.scene.bonded else trace_reports(self.scene, self.normal, self.slope_density)
-        )
+        if self.scene.bonded or self.scene.coupled or self._several is not None:
+            return ()
+        return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.
@@ -631,11 +728,13 @@ class Solution:
         _refuse_uncovered(new.scene)
         changed = {
             name
-            for name in (*changes, "epsilon", "bonded")
+            for name in (*changes, "epsilon", "bonded", "coupled")
             if getattr(new.scene, name) != getattr(self.scene, name)
         }
         if self.scene.bonded and changed & _SHEAR_FIELDS:
             changed.add("bonded")
+        if self.scene.coupled and changed & _SHEAR_FIELDS:
+            changed.add("coupled")
         kept = [
             stage
             for stage, needs in _STAGES.items()
@@ -696,15 +795,8 @@ def _refuse_uncovered(scene: Scene) -> None:
     if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
         raise ContactError(
             f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
-            "with friction is not covered yet: "
+            "with friction: how it shifts their zones of stick is not solved; "
             f"{NEGLECTED}; or set friction = 0"
         )
-    if scene.beta != 0.0 and scene.friction != 0.0 and not scene.slides:
-        raise ContactError(
-            f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} stick "
-            "and slip in part at "
-            f"tangential_load = {scene.tangential_load:g}: that couples pressure and shear and is "
-            "not covered yet; "
-            f"{NEGLECTED}; or let them slide (sliding = ±1), or set friction = 0 for the "
-            "frictionless contact"
-        )
+    if scene.coupled:
+        refuse_unsolved(scene, NEGLECTED)

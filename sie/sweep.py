@@ -1,5 +1,4 @@
-"""Many scenes at once: one question over a grid of parameters, on one core or as many as an
-executor has.
+"""Many scenes at once: a parameter sweep, on one core or on the workers of an executor.
 
     sweep(scene, over={"friction": f, "tilt": t}, want=["half_width", "elastic_limit"],
     executor=ProcessPoolExecutor())
@@ -40,8 +39,7 @@ Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("
 Wanted = Callable[[Solution], Any]
 
 DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
-# A chunk is as long as this many would share the work evenly among themselves, in a pool whose size
-# is not known.
+# The number of chunks, at least, where the size of the pool is not known.
 CHUNKS, LONGEST_CHUNK = 64, 256
 PATIENCE = 1.0  # seconds of work before a progress bar appears
 REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in columns
@@ -76,7 +74,7 @@ QUANTITIES: dict[str, Wanted] = {
 }
 
 
-# What of these is called otherwise in a result: nan where no point has an answer.
+# Quantities with other names in a result; these are nan where no point has an answer.
 PARTS = {
     "edges": ("x1", "x2"),
     "elastic_limit": ("elastic_limit", "elastic_limit_load", "elastic_limit_x", "elastic_limit_y"),
@@ -90,11 +88,13 @@ class Interrupted(KeyboardInterrupt):
     Parameters
     ----------
     result : xarray.Dataset or dict
-        What the sweep had found; the other points are nan with the reason "interrupted".
+        The answers up to then; the other points are nan with the reason "interrupted".
     """
 
     def __init__(self, result: Any) -> None:
-        super().__init__("the sweep was interrupted: what it found is in the exception's `result`")
+        super().__init__(
+            "the sweep was interrupted: its answers up to then are in the exception's `result`"
+        )
         self.result = result
 
 
@@ -122,8 +122,8 @@ def sweep(
         Names among `sie.QUANTITIES`, or functions of a Solution by name that return a number, an
         array or a dict of them.
     executor : concurrent.futures.Executor, optional
-        Where chunks run; None is here. For a process pool, functions must be importable (no
-        lambdas).
+        Where chunks run; None runs them in this process. For a process pool, functions must be
+        importable (no lambdas).
     tol : float, optional
         As in `solve`.
     chunk : int, optional
@@ -248,7 +248,7 @@ def _wanted(want: str | Iterable[str] | Mapping[str, Wanted]) -> dict[str, str |
 
 
 class Work(NamedTuple):
-    """What is asked at every point."""
+    """The question at every point."""
 
     scene: Scene | Callable[..., Scene]
     wanted: dict[str, str | Wanted]
@@ -257,7 +257,7 @@ class Work(NamedTuple):
 
 @dataclass
 class _Run:
-    """The chunks of a sweep and what was found of them, also where it was interrupted."""
+    """The chunks of a sweep and their answers, also after an interruption."""
 
     work: Work
     chunks: list[list[Point]]
@@ -294,7 +294,7 @@ class _Run:
             self.found[k] = [({}, _reason(problem))] * len(self.chunks[k])
 
     def answers(self) -> list[Answer]:
-        """One for each point."""
+        """One answer for each point."""
         answers: list[Answer] = []
         for k, chunk in enumerate(self.chunks):
             have = self.found.get(k, [])
@@ -317,14 +317,14 @@ def _answer_into(
         try:
             last = _solution(work.scene, point, work.tol, last)
             answers.append((_values(last, work.wanted), ""))
-        # functions of a user raise what they like: one point must not cost the others
+        # a user's function may raise any error: one point must not lose the others
         except Exception as problem:
             answers.append(({}, _reason(problem)))
     return last
 
 
 def _reason(problem: Exception) -> str:
-    """The sentence that says why; of what is not ours, its kind too."""
+    """The message of an error, after its class if it is none of this package."""
     if isinstance(problem, BrokenExecutor):
         return (
             "the process that computed this chunk died: its memory was exhausted, or a function "
@@ -395,7 +395,7 @@ def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[
     data: dict[str, Any] = {}
     for name, inner in shapes.items():
         if name in axes:
-            continue  # what is swept over is known
+            continue  # the parameters of the sweep are known
         array = np.full((len(answers), *inner), np.nan)
         for k, (values, _) in enumerate(answers):
             if name in values:
@@ -451,7 +451,7 @@ def _coordinate(values: list[Any]) -> Any:
 
 
 class _Progress:
-    """A bar on standard error, if someone sees it and it is worth while."""
+    """A bar on standard error, if that is a terminal and the work is long."""
 
     def __init__(self, total: int, wanted: bool) -> None:
         self.total, self.done, self.start, self.drawn = total, 0, time.monotonic(), 0.0

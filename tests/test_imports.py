@@ -28,6 +28,7 @@ LAYERS = (
     ("problem", "traction"),
     ("contact", "stress", "cauchy"),
     ("friction",),
+    ("patches",),
     ("certificate",),
     ("plan",),
     ("solution",),

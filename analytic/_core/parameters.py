@@ -4,11 +4,11 @@ meaning.
 
 import math
 import sys
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 
 import numpy as np
 
-from analytic._core.numbers import Library, Number, everywhere, first_where
+from analytic._core.numbers import Library, Number, as_result, everywhere, first_where
 
 MEANING = {
     "radius": "the radius of the curved part, a length > 0",
@@ -47,6 +47,10 @@ MEANING = {
     "z": "the point x + iy of the plane, a complex length",
     "y": "a depth below the surface, a length >= 0",
     "poisson": "Poisson's ratio, a number",
+    "coefficients": "the b_n, a list of stresses",
+    "xx": "a component of a stress, as `Stresses` holds it",
+    "yy": "a component of a stress, as `Stresses` holds it",
+    "xy": "a component of a stress, as `Stresses` holds it",
     "peak_pressure": "the largest pressure of the line contact, a stress > 0",
 }
 
@@ -64,6 +68,8 @@ def real(name: str, value: Number, lib: Library) -> Number:
     """`value` as float or array of float64, or as context number. ValueError unless it is real and
     finite.
     """
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name} has masked entries; leave them out, or fill them.")
     try:
         number = _float64(value) if lib is np else lib.mpf(lib.convert(value))
     except (TypeError, ValueError, OverflowError):
@@ -94,6 +100,8 @@ def not_negative(name: str, value: Number, lib: Library) -> Number:
 
 def point(value: Number, lib: Library) -> Number:
     """z as complex array or context number. ValueError unless it is finite."""
+    if np.ma.is_masked(value):
+        raise ValueError("z has masked entries; leave them out, or fill them.")
     try:
         # Adding zero turns an imaginary part of -0.0 into +0.0. Without it z - b and z + b would
         # carry opposite signs of zero, and sqrt(z - b) sqrt(z + b) the wrong sign on x < -b.
@@ -103,6 +111,20 @@ def point(value: Number, lib: Library) -> Number:
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"z = {value!r} is not {_kind(lib)}; give {MEANING['z']}.") from None
     return _accept("z", number, _finite(number, lib), "finite")
+
+
+def representable(name: str, formula: Callable[[Number], Number], x: Number) -> Number:
+    """formula(x), which grows with |x|. ValueError where it is more than the largest double."""
+    with np.errstate(over="ignore"):
+        try:
+            value = formula(np.float64(x) if isinstance(x, float) else x)
+        except OverflowError:  # of plain floats
+            value = math.inf
+    infinite = abs(value) == math.inf
+    if everywhere(np.logical_not(infinite)):
+        return as_result(value)
+    far = first_where(np.asarray(infinite), np.asarray(x, dtype=object))[0]
+    raise ValueError(f"the {name} at x = {far} is more than the largest double; give a smaller x.")
 
 
 def side_of_cut(side: int) -> int:

@@ -21,14 +21,17 @@ Array = NDArray[Any]
 TAIL = 2  # the last coefficients that must have decayed ...
 DECAYED = 0.1  # ... to this part of the tolerance, relative to the largest
 ROUNDING = 4.0 * EPS  # of the largest term of the equation: coefficients below it have decayed
-# What numbers below 2e-308, with fewer digits than others, are rounded to.
+# The rounding of numbers below 2e-308, which have fewer digits than others.
 SUBNORMAL = 64.0 * 5e-324
 
 
 class Attempt(NamedTuple):
-    """A density; by intervals how far its coefficients decayed, residual (and what it is blind to),
-    below what both are rounding; the constant that g lacks: all relative. And what rounding makes
-    of each interval, where that takes another solution."""
+    """A density and its estimated errors, relative.
+
+    For each interval they are the decay of the coefficients, the residual (and the error that it
+    does not show), and the rounding of both. The constant by which g is not consistent follows, and
+    the effect of rounding on each interval where that takes another solution.
+    """
 
     density: JacobiDensity
     tails: Array
@@ -40,7 +43,7 @@ class Attempt(NamedTuple):
 
     @property
     def progress(self) -> float:
-        """What more nodes may lessen: the error but for rounding."""
+        """The error without rounding, which more nodes may reduce."""
         return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
@@ -52,7 +55,7 @@ class Attempt(NamedTuple):
         return unresolved
 
     def answer(self) -> JacobiDensity:
-        """The density, its errors with those of rounding."""
+        """The density; its errors include those of rounding."""
         spreads = self.spreads()
         if not spreads:
             return self.density
@@ -68,9 +71,11 @@ class Attempt(NamedTuple):
 
 
 class Terms(NamedTuple):
-    """Of the equation on one interval: its nodes, what is left over at PROBES, and two terms of it
-    everywhere; times dx/ds. And what its nodes miss of the integrals over it, relative; and how far
-    the terms may be off because positions are rounded."""
+    """The terms of the equation on one interval, times dx/ds.
+
+    They are its nodes, the residual at PROBES, and two terms of it everywhere. The relative error
+    of the integrals at its nodes follows, and the error of the terms by rounded positions.
+    """
 
     n: int
     left_over: Array
@@ -123,7 +128,7 @@ class _Measured(NamedTuple):
 
 
 def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> _Measured:
-    """What is kept of one interval's coefficients, and how well they are known.
+    """The coefficients of one interval that are kept, and their errors.
 
     Residuals are weighted as in the norm in which the singular operator is an isometry: next to a
     singular end of 1/w they mean less.

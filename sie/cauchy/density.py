@@ -3,8 +3,8 @@
     φ(x) ρ(x) = w(s) Σ c_n p_n(s),        x(s) affine or graded, ρ = dx/ds or another factor
 
 (`interval_map`). It is exact everywhere in the plane. On a graded interval the Cauchy kernel is
-that of s plus a smooth one: where z is near, the first has a closed form and the second is
-integrated by plain Gauss quadrature; further out all is.
+that of s plus a smooth one. Where z is near, the first has a closed form and the second is
+integrated by plain Gauss quadrature. Further out the quadrature serves both.
 """
 
 from __future__ import annotations
@@ -45,14 +45,15 @@ class Part:
     errors: Array | float = 0.0  # estimated, of each coefficient
 
     def less_certain(self, errors: Array) -> Part:
-        """With these errors of the coefficients (and maybe of others, dropped since) on top."""
+        """The same part with these errors of coefficients added; some of these may be dropped."""
         return replace(self, errors=np.hypot(self.errors, errors[: len(self.coefficients)]))
 
     # -- value -------------------------------------------------------------------------------------
 
     def value(self, to_right: Array, to_left: Array) -> Array:
-        """φ at points inside, by their distances from the ends; infinite at a singular end, with
-        the sign of its coefficient.
+        """φ at points inside, given their distances from the ends.
+
+        It is infinite at a singular end, with the sign of its coefficient.
         """
         right, left, rho = self.map.inverse(to_right, to_left)
         psi = jacobi.evaluate(self.weight, self.coefficients, 0.5 * (left - right))
@@ -95,19 +96,20 @@ class Part:
 
     @cached_property
     def nodes(self) -> tuple[Array, Array, Array, Array]:
-        """(s, x - x1, values of φ ρ ds, values of φ dx), times weights: ∫ f φ dx = Σ f times the
-        last.
+        """(s, x - x1, φ ρ times weights of ds, φ times weights of dx) at the quadrature nodes.
+
+        ∫ f φ dx is Σ f times the last.
         """
         n = self._quadrature_size
         s, A = jacobi.analysis(self.weight, n)
         _, to_left, _, rest = self.map.distances(1.0 - s, 1.0 + s)
-        c = self.coefficients[:n]  # what is left out is orthogonal to all that n nodes resolve
+        c = self.coefficients[:n]  # the other terms are orthogonal to all that n nodes resolve
         values = A[:, : len(c)] @ c
         return s, to_left, values, values * rest
 
     @property
     def _quadrature_size(self) -> int:
-        """So many that they integrate the coefficients times a kernel with its poles at HALFWAY."""
+        """The number of nodes for the coefficients times a kernel with poles at HALFWAY."""
         n = len(self.coefficients)
         if isinstance(self.map, Affine):
             return n + 1
@@ -150,8 +152,9 @@ class Part:
 
     @cached_property
     def _reduced(self) -> Part:
-        """The same density by a weight close to 1, if w is one times 1 + s or 1 - s: its Cauchy
-        integrals then keep their digits.
+        """The same density with a weight close to 1, if w is one times 1 + s or 1 - s.
+
+        Its Cauchy integrals then keep their digits.
         """
         w, n = self.weight, len(self.coefficients)
         if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= jacobi.FAINT:
@@ -195,8 +198,7 @@ class Part:
 
     @cached_property
     def steepness(self) -> Part:
-        """(x2 - x)(x - x1) φ'(x), a density with the same weight: integrated by parts it is what F'
-        is made of.
+        """(x2 - x)(x - x1) φ'(x), a density with the same weight, from which F' follows.
 
         With Q(z) = (x2 - z)(z - x1):  1/π ∫ Q(t) φ'(t)/(z - t) dt = Q(z) F'(z) - 1/π ∫ φ dt.
         """
@@ -222,9 +224,7 @@ class Part:
         return Part(self.map, self.weight, values @ A)
 
     def _near(self, to_right: Array, to_left: Array) -> Array:
-        """Points whose s lies in the ellipse through HALFWAY, where plain quadrature does not
-        serve.
-        """
+        """Points whose s is in the ellipse through HALFWAY; plain quadrature fails there."""
         assert not isinstance(self.map, Affine)
         poles = (to_right + self.map.behind == 0.0) | (to_left + self.map.before == 0.0)
         at = np.where(poles, 0.5 * self.map.length, to_left)
@@ -258,12 +258,12 @@ class JacobiDensity(Density):
         Estimated relative errors of these; large where K is small next to φ, as at a bounded end
         next to a narrow gap.
     constants : tuple
-        The multiples that were found of the equation's free functions.
+        The multiples of the equation's free functions.
     n : tuple of int
         The number of nodes on each interval that the solver chose.
     error : float
         Estimated error of φ over its largest value on the interval (singular ends divided out):
-        what the last coefficients, the residual and, next to narrow gaps, rounding leave open.
+        it follows from the last coefficients, the residual and, next to narrow gaps, rounding.
     residual : float
         Largest residual of the equation at points that were not used to solve it, over the largest
         term there.

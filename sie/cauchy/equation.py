@@ -56,7 +56,8 @@ class CauchyEquation:
     Raises
     ------
     ValueError
-        If the question is not well posed; the message says what the index asks for.
+        If the equation is not well posed; the message gives the side conditions that the index
+        needs.
 
     Notes
     -----
@@ -64,10 +65,10 @@ class CauchyEquation:
 
         a φ(x) + b/π PV∫ φ(t)/(t - x) dt + ∫ k(x, t) φ(t) dt = g(x) + Σ d_j u_j(x)
 
-    The half-plane's conventions, with 1/(x - t) in place of 1/(t - x), are b = -1. There must be as
-    many side conditions as the index says (the sum over the intervals of +1, 0, -1 for two, one, no
-    singular ends), and one more for each free function. Without any and with the index -1 the
-    right-hand side must be consistent, and it is checked.
+    The half-plane's conventions, with 1/(x - t) in place of 1/(t - x), are b = -1. The number of
+    side conditions must be the index (the sum over the intervals of +1, 0, -1 for two, one, no
+    singular ends), plus one for each free function. Without free functions and with the index -1
+    the right-hand side must be consistent, which is checked.
 
     References
     ----------
@@ -126,9 +127,10 @@ class CauchyEquation:
             object.__setattr__(self, name, self._given(name))
         self._refuse_miscounted()
 
-    # -- what is asked -----------------------------------------------------------------------------
+    # -- the arguments -----------------------------------------------------------------------------
 
     def _intervals(self) -> tuple[Interval, ...]:
+        arguments.refuse_masked("interval", self.interval)
         try:
             ends = np.array(self.interval, dtype=float)
             ends = (
@@ -136,6 +138,10 @@ class CauchyEquation:
                 if ends.ndim in (1, 2) and ends.shape[-1] == 2
                 else np.zeros((0, 2))
             )
+        except OverflowError:
+            raise ValueError(
+                f"interval holds a whole number beyond the range of doubles: {arguments.REMEDY}"
+            ) from None
         except (TypeError, ValueError):
             ends = np.zeros((0, 2))
         if not len(ends):
@@ -170,6 +176,11 @@ class CauchyEquation:
             raise ValueError(
                 f"a = {self.a}, b = {self.b}: b is nothing next to a, and this a Fredholm "
                 "equation; give a larger b"
+            )
+        if abs(self.b) < np.finfo(float).tiny:
+            raise ValueError(
+                f"b = {self.b:g} is below the least normal double: "
+                "multiply the equation by a large number"
             )
         if abs(ratio * ratio + 1.0) <= 4.0 * EPS:
             raise ValueError(
@@ -224,7 +235,7 @@ class CauchyEquation:
             return
         free = f" and {len(self.free)} free function(s)" if self.free else ""
         raise ValueError(
-            f"index {self.index}{free} asks for {max(needed, 0)} side condition(s), but {given} "
+            f"index {self.index}{free} needs {max(needed, 0)} side condition(s), but {given} "
             "given: give as many of total and "
             "moment, or make other ends bounded or singular, or free a constant of g"
         )
@@ -248,7 +259,7 @@ class CauchyEquation:
 
     @property
     def index(self) -> int:
-        """The index: how many side conditions the solution needs if no function is free."""
+        """The index: the number of side conditions without free functions."""
         return sum(weight.kappa for weight in self.weights)
 
     @property
@@ -267,7 +278,7 @@ class CauchyEquation:
                 found.append(Condition(power, tuple(range(len(self.interval))), value))
         return tuple(found)
 
-    # -- answers -----------------------------------------------------------------------------------
+    # -- the solution ------------------------------------------------------------------------------
 
     @cached_property
     def problem(self) -> Problem:
@@ -307,9 +318,9 @@ class CauchyEquation:
 
         Notes
         -----
-        k is called once, on a grid that resolves a smooth kernel whatever g asks for; once more
-        where it is narrower, up to 1000 points; and size by size, growing by half, where it is
-        rougher than that.
+        k is called once, on a grid that resolves a smooth kernel and does not depend on g. It is
+        called once more where it is narrower, on up to 1000 points, and for each size, growing by
+        half, where it is rougher than that.
         """
         tol = arguments.tolerance(tol)
         if n is not None:

@@ -40,7 +40,7 @@ class Condition(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """A well-posed question: `CauchyEquation` builds it."""
+    """A well-posed equation with maps and weights; `CauchyEquation` builds it."""
 
     maps: tuple[Map, ...]
     weights: tuple[Weight, ...]
@@ -61,8 +61,9 @@ class Problem:
 
     @property
     def functions(self) -> list[tuple[str, Function]]:
-        """(name, function) of g and of everything whose multiple is unknown, last the constants by
-        which g may miss its consistency.
+        """(name, function) of g and of all functions whose multiple is unknown.
+
+        The last are the constants by which g may fail to be consistent.
         """
         excess = max(-sum(weight.kappa for weight in self.weights) - len(self.free), 0)
         bounded = [
@@ -76,12 +77,13 @@ def _indicator(x1: float, x2: float, x: Array) -> Array:
     return np.where((x >= x1) & (x <= x2), 1.0, 0.0)
 
 
-# -- what the equation is made of ------------------------------------------------------------------
+# -- the terms of the equation --------------------------------------------------------------------
 
 
 def constant_of(problem: Problem, weight: Weight) -> Any:
-    """a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}, p̃ as the inverse weight's own
-    recurrence has it.
+    """The constant in a w p_n + b/π PV∫ w p_n/(t - x) dt = constant p̃_{n-κ}.
+
+    p̃ has the sign of the inverse weight's own recurrence.
     """
     return -real_if_real(problem.b) / weight.sine * jacobi.second_sign(weight)
 
@@ -91,7 +93,7 @@ def real_if_real(value: complex) -> Any:
 
 
 def functionals(interval: Map, weight: Weight, n: int) -> tuple[Array, Array]:
-    """(2, n): what ∫ φ dx and ∫ φ x dx are of the coefficients."""
+    """∫ φ dx and ∫ φ x dx as functionals of the coefficients, (2, n)."""
     total = np.zeros(n, dtype=weight.kind)
     total[0] = 1.0 / jacobi.recurrence(weight, 1).first
     if isinstance(interval, Affine):
@@ -122,7 +124,7 @@ def condition_rows(problem: Problem, functionals: list[tuple[Array, Array]]) -> 
 
 
 def positions(interval: Map, right: Array, left: Array) -> tuple[Array, Array, Array, Array, Array]:
-    """x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ."""
+    """(x from the nearer end, x2 - x, x - x1, the density's factor ρ, dx/ds / ρ)."""
     to_right, to_left, rho, rest = interval.distances(right, left)
     return (
         np.where(to_left < to_right, interval.x1 + to_left, interval.x2 - to_right),
@@ -163,8 +165,9 @@ def sample(name: str, function: Function, x: Array) -> Array:
 
 
 def sample_kernel(k: Kernel, x: Array, t: Array) -> Array:
-    """k at all x (rows) and t (columns), in one call; refused unless it is finite and of that shape
-    (or one number).
+    """k at all x (rows) and t (columns), in one call.
+
+    Refused unless it is finite and of that shape (or one number).
     """
     shape = (len(x), len(t))
     with np.errstate(all="ignore"):

@@ -10,17 +10,17 @@ any power of B - x is entire in v: the number of terms grows like ln(length/δ) 
 kernel stays a Cauchy kernel, plus 1/2 coth(y/2) - 1/y, which is smooth; the neighbours lie on Im v
 = ±π, so that no integral over them is nearly singular.
 
-What is expanded is φ times a factor ρ, known to rounding of its largest value anywhere, so that ρ
-decides where digits are. Next to a gap between singular ends φ grows like 1/(x - A), and ρ ~ x - A
-evens it out; where one of them is bounded φ does not grow, and ρ ~ 1 spares digits that a factor of
-δ would cost the coefficient of the bounded end. With p, q = 1 towards singular gaps, 0 towards
-others:
+The series is that of φ times a factor ρ, and its error is rounding of the largest value of φ ρ
+anywhere. So ρ determines where φ is accurate. Next to a gap between singular ends φ grows like 1/(x
+- A), and ρ ~ x - A compensates it. Where one of them is bounded φ does not grow, and with ρ ~ 1 the
+coefficient of the bounded end keeps digits that a factor of δ would lose. With p, q = 1 towards
+singular gaps, 0 towards others:
 
     ρ ~ (x - A)^p (B - x)^q,      ρ(u)/ρ(v) x'(v) / (x(v) - x(u)) = 1/2 coth((v - u)/2) + c
     c = 1/2 tanh(u/2) for p = q = 1,   -1/2 tanh(v/2) for p = q = 0,   (q - p)/2 otherwise
 
-Points are known by their distances from both ends: `right` = 1 - s and `left` = 1 + s on [-1, 1],
-`to_right` = x2 - x and `to_left` = x - x1 on the interval. Complex ones are taken too.
+Points are given by their distances from both ends: `right` = 1 - s and `left` = 1 + s on [-1, 1],
+`to_right` = x2 - x and `to_left` = x - x1 on the interval. They may be complex.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from sie.numerics.lerch import log1p
 
 Array = NDArray[Any]
 
-# A neighbour further than this times the interval's length is not graded for.
+# No grading towards a neighbour that is further than this times the interval's length.
 FAR = 0.6
 # Below this |y| the smooth part of coth is its Taylor series.
 SMALL = 0.3
@@ -88,8 +88,9 @@ class Affine:
 
 @dataclass(frozen=True)
 class Graded:
-    """x = (A + B e^v)/(1 + e^v), with A = x1 - before and B = x2 + behind; v and s differ by an
-    affine map.
+    """x = (A + B e^v)/(1 + e^v), with A = x1 - before and B = x2 + behind.
+
+    v is an affine function of s.
     """
 
     x1: float
@@ -135,7 +136,7 @@ class Graded:
         return to_right, to_left, rho, rest
 
     def _split(self, from_A: Array, from_B: Array) -> tuple[Array, Array]:
-        """dx/ds = h (x - A)(B - x) / (B - A) as ρ and the rest, which is 1 midway in (A, B)."""
+        """dx/ds = h (x - A)(B - x) / (B - A) as ρ times the rest, which is 1 midway in (A, B)."""
         rho: Any = 0.25 * self.h * self._width
         rest: Any = 1.0
         for power, distance in zip(self.powers, (from_A, from_B), strict=True):
@@ -200,6 +201,6 @@ def _map(x1: float, x2: float, left: tuple[float, int], right: tuple[float, int]
     length, (before, p), (behind, q) = x2 - x1, left, right
     if min(before, behind) >= FAR * length:
         return Affine(x1, x2)
-    # Where there is no gap near, either factor does; the simplest is that of the other side
+    # Where no gap is near, either factor serves; the simplest is that of the other side
     powers = (p if before < length else q, q if behind < length else p)
     return Graded(x1, x2, min(before, length), min(behind, length), powers)

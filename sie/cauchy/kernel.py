@@ -1,15 +1,14 @@
-"""A regular kernel, called once: its Chebyshev series in both variables, from which systems of
-every size are filled.
+"""The Chebyshev series of a regular kernel in both variables, which fills systems of any size.
 
     k(x_i(s), x_j(σ)) = Σ_mn C_mn T_m(s) T_n(σ)            on each pair (i, j) of intervals
 
-How many nodes k needs does not depend on g, nor the reverse; so k is sampled on a grid of its own,
-all pairs of intervals in one call, with further rows and columns on no grid, where the series must
-agree. If the first grid is too coarse, the decay of its coefficients tells how fine the second must
-be. A kernel that no small grid resolves (a layer much thinner than its contact, a kink) has no
-series, and `system` samples it at its own nodes, size by size.
+The number of nodes that k needs does not depend on g, nor the reverse. So k is sampled on a grid of
+its own, all pairs of intervals in one call. Further rows and columns on no grid test the series. If
+the first grid is too coarse, the decay of its coefficients determines the second one. A kernel that
+no small grid resolves (a layer much thinner than its contact, a kink) has no series, and `system`
+samples it at its own nodes, size by size.
 
-Rows are at the extrema of T_n and columns at its zeros, midway between: no x is ever a t, so that a
+Rows are at the extrema of T_n and columns at its zeros, midway between: no x is a t, so that a
 difference of singular terms such as 1/tan(t - x) - 1/(t - x) may be given as it is.
 """
 
@@ -34,7 +33,7 @@ FIRST, FEWEST = (
     64,
     12,
 )  # points of the first grid on each interval; where there are many intervals, fewer ...
-MOST = 1024  # ... so that all intervals together have no more; and those of the second grid neither
+MOST = 1024  # ... so that all intervals together have no more; this also bounds the second grid
 TAIL = 4  # the last coefficients that must have decayed ...
 DECAYED = 0.05  # ... to this part of the tolerance
 ROUNDING, MISSED = (
@@ -42,7 +41,7 @@ ROUNDING, MISSED = (
     64.0 * EPS,
 )  # ... or to rounding; and what then is missed on no grid, in the mean: rounding of k itself
 PREDICTABLE = (
-    0.05  # a tail below this part of the largest coefficient tells how many more are needed ...
+    0.05  # from a tail below this part of the largest coefficient the size needed is estimated ...
 )
 MARGIN = 1.25  # ... times this
 
@@ -53,7 +52,7 @@ class Series(NamedTuple):
     coefficients: tuple[tuple[Array, ...], ...]
 
     def at(self, s: list[Array], sigma: list[Array]) -> Array:
-        """k at rows s and columns σ, those of all intervals one after another."""
+        """k at rows s and columns σ, with the intervals one after another."""
         rows = [
             [chebyshev.polynomials(c.shape[0], at).T @ c for c in of]
             for of, at in zip(self.coefficients, s, strict=True)
@@ -71,8 +70,9 @@ class Series(NamedTuple):
 
 
 def series(problem: Problem, tol: float) -> Series | None:
-    """The kernel's series, by one call of it, or two; None where it has none, and where k returns
-    nonsense: direct sampling will say so.
+    """The kernel's series, by one call of k or two; None where it has none.
+
+    It is None also where k returns no finite values: direct sampling then raises the error.
     """
     if problem.k is None:
         return None
@@ -91,9 +91,7 @@ def series(problem: Problem, tol: float) -> Series | None:
 
 
 def _sampled(k: Kernel, maps: tuple[Map, ...], n: int, enough: float) -> tuple[Series | None, int]:
-    """The series by n columns and n + 1 rows on each interval if they resolve k, and how many
-    would.
-    """
+    """(series by n columns and n + 1 rows on each interval if these resolve k, size needed)."""
     s, sigma = np.concatenate((_extrema(n), PROBES)), np.concatenate((chebyshev.points(n), -PROBES))
     x, t = (
         np.concatenate([positions(m, 1.0 - at, 1.0 + at)[0] for m in maps]) for at in (s, sigma)
@@ -147,8 +145,9 @@ def _from_zeros(n: int) -> Array:
 
 
 def _cosine(numerator: NDArray[np.int64], denominator: int) -> Array:
-    """cos(π numerator / denominator), of an angle in the first quadrant: k times a rounded angle
-    would cost k roundings.
+    """cos(π numerator / denominator), by an angle in the first quadrant.
+
+    The cosine of k times a rounded angle would have k times the rounding error.
     """
     m = numerator % (2 * denominator)
     m = np.minimum(m, 2 * denominator - m)

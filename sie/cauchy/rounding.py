@@ -1,8 +1,9 @@
-"""The error of a density by rounding of the equation's terms and of the places they are taken at.
+"""The error of a density by rounding of the equation's terms and of their positions.
 
-The residual cannot tell: next to a narrow gap, residuals as small belong to densities further
-apart, and what is small there, as the coefficient of a bounded end, is known to rounding of what is
-large only. So roundings are drawn, and solved for.
+The residual does not show this error. Next to a narrow gap, equally small residuals belong to
+densities further apart, and a small quantity there, as the coefficient of a bounded end, has the
+absolute error of the large ones. So roundings are drawn at random, and the equation is solved for
+them.
 
 Source: Higham, Accuracy and Stability of Numerical Algorithms (2002), § 1.6, for errors by
 perturbation.
@@ -30,8 +31,9 @@ LARGEST = (
 
 
 class Spread(NamedTuple):
-    """What rounding makes of one interval's density: of φ and of φ ρ over the largest there; and of
-    each coefficient.
+    """The errors of one interval's density by rounding.
+
+    They are those of φ and of φ ρ over the largest value there, and those of each coefficient.
     """
 
     relative: float
@@ -39,7 +41,7 @@ class Spread(NamedTuple):
 
 
 def signs(rows: int) -> Array:
-    """(rows, DRAWS): roundings of 1 up or down, the same ones each time."""
+    """Roundings of 1 up or down, (rows, DRAWS), the same ones each time."""
     out: Array = EPS * np.random.default_rng(0).choice((-1.0, 1.0), (rows, DRAWS))
     return out
 
@@ -47,8 +49,9 @@ def signs(rows: int) -> Array:
 def spread(
     interval: Map, weight: Weight, quadrature: tuple[Array, Array], c: Array, off: Array
 ) -> Spread:
-    """From the coefficients' errors (n, DRAWS); `quadrature` are nodes and the matrix to weights
-    times values there (`jacobi.analysis`).
+    """The spread from the coefficients' errors (n, DRAWS).
+
+    `quadrature` is the nodes and the matrix to weights times values there (`jacobi.analysis`).
     """
     sigma, matrix = quadrature
     # A Gauss weight's root evens out the ends as the norm does in which polynomials are orthonormal
@@ -67,10 +70,9 @@ def _root_mean_square(draws: Array) -> Array:
 
 
 def unsure(x: Array, values: Array, rho: Array) -> Array:
-    """How far values(x) ρ are off because x are doubles: what the values vary by over a rounding of
-    x.
+    """The error of values(x) ρ by rounding of x: the change of the values over one rounding.
 
-    It counts far from x = 0, and where values vary across a narrow gap; no solver could do better.
+    It matters far from x = 0, and where values vary across a narrow gap; no solver can avoid it.
     """
     order = np.argsort(x)
     at, of, by = x[order], values[order], rho[order]

@@ -4,10 +4,10 @@
     with side conditions  ∫ φ x^power dx = value
 
 On [-1, 1] the density is sought as φ = w Σ c_n p_n, w = (1-s)^α (1+s)^β with the exponents that a
-and b ask for and p_n orthonormal for w. The singular part maps p_n to one constant times p̃_{n-κ},
-orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the matrix for c is the identity, moved
-by κ places, plus the coefficients of what is smooth; side conditions fill the places that κ = 1
-leaves open, and free constants u_j answer the equation too many that κ = -1 brings.
+and b determine and p_n orthonormal for w. The singular part maps p_n to one constant times
+p̃_{n-κ}, orthonormal for 1/w (`jacobi`), κ = -(α + β) the index. So the matrix for c is the
+identity, shifted by κ places, plus the coefficients of the smooth part. Side conditions are the
+equations that κ = 1 lacks, and a free constant u_j is the unknown that κ = -1 lacks.
 
 Without k on one interval nothing is solved: c is a transform of g, for a = 0 a DCT (`transform`).
 Otherwise the matrix is square, and about as well conditioned as the identity plus k (`system`). The
@@ -37,7 +37,7 @@ from .kernel import Series, series
 from .system import System
 from .transform import by_transform
 
-ENLARGED = 1.45  # from one attempt to the next: what is spent is not twice what is needed
+ENLARGED = 1.45  # from one attempt to the next: the total cost is less than twice the least
 LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a DCT, gives up; ...
 LARGEST_RULE, LARGEST_COMPLEX_RULE = (
     4000,
@@ -46,16 +46,16 @@ LARGEST_RULE, LARGEST_COMPLEX_RULE = (
 NEAR_MINUS_ONE = (
     1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
 )
-LARGEST_GUESS = 1000  # ... and the guess of a first size from g alone
+LARGEST_GUESS = 1000  # ... and the first size as estimated from g alone
 IDLE, SETTLED = (
     3,
     1e-6,
 )  # after so many enlargements without progress an error below this is noise of g or k
-# Errors from the first of these sizes on, once the second is reached, tell whether they fall like a
-# power of n, as those of kinks and of weak singularities do, and whether a system so many times
-# larger than the largest would be enough.
+# Once the second of these sizes is reached, the errors from the first size on show whether they
+# fall like a power of n, as those of kinks and of weak singularities do, and whether a system so
+# many times larger than the largest would be enough.
 FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
-# A right-hand side that misses its consistency by more than this fraction is refused.
+# A right-hand side that is inconsistent by more than this fraction is refused.
 INCONSISTENT = 1e-9
 
 
@@ -98,11 +98,11 @@ def _largest(problem: Problem) -> int:
 
 
 def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
-    """Whether the errors of a kernel without a series fall like a power of n that no affordable n
-    brings to tol.
+    """Whether the errors of a kernel without a series fall too slowly for any affordable n.
 
-    So they fall where k has a kink or is singular, from the first sizes on; of a kernel that is
-    only narrow they stay where they are until n resolves it, and then fall faster than any power.
+    They fall like a power of n where k has a kink or is singular, from the first sizes on. For a
+    kernel that is only narrow they are constant until n resolves it, and then fall faster than any
+    power.
     """
     n, progress = np.array([(n, error) for n, error in seen if n >= FIRST_SEEN]).reshape(-1, 2).T
     if len(n) < FEWEST_SEEN or n[-1] < ENOUGH_SEEN:
@@ -115,7 +115,7 @@ def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
 
 
 def _reason(problem: Problem, best: Attempt) -> str:
-    """Why a density may not settle, and what to do."""
+    """The reason why a density may not settle, and the remedy."""
     enough = (
         1.1 * best.progress / DECAYED
     )  # coefficients have to decay to this part of tol; it is printed to two digits
@@ -135,7 +135,7 @@ def _reason(problem: Problem, best: Attempt) -> str:
 
 
 def _first_sizes(problem: Problem, tol: float) -> tuple[int, ...]:
-    """As many nodes as g needs without the kernel, for one interval with one: by transforms."""
+    """The number of nodes that g needs without the kernel, by transforms of one interval."""
     sizes, free_of_kernel = problem.first_sizes(), replace(problem, k=None)
     if problem.is_transform or not free_of_kernel.is_transform:
         return sizes
@@ -166,8 +166,9 @@ def consistent(found: Attempt) -> JacobiDensity:
 
 
 def attempt(problem: Problem, sizes: tuple[int, ...], kernel: Series | None = None) -> Attempt:
-    """The density with so many nodes on each interval; with the kernel's series, if it is known, in
-    place of the kernel.
+    """The density with so many nodes on each interval.
+
+    The kernel's series stands for the kernel if it is known.
     """
     if problem.is_transform:
         return by_transform(problem, sizes[0])

@@ -1,4 +1,4 @@
-"""Kernels and several intervals: a square system, the identity plus what is smooth.
+"""Kernels and several intervals: a square system, the identity plus a smooth part.
 
 LAPACK factorises it while it is small, and above DENSE unknowns GMRES solves it in steps of n²
 operations, whose number does not grow with n. Several intervals are coupled by their Cauchy
@@ -43,16 +43,13 @@ Array = NDArray[Any]
 # Unknowns up to which LAPACK's n³ costs less than GMRES, measured (`validation`).
 DENSE = 600
 KRYLOV = 120
-# Of a kernel's coefficients in t: the first and the last ones are looked at, and below this they
-# are rounding.
+# The first and the last of a kernel's coefficients in t are examined; below this they are rounding.
 _FIRST, _LAST = slice(0, TAIL), slice(-TAIL, None)
 NEGLIGIBLE = 64.0 * EPS
 
 
 class _Block(NamedTuple):
-    """One interval of a system: where its rows are sampled (its probes last), and where its
-    integrals are.
-    """
+    """One interval of a system: the points of its rows (its probes last) and of its integrals."""
 
     x: Array
     rows: tuple[Array, Array, Array]  # x2 - x, x - x1, ρ
@@ -71,9 +68,9 @@ class _Block(NamedTuple):
 class System:
     """The equations for all coefficients c and free constants d, with n_i nodes on interval i.
 
-    Rows in this order: interval by interval its projections on p̃, a condition before them where κ
-    = 1, without the one too many where κ = -1; then those that were left out and the conditions
-    that are left, to match the free constants. So the matrix is the identity plus what is smooth,
+    The rows are, interval by interval, the projections on p̃, with a condition before them where κ
+    = 1 and without the first one where κ = -1. The projections that were left out and the remaining
+    conditions follow, one for each free constant. So the matrix is the identity plus a smooth part,
     but for that border. The kernel is called once, or not at all where its series is given.
     """
 
@@ -94,7 +91,7 @@ class System:
         self.conditions, self.values = condition_rows(problem, of)
 
     def _kernel(self) -> tuple[Array | None, Array]:
-        """k, and all that is smooth, rows by columns, times ρ of the row, over ρ of the column."""
+        """k and all smooth parts, rows by columns, times ρ of the row, over ρ of the column."""
         x, t = (
             np.concatenate([b.x for b in self.blocks]),
             np.concatenate([b.t for b in self.blocks]),
@@ -155,7 +152,7 @@ class System:
 
     @cached_property
     def order(self) -> NDArray[np.int64]:
-        """Which row of (conditions, projections) stands where; see the class."""
+        """The order of the rows of (conditions, projections); see the class."""
         at, start, condition, late = [], len(self.values), 0, []
         for block, n in zip(self.blocks, self.sizes, strict=True):
             m = n - block.kappa
@@ -172,7 +169,7 @@ class System:
 
     @cached_property
     def _free_columns(self) -> tuple[Array, Array]:
-        """Of the free functions, normalised, and what they were divided by."""
+        """The columns of the free functions, normalised, and their divisors."""
         columns = np.concatenate(
             (
                 np.zeros((len(self.values), len(self.sampled) - 1)),
@@ -231,17 +228,17 @@ class System:
         return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
 
     def by_lapack(self) -> Array:
-        """In n³ operations."""
+        """The solution in n³ operations."""
         return solved(self.matrix(), self.rhs)
 
     def by_gmres(self) -> Array:
-        """In n² operations a step, and as many steps as the kernel asks for, whatever n."""
+        """The solution in n² operations a step; the number of steps does not depend on n."""
         from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
 
         kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
         operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)
         found, info = gmres(operator, self.rhs, rtol=4.0 * EPS, restart=KRYLOV, maxiter=3)
-        # GMRES stops at rounding of its own recursion; what counts is the residual
+        # GMRES stops at rounding of its own recursion; the residual itself has to be small
         if info and np.linalg.norm(self.applied(found) - self.rhs) > np.sqrt(
             len(self.rhs)
         ) * 64.0 * EPS * np.linalg.norm(self.rhs):
@@ -253,12 +250,11 @@ class System:
         return out
 
     def _aliased(self, c: Array, sizes: Array) -> list[float]:
-        """For each interval, what its nodes miss of the integrals over it, relative to the terms'
-        sizes at the rows.
+        """The quadrature error of the integrals over each interval, over the terms at the rows.
 
-        The residual is blind to it, as it integrates by the same nodes. The coefficients of k(x, ·)
-        tell: n Gauss nodes mistake those beyond 2n - m for the m-th; for complex exponents, where
-        nodes are not Gauss's, all beyond n.
+        The residual does not show it, because it is integrated by the same nodes. The coefficients
+        of k(x, ·) do: n Gauss nodes add those beyond 2n - m to the m-th. For complex exponents the
+        nodes are not Gauss's, and all beyond n are in error.
         """
         missed = []
         for block, weight, at in zip(
@@ -278,11 +274,10 @@ class System:
         return missed
 
     def _spreads(self, c: Array, sizes: Array) -> list[Spread]:
-        """For each interval what rounding does to it, by the sizes of the equation's terms that are
-        rounded at the rows.
+        """The effect of rounding on each interval, by the sizes of the terms rounded at the rows.
 
-        On affine intervals, where the matrix is well conditioned, the residual tells; where GMRES
-        serves, more solutions cost too much.
+        On affine intervals, where the matrix is well conditioned, the residual shows it; where
+        GMRES serves, more solutions cost too much.
         """
         if all(isinstance(m, Affine) for m in self.problem.maps) or len(self.rhs) > DENSE:
             return []

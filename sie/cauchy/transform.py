@@ -2,8 +2,8 @@
 
 For a = 0 that is a DCT, and nothing is solved.
 
-What conditions and free functions ask for is a combination of particular solutions, a system as
-small as their number.
+Conditions and free functions determine a combination of particular solutions, by a system as small
+as their number.
 """
 
 from __future__ import annotations
@@ -55,8 +55,9 @@ def by_transform(problem: Problem, n: int) -> Attempt:
 def _closed(
     c: Array, defects: Array, rows: Array, values: Array, kappa: int
 ) -> tuple[Array, Array]:
-    """The combination of the particular solutions c, g's first, and of the homogeneous one if κ =
-    1, that meets all conditions.
+    """The combination of particular solutions that meets all conditions.
+
+    The particular solutions c begin with that of g, and the homogeneous one is added if κ = 1.
     """
     functions = len(c)
     if kappa == 1:

@@ -1,1 +1,1 @@
-"""What is measured on every answer."""
+"""The certificate: measures of the accuracy of every answer."""

@@ -5,9 +5,10 @@
     inequalities  p >= 0 in contact, gap >= 0 outside
     resolution    E*/2 |h' - its resolution| / peak                    of a function
     edges         ΔP/(π r peak), ΔP the load that wrong edges carry    by their conditions
- Equilibrium is measured by itself, because the equation is blind to C/w(x), w = sqrt((x - x1)(x2 -
-x)). The integrals are composite Gauss-Legendre in the angle φ, graded towards the breaks of the
-slope; nothing of the closed forms is used. The resolution is compared at points of a
+
+Equilibrium is measured separately, because with w = sqrt((x - x1)(x2 - x)) the residual does not
+show an error C/w(x). The integrals are composite Gauss-Legendre in the angle φ, graded towards the
+breaks of the slope; nothing of the closed forms is used. The resolution is compared at points of a
 low-discrepancy sequence (`profiles.unresolved`). An edge x2 that is off by δ carries ΔP = G r JR δ
 too much (`contact.edges`), and leaves ΔP/(π w(x)) in the pressure, like the load on a flat punch:
 next to the edge that is p(x) δ/(2 d), d the distance from it. δ is at least half an ulp of x2, if

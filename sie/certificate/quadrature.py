@@ -1,10 +1,9 @@
-"""Composite Gauss-Legendre in the angle φ over a contact, for a function that is not smooth at the
-breaks of a slope.
+"""Composite Gauss-Legendre quadrature in the angle φ, graded towards the breaks of a slope.
 
 A corner of the slope leaves (x - e)^(m+1) ln|x - e| in the pressure, m the order of the derivative
 of H that jumps there. Panels are graded towards the breaks, and none is much longer than its
-neighbours. Of few breaks each is taken for a corner; of many (a trace) a break is graded for as
-many levels as the jumps there ask for, which for a smooth spline is none or one.
+neighbours. Each of a few breaks is treated as a corner. Where there are many (a trace), the jumps
+at a break determine the number of levels, which for a smooth spline is none or one.
 """
 
 from __future__ import annotations
@@ -103,9 +102,7 @@ def composite_rule(
 
 
 def edge_graded_rule(contact: Interval) -> Rule:
-    """The composite rule for tractions that oscillate towards both edges, as those of full stick
-    do.
-    """
+    """The composite rule for tractions that oscillate towards both edges, as in full stick."""
     ends = 0.25 * graded(27)  # to rounding
     middle = np.linspace(0.25, 0.75, 17)
     cuts = np.pi * np.concatenate(([0.0], ends, middle, 1.0 - ends[::-1], [1.0]))

@@ -1,4 +1,4 @@
-"""What was measured on an answer: the certificates of a pressure and of a shear traction."""
+"""The certificates of a pressure and of a shear traction: the errors measured on an answer."""
 
 from __future__ import annotations
 
@@ -45,19 +45,18 @@ class Certificate:
     lowest_pressure, lowest_gap : float
         0 where p >= 0 in the contact and gap >= 0 beside it, otherwise negative.
     abscissae : float
-        How much of the above is input rounding error: no double can tell p better where it changes
-        within one ulp of x.
+        The part of the above that is input rounding error, where p changes within one ulp of x.
     tol : float
         Tolerance that was asked for.
     tension, overlap : tuple of tuple of float
         Intervals of x where p < 0 in the contact and gap < 0 beside it, as closely as these were
         scanned.
     shear : ShearCertificate or None
-        What was measured on the shear traction.
+        The certificate of the shear traction.
     resolution : float
-        How far a function is from its resolution at points of its own, as a pressure.
+        The difference between a function and its resolution at further points, as a pressure.
     edges : float
-        What the load and rounding leave unknown of the edges, as an error of the pressure at a
+        The uncertainty of the edges by the load and rounding, as an error of the pressure at a
         distance r from them.
     notes : tuple of str
         Sentences on strains that are not small; they do not count for `ok`.

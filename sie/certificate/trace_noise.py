@@ -1,8 +1,8 @@
-"""How far the noise of a trace reaches into the pressure: an estimate beside the certificate.
+"""The error of the pressure by the noise of a trace: an estimate beside the certificate.
 
 The contact is that of a trace's spline f; the surface without noise is another one. With
 x = m + r cos θ and the error of the slope δH = Σ c_n cos nθ, the error of the pressure to first
-order is, by inversion of (1) on the contact as it was found (G = E*/2),
+order is, by inversion of (1) on the computed contact (G = E*/2),
 
     δp = G [ Σ_{n>=1} c_n sin nθ + (C - c_0' cos θ)/sin θ ]
 
@@ -20,7 +20,7 @@ All of it is linear in δH, which has two parts:
 - the reference less the surface: s² (B'B + λE)^-1 is the covariance of its coefficients, s² follows
   from its misfit (`smoothing.slope_deviations`).
 
-What is stated is |δp| of the first part and SPREAD standard deviations of the second. It assumes
+The report states |δp| of the first part and SPREAD standard deviations of the second. It assumes
 noise that is independent from point to point. Roughness that is correlated over several points is
 taken for a part of the surface, as cross validation takes it, unless the trace was smoothed so much
 further that the misfit shows it: then all that was smoothed away counts as an error. A wrong scale
@@ -58,7 +58,7 @@ NAMED = 3  # outliers or gaps that a row names
 
 @dataclass(frozen=True)
 class TraceReport:
-    """What a trace is, what was done with it, and what its noise leaves open.
+    """A trace, its smoothing and repair, and the errors that its noise causes.
 
     Lengths in the scene's units, places in the scene's x.
 

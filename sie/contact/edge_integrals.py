@@ -1,8 +1,8 @@
 """The integrals over a contact that fix its edges.
 
-By the rules of the pieces for dt/w (`piece_quadrature`, `piece_quadrature`), exact to rounding,
-derivatives and jumps included. The same formulas are there in two forms: arrays for many pieces,
-plain floats for a few, where the overhead of NumPy's calls would be most of the cost of a solve.
+They are sums of the pieces' rules for dt/w (`piece_quadrature`), exact to rounding, derivatives and
+jumps included. The formulas have two forms: arrays for many pieces, plain floats for a few, where
+the overhead of NumPy's calls would be most of the cost of a solve.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Moments(NamedTuple):
     size2: float
 
     def mirrored(self) -> Moments:
-        """Those of h(-x) on the mirrored contact."""
+        """The integrals of h(-x) on the mirrored contact."""
         return Moments(
             -self.I0,
             self.I1,
@@ -71,7 +71,7 @@ class Moments(NamedTuple):
         )
 
     def balanced(self, r: float) -> Moments:
-        """Those of the contact moved sideways until I0 = 0, from those of one where I0 is small.
+        """The integrals of the contact moved sideways until I0 = 0, for a small I0.
 
         To first order, with 2 dI0 = (JR + JL) dm, 2 dI1 = (JR - JL) dm and dC2 = I1/r dm.
         """

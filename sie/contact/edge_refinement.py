@@ -1,4 +1,4 @@
-"""Edges that are nearly known, to the rounding of their own equations.
+"""Refinement of approximate edges to the rounding of their own equations.
 
 With T = P/G, F1 = r K1 - T and F2 = r K2 - T of `edges`, both vanish where both edges are smooth.
 For any [x1, x2] of a convex profile
@@ -16,16 +16,16 @@ one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, a
 middle where two of them have not halved the residual. So every second step halves the residual or a
 bracket, and MAX_POLISHING steps are enough.
 
-Newton's method alone creeps, or runs to and fro, where an edge is next to a break at which H or H'
-jumps: at a distance d behind the break, to leading order,
+Newton's method alone converges slowly, or oscillates, where an edge is next to a break at which H
+or H' jumps: at a distance d behind the break, to leading order,
 
     dF/dd = A + B d^(-1/2) + C d^(1/2),      B = sqrt(2r) [H],      C = 2 sqrt(2r) [H']
 
 There a step leads to the root of this model, on whichever side of the break that is.
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
-their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by. What that
-leaves unknown of the edges is `uncertainty`.
+their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by.
+`uncertainty` is the error of the edges that remains.
 """
 
 from __future__ import annotations
@@ -60,8 +60,7 @@ LEFT, RIGHT = 0, 1
 
 
 def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
-    """How far either edge moves for an ulp of the load and the rounding of its own equation: what
-    (P, tilt) fix it to.
+    """The shift of either edge for an ulp of the load and the rounding of its own equation.
 
     Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
     """
@@ -227,7 +226,8 @@ class Polish:
             step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
             missed = abs(over) / sum(self.rounding(contact, k, 0.0))
             if missed <= 1.0:
-                return contact.moved(step, step), k.balanced(contact.r)
+                balanced = contact.moved(step, step) if rise > 0.0 else contact
+                return balanced, k.balanced(contact.r)
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
             place = bracket.place(wanted, missed > 0.5 * earlier[-2])
@@ -294,6 +294,8 @@ class Polish:
         if behind <= 0.0:
             return behind / A - d
         v = math.sqrt(behind / A) if B <= 0.0 else behind / (B + math.sqrt(B * B + A * behind))
+        if C > 0.0 and B >= 0.0:  # beyond the root by either of them; steps from far beyond creep
+            v = min(v, math.cbrt(1.5 * behind / C))
         for _ in range(STEPS_TO_A_BREAK):
             slope = 2.0 * (B + v * (A + C * v))
             step = (

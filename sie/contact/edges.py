@@ -1,4 +1,4 @@
-"""Where contact begins and ends.
+"""The edges of the contact.
 
 With G = E*/2, t = m + r sin φ and the integrals of `edge_integrals`, a contact [x1, x2] of a
 profile with slope H needs
@@ -54,8 +54,9 @@ UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of t
 
 @dataclass(frozen=True)
 class Edges:
-    """An answered question: contact, load, moment about x = 0, tilt; which edges are sharp, and the
-    stresses k1, k2 of these.
+    """The contact, load, moment about x = 0 and tilt; which edges are sharp, and their k1, k2.
+
+    k1 and k2 are stresses.
     """
 
     contact: Interval
@@ -366,7 +367,8 @@ class Search:
                 f"{target * self.half_modulus:.6g}: "
                 f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with "
                 f"{carried * self.half_modulus:.6g}; "
-                "the profile has several bumps, raise the load, lower it, or smooth the profile",
+                "the profile has several bumps, or doubles there do not resolve so narrow a "
+                "contact: raise the load, lower it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)

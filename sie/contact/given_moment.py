@@ -18,7 +18,9 @@ from .edge_integrals import Moments, moments
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
 from .edges import PLACES, Edges, Found, Search
 
-FIRST_STEP = 2.0**-6  # of the half-width: from there doubled, where a centre is looked for
+NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
+# Where a centre is looked for: the first step over the half-width, and what the next are longer by.
+FIRST_STEP, GROWTH = 2.0**-6, 1.5
 
 
 def under_load(search: Search, load: float, moment: float) -> Edges | None:
@@ -79,8 +81,12 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
     def at(m: Place) -> tuple[float, float, Interval, Moments]:
         """Of M/(G r): how much it exceeds what is given, and its derivative."""
         contact = interval_about(m[0], r).moved(m[1], m[1])
-        k, centre = search.moments(contact), contact.m
+        # Far from x = 0 the slope is nearly constant, which carries nothing
+        level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
+        k, centre = replace(search, slope=slope).moments(contact), contact.m
+        search.evaluations += 1
         excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
+        k = k._replace(I0=k.I0 + math.pi * level, C2=k.C2 + 0.5 * math.pi * level)
         return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
 
     centre = min(max(0.5 * (z1 + z2), low), high)
@@ -101,11 +107,10 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
         if missed > 1.0:
             bracket.cut(m, above=excess * slope < 0.0)
         place = bracket.place(wanted, missed > max(0.5 * earlier[-2], 1.0))
+        if missed <= 1.0:  # the signs that bound it are rounding
+            place = wanted if low < wanted[0] < high else m
         earlier.append(missed)
-        within = bracket.low < wanted < bracket.high
-        if (
-            place == m or earlier[-2] <= 1.0 or (missed <= 1.0 and not within)
-        ):  # after one more step, if there is one
+        if place == m or earlier[-2] <= 1.0:  # after one more step, if there is one
             break
         m = place
     if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
@@ -121,7 +126,7 @@ def _first_change(
     bounds: tuple[float, float],
     r: float,
 ) -> Bracket | None:
-    """Two places, as near to the centre as doubled steps to both sides tell, between which the
+    """Two places, as near to the centre as growing steps to both sides tell, between which the
     excess changes its sign under load.
     """
     last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
@@ -134,7 +139,13 @@ def _first_change(
                 del last[side]
                 continue
             last[side] = new, *at(new)
-            if excess * last[side][1] <= 0.0 and max(before.I1, last[side][4].I1) > 0.0:
+            loaded = _pressing(before), _pressing(last[side][4])
+            if excess * last[side][1] <= 0.0 and max(loaded) > 0.0 <= min(loaded):
                 return Bracket((min(place, new), 0.0), (max(place, new), 0.0), (True, True))
-        step *= 2.0
+        step *= GROWTH
     return None
+
+
+def _pressing(k: Moments) -> float:
+    """I1, the load over G r, if it is more than rounding."""
+    return k.I1 if abs(k.I1) > ROUNDINGS * (k.size1 + k.size2) else 0.0

@@ -38,8 +38,9 @@ SCANNED = (
 
 
 def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
-    """Whether h' rises wherever `verify_inequalities` would look, and no edge pulls: then p > 0 and
-    gap > 0 follow.
+    """Whether h' rises at all points of `verify_inequalities`, and no edge pulls.
+
+    Then p > 0 and gap > 0 follow.
     """
     contact = density.contact
     even = np.pi * (np.arange(SCANNED) + 0.5) / SCANNED
@@ -54,9 +55,7 @@ def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
 
 
 def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
-    """Verify p >= 0 inside and gap >= 0 outside; InequalityError says where one patch violates
-    them.
-    """
+    """Verify p >= 0 inside and gap >= 0 outside; InequalityError names the places otherwise."""
     x = np.concatenate((_scan(density.contact, slope), inner(density.contact, slope.breaks)))
     p = density(x)
     peak = float(p[np.isfinite(p)].max())
@@ -75,7 +74,7 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
             f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak "
             f"{peak:.3g}){_among(intervals)}: "
             "the profile is not convex there and lifts off; "
-            "several patches of contact are not covered yet, raise the load or smooth the profile",
+            "give normal_load, under which several patches are found, raise the load or smooth the profile",
             x=where,
             edges=density.interval,
             tension=intervals,
@@ -85,7 +84,7 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         where, intervals = float(x[np.argmin(gaps)]), intervals_below(x, gaps)
         raise InequalityError(
             f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
-            "the profile touches there too; several patches are not covered yet, "
+            "the profile touches there too; give normal_load, under which several patches are found, "
             "lower the load, raise it until they merge, or smooth the profile",
             x=where,
             edges=density.interval,
@@ -94,8 +93,9 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
 
 
 def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
-    """Points beside the contact, out to FAR half-widths, and the gap there relative to its largest
-    value within one half-width.
+    """Points beside the contact, out to FAR half-widths, and the relative gap there.
+
+    It is relative to its largest value within one half-width.
     """
     contact, r = density.contact, density.contact.r
     x = _beside(contact, slope)

@@ -1,5 +1,4 @@
-"""The normal problem at β = 0: from the slope of a profile and a load to the edges and the
-pressure.
+"""The normal problem at β = 0: the edges and the pressure of a profile under a load.
 
 Where the slope is a polynomial on each piece this is one search for the edges (`edges`) and one
 expansion. A slope given by a function is resolved first, on a window that is fitted to the contact:
@@ -498,18 +497,16 @@ def _first_window(scene: Scene) -> tuple[float, float]:
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
     centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)
-    if scene.half_width is not None:
-        size = scene.half_width
-    else:
-        assert scene.normal_load is not None
-        sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
-        with np.errstate(invalid="ignore", over="ignore"):
-            H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
-            # A tilted profile touches first where its slope has risen to 0, on one side: both have
-            # to rise outwards
-            outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
-            enough = [np.flatnonzero(~(force < scene.normal_load)) for force in outwards]
-        size = max((float(WINDOW_SIZES[k[0]]) for k in enough if k.size), default=1.0)
+    sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
+    with np.errstate(invalid="ignore", over="ignore"):
+        H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
+        # A tilted profile touches first where its slope has risen to 0, on one side: both have to
+        # rise outwards
+        outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
+        enough = [np.flatnonzero(~(force < (scene.normal_load or 0.0))) for force in outwards]
+    reaches = [float(WINDOW_SIZES[k[0]]) for k in enough if k.size]
+    given = () if scene.half_width is None else (scene.half_width,)
+    size = max((*given, *reaches), default=1.0)
     return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)
 
 

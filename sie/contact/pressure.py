@@ -1,4 +1,4 @@
-"""The pressure on a contact that is known, from the slope of the profile there.
+"""The pressure on a known contact, from the slope of the profile there.
 
 A slope that is smooth in the contact takes one Chebyshev series and its exact transform, a power
 law two series of its own, and any other slope exact integrals over its pieces.
@@ -37,7 +37,7 @@ LARGEST_TRANSFORM = 257
 
 @dataclass(frozen=True)
 class Normal:
-    """The found contact, and whether its symmetry halved the search.
+    """The contact, and whether its symmetry halved the search.
 
     `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
     """
@@ -55,8 +55,9 @@ class Normal:
 def pressure(
     normal: Normal, scene: Scene, tol: float, economy: Collection[str] = ECONOMY
 ) -> SlopeDensity:
-    """The pressure that answers the slope on the contact: a transform where the slope is smooth
-    there, exact panels where it is not.
+    """The pressure that solves (1) on the contact.
+
+    It is a transform where the slope is smooth there, and exact panels elsewhere.
     """
     edges = normal.edges
     contact, G = edges.contact, 0.5 * scene.Estar

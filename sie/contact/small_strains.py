@@ -1,7 +1,7 @@
-"""Where half-plane elasticity holds: at small slopes and small pressures.
+"""The validity of half-plane elasticity: small slopes and small pressures.
 
 Linear elasticity on the undeformed half-plane needs small strains. These are of the order of the
-slope, and of p/E*. Beyond, an answer is that of the equations and not of the bodies.
+slope, and of p/E*. Beyond, an answer satisfies the equations but does not describe the bodies.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ BESIDE = 1e-3  # of the half-width: nearer to where it is infinite the pressure 
 
 
 def notes(slopes: Array, pressure: float) -> tuple[str, ...]:
-    """Sentences on what is not small: of slopes in the contact, and of a pressure there over E*."""
+    """Sentences on slopes in the contact, and on a pressure over E*, that are not small."""
     outside = "half-plane elasticity (small strains) is outside its range"
     steepest = float(np.abs(slopes[np.isfinite(slopes)]).max(initial=0.0))
     said = []

@@ -6,9 +6,9 @@ coefficients, and so are their derivatives:
     ∫H dφ = π c_0,   ∫H sin φ dφ = π c_1/2,   ∫H cos²φ dφ = π (c_0 - c_2/2)/2
     r ∫H' (1 ± sin φ) dφ = π Σ (±1)^(n+1) n c_n
 
-so a step costs one call of the slope and one DCT, and the last series is the pressure. What this
-does not answer (a sharp edge, a slope that falls somewhere or is no such series, steps that do not
-settle) is left to the general search.
+so a step costs one call of the slope and one DCT, and the last series is the pressure. The general
+search solves all other cases: a sharp edge, a slope that falls somewhere or is no such series,
+steps that do not settle.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""The widest contact that carries a load, where the search from the lowest point outwards finds
-none.
+"""The widest contact that carries a load, for profiles where the outward search finds none.
 
 The base of a trace is rough: the load of the contacts that start at its lowest point rises and
 falls again while they are as short as its waves, and the search ends there. So this search begins
-at the widest contact and goes inwards, to the first that carries no more than the load. Whether
-that needs tension or overlaps is for the inequalities to say. Of a slope of very many pieces the
-half-width is looked for on fewer pieces first.
+at the widest contact and goes inwards, to the first that carries no more than the load. The
+inequalities show whether that contact needs tension or overlap. Where the slope has very many
+pieces the half-width is searched for on fewer pieces first.
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ class ContactGrowth:
         return found
 
     def rate(self, y: float) -> float:
-        """d ln r/d ln y: an edge moves by dy/(G r J), none where it is sharp."""
+        """d ln r/d ln y: an edge moves by dy/(G r J), and a sharp edge does not move."""
         (contact, sharp, k), G = self.contact(y), self.search.half_modulus
         rise1 = contact.r * k.JL - (0.5 * k.I0 if sharp[1] else 0.0)
         rise2 = contact.r * k.JR + (0.5 * k.I0 if sharp[0] else 0.0)
@@ -78,9 +78,7 @@ class ContactGrowth:
         return y * moves / (2.0 * G * contact.r)
 
     def passed(self, lo: float, hi: float) -> list[tuple[float, bool]]:
-        """The breaks that the edges pass between two loads, in the order of their distance, and
-        whether it is the right edge.
-        """
+        """(break, whether the right edge passes it) between two loads, in the order of distance."""
         if not self.breaks:
             return []
         a, b = self.contact(lo).interval, self.contact(hi).interval

@@ -1,4 +1,4 @@
-"""How a contact grows under its load, and what slip in its layers turns into heat.
+"""Growth of a contact under its load, and the energy that slip in its layers dissipates.
 
 Let [m - r, m + r] be the contact of a profile at one tilt under the load y. A layer dy of the
 pressure is dy/(π sqrt(r² - (x - m)²)), and where κ jumps there by j (`memory`) the slip beside the
@@ -6,7 +6,7 @@ contact grows by 2 f j dy/(π E*) arccosh(|x - m|/r). That function is the Green
 lies beside an interval: integrated over the layer of a larger contact of half-width R, in which the
 interval lies anywhere, it gives ln(R/r) (Ransford 1995, Potential Theory in the Complex Plane, §
 5.1). Hence a front of slip that runs down from the level Y to the level L, while the load is P(y)
-when it passes y, turns into heat
+when it passes y, dissipates
 
     W = 2 f² j/(π E*) ∫_L^Y dy ∫_y^P(y) (P(y) - η) d ln r(η)  =  2 f² j/(π E*) ∫ v(η) d ln r(η)
 
@@ -72,7 +72,7 @@ ROWS = 20_000  # parts of panels at a time
 
 
 def dissipated(state: Slip) -> float:
-    """∫|q| |slip| dx: the energy that a first loading turned into heat, per unit length."""
+    """∫|q| |slip| dx, the energy that a first loading dissipated, per unit length."""
     if not isinstance(state, Slipping):
         return 0.0
     step = state.step
@@ -97,7 +97,7 @@ class Panel:
 
 
 class Dissipation:
-    """The heat of slip fronts in the contacts of a profile at one tilt, from ∫v d ln r.
+    """The energy dissipated by slip fronts in the contacts of a profile at one tilt, ∫v d ln r.
 
     The class is longer than 200 lines: two ways of taking one integral, on the same panels.
     """
@@ -112,7 +112,7 @@ class Dissipation:
 
     @property
     def evaluations(self) -> int:
-        """How often the moments of a contact were evaluated."""
+        """The number of evaluations of a contact's edge integrals."""
         return self.contacts.search.evaluations
 
     # -- energy ------------------------------------------------------------------------------------
@@ -120,7 +120,7 @@ class Dissipation:
     def of_fronts(
         self, loads: Sequence[float], fronts: Sequence[SlippedLayer], friction: float
     ) -> Array:
-        """What each front turned into heat, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
+        """The energy that each front dissipated, for a jump of 1: 2 f²/(π E*) ∫v d ln r.
 
         Depths are counted in Q from each load down. LoadError where the load is
         nothing next to the largest one.

@@ -1,6 +1,4 @@
-"""The largest tangential load that friction carries, f P, and what a smaller one leaves of the
-normal load.
-"""
+"""The largest tangential load that friction carries, f P, and the reduced load P - |Q|/f."""
 
 from __future__ import annotations
 

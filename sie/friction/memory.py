@@ -1,4 +1,4 @@
-"""The memory of a contact that slips to and fro: which way each of its layers was last sheared.
+"""Load-history memory: the direction in which each layer of a contact was last sheared.
 
 Let the contact grow from nothing to its normal load P, layer by layer: the pressure is
 p = ∫ (∂p/∂P') dP', and so is every shear traction that slip at the edges can leave behind,
@@ -6,13 +6,14 @@ p = ∫ (∂p/∂P') dP', and so is every shear traction that slip at the edges 
     q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f
 
 because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P' (Mindlin & Deresiewicz 1953; Jäger
-1998). A change of Q at constant P overwrites κ by ± f from the top (the edges) down, as deep as it
-takes: this is Masing's rule, with its memory of turning points and their wiping out. P that grows
-adds a layer with κ = dQ/dP, which does not slip while |dQ/dP| <= f; P that falls takes layers away.
-Thickness is counted in Q: f dP'.
- At constant P the same holds of any step that opens slip zones monotonically, also with a bulk
+1998). A change of Q at constant P overwrites κ by ± f from the top (the edges) down, to the depth
+that carries the change. This is Masing's rule, in which a larger change erases the smaller turning
+points. A growing P adds a layer with κ = dQ/dP, which does not slip while |dQ/dP| <= f; a falling P
+removes layers. Thickness is counted in Q: f dP'.
+
+At constant P the same holds of any step that opens slip zones monotonically, also with a bulk
 stress in proportion to Q: depth is then the amplitude of the step (Q, σ) that reaches it in a
-contact that never slipped. Only that the zones grow with the amplitude is used.
+contact that never slipped. The derivation uses only that the zones grow with the amplitude.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class TurningPoint:
 
     loads     P, Q and σ
     memory    the layers there
-    slips     what slipped since the last turning point, in the order of time
+    slips     the slip since the last turning point, in the order of time
     """
 
     loads: tuple[float, float, float]
@@ -58,9 +59,7 @@ class TurningPoint:
 
     @property
     def last(self) -> SlipEvent | None:
-        """What slips at the end of the step; None if nothing does, or what slipped has left the
-        contact.
-        """
+        """The slip at the end of the step; None if nothing slips in the present contact."""
         return self.slips[-1] if self.slips and self.slips[-1].layers[-1].lower > 0.0 else None
 
 
@@ -71,8 +70,9 @@ def direction(path: Path) -> tuple[float, float]:
 
 
 def turning_points(scene: Scene, path: Path) -> tuple[TurningPoint, ...]:
-    """The layers after each step of a path. Raises ContactError, with the step, where one is not
-    covered.
+    """The layers after each step of a path.
+
+    Raises ContactError, with the step, where one is not covered.
     """
     unit, f = direction(path), scene.friction
     state = TurningPoint((0.0, 0.0, 0.0), LoadMemory(0.0))
@@ -160,8 +160,7 @@ def _sheared(
 
 @dataclass(frozen=True)
 class SlippedLayer:
-    """Between two depths κ jumped by this much (in units of f, positive): what slipped in a step,
-    and in which layer.
+    """A layer between two depths that slipped in a step; κ jumped there by `jump` > 0, times f.
 
     Depths are counted from P at the end of the step; `surface` says how deep P was when the front
     was at `upper` and at `lower`.
@@ -182,13 +181,13 @@ class SlippedLayer:
 
 @dataclass(frozen=True)
 class SlipEvent:
-    """Slip in one direction: its sign, and what it overwrote on the way down."""
+    """Slip in one direction: its sign, and the layers that it overwrote, from the top down."""
 
     sign: float
     layers: tuple[SlippedLayer, ...]
 
     def while_raised(self, thickness: float) -> SlipEvent:
-        """The same slip if P did not come before but rose by this thickness along with it."""
+        """The same slip if P rose by this thickness during it, and not before."""
         whole = math.fsum(o.jump * (o.lower - o.upper) for o in self.layers)
         used, found = 0.0, []
         for o in self.layers:
@@ -208,7 +207,7 @@ class SlipEvent:
 class Layer(NamedTuple):
     """A layer: thickness, κ/f, the layer below, and Q and depth of it with all below.
 
-    Memories share what is below.
+    Memories share the layers below.
     """
 
     thickness: float
@@ -257,7 +256,7 @@ class LoadMemory:
 
     @property
     def deepest(self) -> tuple[float, bool]:
-        """How far down κ was ever overwritten, and whether it was more than once."""
+        """The largest depth to which κ was overwritten, and whether that was more than once."""
         return (
             (min(self.top.depth, self.size), self.top.below is not None)
             if self.top
@@ -274,7 +273,7 @@ class LoadMemory:
         return tuple(found)
 
     def sheared(self, step: float) -> tuple[LoadMemory, tuple[SlippedLayer, ...]]:
-        """Q changed by `step` at constant P: the new memory, and what was overwritten."""
+        """(new memory, overwritten layers) after Q changed by `step` at constant P."""
         sign, left, depth = math.copysign(1.0, step), abs(step), 0.0
         layer = self.top
         done = []
@@ -296,7 +295,7 @@ class LoadMemory:
         return LoadMemory(self.size, _laid(depth, sign, layer) if depth else layer), tuple(done)
 
     def raised(self, thickness: float, k: float) -> LoadMemory:
-        """P raised: a new layer on top."""
+        """The memory after P has risen, with a new layer on top."""
         nothing = k == 0.0 and (self.top is None or (self.top.k == 0.0 and self.top.below is None))
         return LoadMemory(self.size + thickness, None if nothing else _laid(thickness, k, self.top))
 
@@ -310,13 +309,14 @@ class LoadMemory:
         return LoadMemory(self.size - thickness, layer)
 
     def lowered(self, thickness: float, rate: float) -> tuple[LoadMemory, tuple[SlipEvent, ...]]:
-        """P lowered while Q changes by `rate` for each unit of thickness: the new memory, and what
-        slipped, in the order of time.
+        """(new memory, slip in the order of time) after P fell while Q changed.
 
-        A layer goes as it came, without slip, where κ = -rate. Otherwise slip in the direction of
+        `rate` is the change of Q for each unit of thickness.
+
+        A layer is removed without slip where κ = -rate. Otherwise slip in the direction of
         rate + κ runs down from the edges, faster than the edges retreat. In a deeper layer it may
-        be slower: where the edges catch up with it, all that slipped has left the contact, and the
-        layer below decides anew.
+        be slower: where the edges catch up with it, all slipped zones have left the contact, and
+        the same two cases hold for the layer below.
         """
         memory, gone = self, 0.0
         slips: list[SlipEvent] = []

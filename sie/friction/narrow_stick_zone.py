@@ -5,8 +5,9 @@ The two conditions of `slip_zones` in the combinations that stay apart when the 
 
     ∫_left p/|R| ds + ∫_right p/|R| ds     = π |τ|/f
     ∫_left p t/|R| ds - ∫_right p t/|R| ds = s Q/f
- The first says how narrow it is, ρ ~ exp(-π |τ|/(2 f p(c))), the second where it is: for ρ -> 0
-slip to and fro balance Q. They are solved by Newton's method in ln ρ and ln(distance of c from the
+
+The first gives its width, ρ ~ exp(-π |τ|/(2 f p(c))), the second its place: for ρ -> 0 slip in the
+two directions balances Q. They are solved by Newton's method in ln ρ and ln(distance of c from the
 nearer edge), from the limit ρ -> 0. A zone narrower than `PINCHED` is a point in doubles: it is
 solved for with that width, and the strain that it does not hold is slip from c on
 (`SlipZones.unheld`).
@@ -37,9 +38,7 @@ SETTLED = 1e-10  # relative steps below it that no longer shrink are rounding
 def narrow_stick_zone(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
 ) -> SlipZones | None:
-    """The zones of slip in both directions if the stick zone between them is narrow, otherwise
-    None.
-    """
+    """The slip zones beside a narrow stick zone; None if the stick zone is not narrow."""
     strain, width = abs(drive.strain), 2.0 * contact.r
     near, depth = _balanced(frames, contact, drive)
     load = (drive.left, drive.right)[

@@ -5,7 +5,8 @@ After the normal load P, at constant P, the tangential load Q and the bulk stres
 
     |q| <= f p,      1/π PV∫q/(x - t) dt = τ and slip 0 in the stick zone,
     q = ± f p, in the direction of slip, in the slip zones
- slip(x) is the tangential displacement of the indenter relative to the body, positive along +x.
+
+slip(x) is the tangential displacement of the indenter relative to the body, positive along +x.
 Where it is positive so is q, which acts on the body. Loads and inequalities tell four states apart:
 
     stick               Q = 0 = σ                       no shear

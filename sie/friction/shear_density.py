@@ -31,8 +31,9 @@ ROWS = 4096  # points at a time
 
 @dataclass(frozen=True, eq=False)
 class OneSignedShear(Density):
-    """q = scale (p - p̂), scale = ± f; in a stick zone that nearly fills the contact from the slip
-    zones instead (`SlipZones`).
+    """q = scale (p - p̂), scale = ± f.
+
+    In a stick zone that nearly fills the contact q follows from the slip zones (`SlipZones`).
     """
 
     pressure: SlopeDensity
@@ -98,7 +99,7 @@ class OneSignedShear(Density):
 
 @dataclass(frozen=True, eq=False)
 class TwoSignedShear(Density):
-    """Slip to one side on the left of the stick zone and to the other on its right."""
+    """The shear of two-signed slip: opposite directions left and right of the stick zone."""
 
     pressure: SlopeDensity
     formal: SlopeDensity

@@ -1,5 +1,6 @@
-"""Slip zones at both ends of a stick zone: where they end, and the shear between them.
- On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1.
+"""Slip zones at both ends of a stick zone: their lengths, and the shear between them.
+
+On the contact q = s1 f p left of the stick zone [c1, c2] and q = s2 f p right of it, s = ±1.
 Inside, 1/π PV∫q/(x - t) dt = τ, the strain that a bulk stress causes, as a stress. Let c = (c1 +
 c2)/2, ρ = (c2 - c1)/2, R(z) = sqrt(z - c1) sqrt(z - c2), and w = |R| on the stick zone. (Fq - τ)/R
 is continuous across it and vanishes far away like 1/z, so that (Muskhelishvili 1953, § 107)
@@ -10,8 +11,8 @@ and in the stick zone
 
     q(x)  = f w(x)/π [ s1 ∫_left p/(|R| |s - x|) ds + s2 ∫_right p/(|R| |s - x|) ds ]
 
-What this leaves at infinity, Fq -> Q/(π z), are the two conditions for c1 and c2, here in the
-combinations that belong to one end each:
+The behaviour at infinity, Fq -> Q/(π z), gives two conditions for c1 and c2. In the combinations
+that belong to one end each they are
 
     s2 ∫_right p sqrt((s-c1)/(s-c2)) ds + s1 ∫_left  p sqrt((c1-s)/(c2-s)) ds = (Q - π ρ τ)/f
     s1 ∫_left  p sqrt((c2-s)/(c1-s)) ds + s2 ∫_right p sqrt((s-c2)/(s-c1)) ds = (Q + π ρ τ)/f
@@ -19,10 +20,10 @@ combinations that belong to one end each:
 With s1 = s2 this is Cattaneo (1938) and Mindlin (1949), and q/f is the difference of two pressures
 (`partial_slip`). With s1 = -s2 slip is reversed on one side by a large bulk stress (Nowell & Hills
 1987). All integrands are positive: nothing cancels, however short the zones are. The pressure next
-to an edge is needed as a function of the distance from it, which a double x no longer tells: it is
-evaluated in coordinates whose origin is that edge (`EdgeFrame`).
+to an edge is needed as a function of the distance from it, which a double x does not resolve. So it
+is evaluated in coordinates whose origin is that edge (`EdgeFrame`).
 
-The same argument gives what a further load step does while nothing else slips,
+The same argument gives the shear of a further load step while nothing else slips,
 dq = [dQ/π - dτ (x - c)] / sqrt(ρ² - (x - c)²): slip zones grow at both ends as long as
 s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
 """
@@ -181,7 +182,7 @@ def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
 
 @dataclass(frozen=True)
 class Drive:
-    """What moves the ends of the slip zones: Q/f, π τ/f, and the signs of slip at both edges."""
+    """The loads that open the slip zones, Q/f and π τ/f, and the signs of slip at both edges."""
 
     load: float
     strain: float
@@ -223,8 +224,9 @@ class SlipZones:
 def slip_zones(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive, guess: tuple[float, float]
 ) -> SlipZones:
-    """The zones that the drive opens, from a guess of their lengths (left, right). Raises
-    ContactError if there are none.
+    """The zones that the drive opens, from a guess of their lengths (left, right).
+
+    Raises ContactError if there are none.
 
     Each end has an equation of its own, in which the other one matters only to second order: they
     are solved in turn.

@@ -1,4 +1,4 @@
-"""The states of a contact under tangential load: where it sticks, where it slips, and the shear.
+"""The states of a contact under tangential load: stick zones, slip zones, and the shear.
 
 `partial_slip.slip` decides which of them a contact is in. The file is longer than 400 lines because
 the four states are one family, and are read side by side.
@@ -103,15 +103,17 @@ class Slip(ABC):
 
     @abstractmethod
     def slip(self, x: Array) -> Array:
-        """Displacement of the indenter relative to the body at x (1-d), 0 in stick and outside the
-        contact.
+        """Displacement of the indenter relative to the body at x (1-d).
+
+        It is 0 in stick zones and outside the contact.
         """
 
     @property
     @abstractmethod
     def shift(self) -> float:
-        """∫ slip / (π sqrt((x - x1)(x2 - x))) dx: how far the indenter moved beyond what it would,
-        had nothing slipped.
+        """The shift of the indenter beyond that of a contact that does not slip.
+
+        It is ∫ slip / (π sqrt((x - x1)(x2 - x))) dx.
         """
 
     @property
@@ -131,7 +133,7 @@ class Slip(ABC):
 
     @property
     def levels(self) -> tuple[float, ...]:
-        """Where else q has a kink: the ends of earlier stick zones."""
+        """Further kinks of q: the ends of earlier stick zones."""
         return ()
 
     def slip_now(self, x: Array) -> Array:
@@ -165,8 +167,9 @@ class NoSlip(Slip):
 
 @dataclass(frozen=True, eq=False)
 class Slipping(Slip):
-    """What the states with slip share: slip is sign f opening(x) on each side, integrated over
-    zones seen from the edges.
+    """The common part of the states with slip: slip is sign f opening(x) on each side.
+
+    It is integrated over the zones in the frames of the edges.
     """
 
     pressure: SlopeDensity
@@ -258,7 +261,7 @@ def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFra
 
 @dataclass(frozen=True, eq=False)
 class Sliding(Slipping):
-    """|Q| = f P: the bodies are about to slide; slip is what it is when the last point lets go.
+    """Incipient sliding, |Q| = f P: the slip is that at which the stick zone vanishes.
 
     `unloaded` is the slope of that limit.
     """
@@ -324,9 +327,7 @@ class OneSignedSlip(Slipping):
 
     @cached_property
     def short(self) -> SlipZones | None:
-        """The zones from their own equations, where the difference of two pressures would lose
-        digits.
-        """
+        """The zones by their own equations, where the difference of two pressures loses digits."""
         step, f = self.step, self.friction
         Q, tau, contact = step.Q, step.tau, self.contact
         small = 0.0 < abs(Q) < SHORT * f * step.normal_load and math.pi * contact.r * abs(

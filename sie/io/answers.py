@@ -18,14 +18,14 @@ LOOKED_AT = 401  # points in the contact, for the steepest slope
 
 
 def wanted(file: SceneFile) -> tuple[str, ...]:
-    """What a scene file asks for: the contact, if it does not say."""
+    """The quantities that a scene file names; without any, those of the contact."""
     return file.want or UNASKED
 
 
 def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
     """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
 
-    Where nothing but the edges is wanted the pressure is not computed: its mean is looked at.
+    If only the edges are wanted, the pressure is not computed, and its mean stands for it.
     """
     if NEED_SHEAR & set(wanted(file)):
         return solution.notes
@@ -49,7 +49,7 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 def energy_of(solution: Solution) -> dict[str, float]:
     """The dissipated energy; {} for dissimilar bodies in full sliding.
 
-    They slipped in part before, and what they dissipated then is not known.
+    They slipped in part before, and the energy dissipated then is not known.
     """
     return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
 
@@ -58,9 +58,11 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)
+    if solution.scene.coupled:
+        return solution.coupled[1].slip_zones
     if not solution.sheared:
         return ()
     x1, x2 = solution.edges
     return tuple(
         z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
-    )  # not what the contact has left
+    )  # not the zones that have left the contact

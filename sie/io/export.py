@@ -9,6 +9,9 @@ JSON always holds
     sie, title, units {length, force, stress, moment}
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
+    patches [[x1, x2], ..], patch_loads [number, ..] where there are several
+
+    patches [[x1, x2], ..], patch_loads [number, ..], where there are several
 
 and, where they are wanted,
 
@@ -53,7 +56,7 @@ Array = NDArray[np.float64]
 
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
-    """x, pressure and gap, whatever is wanted, as the module's docstring describes."""
+    """x, pressure and gap, always, as the module's docstring describes."""
     x = abscissae(solution, points)
     units, (x1, x2) = file.units, solution.edges
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
@@ -75,7 +78,7 @@ def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
 
 
 def json_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
-    """Everything that the file wants, as the module's docstring describes."""
+    """All wanted quantities, as the module's docstring describes."""
     return strict_json(as_dict(solution, file, points))
 
 
@@ -101,6 +104,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "dundurs": scene.beta,
         "edges": list(solution.edges),
         "sharp": list(solution.sharp),
+        **_patches(solution),
         "half_width": solution.half_width,
         "centre": solution.centre,
         "normal_load": solution.normal_load,
@@ -131,6 +135,14 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
         "x": x.tolist(),
         "p": p(x).tolist(),
     }
+
+
+def _patches(solution: Solution) -> dict[str, Any]:
+    """The patches [[x1, x2], ..] and their loads, where there are several."""
+    if len(solution.patches) < 2:
+        return {}
+    patches = [list(patch) for patch in solution.patches]
+    return {"patches": patches, "patch_loads": list(solution.patch_loads)}
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:

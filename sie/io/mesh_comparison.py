@@ -54,7 +54,7 @@ RESULTANTS: dict[str, Callable[[Solution], float]] = {
     "p": lambda s: s.normal_load,
     "q": lambda s: s.tangential_load,
 }
-# What mesh codes and their users call them, in lower case.
+# Their names in mesh codes, in lower case.
 NAMES = {
     **{
         name.format(axis): axis
@@ -80,7 +80,7 @@ NAMES = {
     ),
 }
 FARTHEST_SHIFT = 0.5  # half-widths
-SHIFTS = 41  # in the first look
+SHIFTS = 41  # in the first scan
 REFINED = 1e-9  # half-widths
 LARGEST = 1e100  # of a column: no length or stress, and its square is finite
 # Between these factors a mesh is inaccurate; beyond them its units or signs differ.
@@ -113,9 +113,9 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Difference:
-    """How much a mesh result differs from the exact one, relative.
+    """The relative difference of a mesh result from the exact one.
 
-    The difference is largest at x = `at`, y = `depth`; `infinite` points were left out.
+    It is largest at the position `at` (x) and `depth` (y); `infinite` points were left out.
     """
 
     points: int
@@ -133,7 +133,7 @@ class Difference:
 
     @property
     def suspicion(self) -> str:
-        """What a factor far from 1 suggests, if it explains more than half of the difference."""
+        """The cause suggested by a factor far from 1, if it explains over half of the difference."""
         if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
             return ""
         return (

@@ -19,7 +19,7 @@ COLUMNS, ROWS = 60, 8  # of the text picture
 
 
 def summary(solution: Solution, file: SceneFile) -> str:
-    """What the file wants, section by section."""
+    """All wanted quantities, section by section."""
     sections = {
         "edges": edges_summary,
         "pressure": pressure_summary,
@@ -49,10 +49,27 @@ def edges_summary(solution: Solution, units: Units) -> str:
     )
     return _rows(
         ("edges", f"x1 = {x1};  x2 = {x2}"),
+        *_patches(solution, units),
         ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
         ("normal load", f"{_number(P)} {units.force}"),
         ("moment", f"{_number(solution.moment, P * r)} {units.moment}, about x = 0"),
         ("tilt", _number(solution.tilt, P / (r * solution.scene.Estar))),
+    )
+
+
+def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
+    """How many patches there are, what length is in contact, and the largest share of the load."""
+    patches = solution.patches
+    if len(patches) < 2:
+        return ()
+    loads = solution.patch_loads
+    most = max(range(len(patches)), key=lambda k: loads[k])
+    lo, hi = (_number(x, solution.half_width) for x in patches[most])
+    length = sum(b - a for a, b in patches)
+    share = 100.0 * loads[most] / solution.normal_load
+    return (
+        ("patches", f"{len(patches)}, together {_number(length)} {units.length} long"),
+        ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}"),
     )
 
 
@@ -62,7 +79,7 @@ def pressure_summary(solution: Solution, units: Units) -> str:
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
-    mean = solution.normal_load / (2.0 * solution.half_width)
+    mean = solution.normal_load / sum(b - a for a, b in solution.patches)
     rows = _rows(
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),

@@ -1,4 +1,4 @@
-"""Sample points of an answer, which miss no rim and no peak, and the height of a picture."""
+"""Sample points of an answer, dense at edges, breaks and peaks, and the height of a picture."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ ZOOMS = 8
 ZOOM_POINTS = 41
 LESSER = 0.5  # of the largest pressure: below it a peak is not narrowed
 SAME_PEAK = 1e-9  # relative: a symmetric pressure has its peak twice
-# A spike is cut out of a picture if it is so many times what 95 % of the contact stays below; the
-# picture then ends a little above that.
+# A picture cuts a spike that is so many times the 95th percentile of the pressure over the contact.
+# The picture then ends a little above that percentile.
 SPIKE = 3.0
 ABOVE_ORDINARY = 1.4
 
@@ -34,8 +34,8 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
     """About `points` positions from x1 to x2, ascending, with the edges and the breaks.
 
     Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
-    by length (in the angle of the contact), half equally, so that a narrow rim has its own. The
-    breaks of a trace are too many, and are passed over.
+    by length (in the angle of the contact), half equally, so that a narrow rounded edge has points
+    of its own. The breaks of a trace are too many, and are passed over.
     """
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
     ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])

@@ -5,8 +5,10 @@
     indenter = "rigid"  optional; the other way is a table [indenter]
 
     [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units
-    [profile]           kind and its parameters; mirrored, tilted, shifted, applied in this order;
-                        of kind "sampled" x and h, or path, a file beside the scene file
+    [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
+                        order; period repeats it; of kind "sampled" x and h, or path, a file beside
+                        the scene file
+    [[profile.of]]      of kind "row": each indenter on the common holder, like [profile]
     [[profile.plus]]    further terms, each like [profile]: the heights add up, and modifiers act
                         on their own term
     [body]              young, poisson, plane = "strain" | "stress"; or rigid = true
@@ -18,9 +20,9 @@
                         path = [[P, Q, σ], ...], turning points, σ may be left out: the scene is
                         that of the last one
 
-`sie example` lists commented files to start from. Whatever does not fit is refused in one sentence,
-a `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not
-known is answered with the nearest that is.
+`sie example` lists commented files to start from. A mistake is refused in one sentence, a
+`SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
+is answered with the nearest that is.
 
 >>> file = parse('''
 ... profile = { kind = "parabola", radius = 100.0 }
@@ -37,7 +39,7 @@ import codecs
 import pathlib
 import re
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import resources
@@ -51,6 +53,7 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS
+from sie.profiles.row import Periodic, Row
 from sie.profiles.sampled import Sampled
 
 from .scene_tables import (
@@ -65,7 +68,7 @@ from .scene_tables import (
     require,
     values_of,
 )
-from .toml_values import table_of, text, texts
+from .toml_values import number, table_of, text, texts
 
 
 class SceneFileError(ValueError):
@@ -100,12 +103,12 @@ EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
 MOST_BYTES = 10**6
-# Each is solved and listed, within seconds together.
+# Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
 # needs three.
 DEEPEST = 20
-# What is not closed ends with the line, or with the file: so each character is looked at once.
+# An unclosed string ends with the line, or with the file: so each character is scanned once.
 _STRING_OR_COMMENT = re.compile(
     r'"{3}(?:\\.|[^\\])*?(?:"{3,5}|\Z)' "|" r"'{3}.*?(?:'{3,5}|\Z)" "|"
     r'"(?:\\.|[^"\\\n])*+"?' "|" r"'[^'\n]*+'?" "|" r"#[^\n]*+", re.DOTALL,
@@ -115,12 +118,12 @@ _DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file holds.
+    """The content of a scene file.
 
     scene    the contact problem; of a path that of its last point
     title    one line of text
     units    labels
-    want     what is to be answered, empty if the file does not say
+    want     the quantities to be answered, empty if the file names none
     path     turning points (P, Q, σ)
     reads    the files that it names
     """
@@ -283,6 +286,7 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
 def _profile(value: Any, folder: pathlib.Path) -> Profile:
     first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
+    period = first.pop("period", None)
     if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
         raise ValueError(
             "profile.plus is not a list of tables: "
@@ -293,11 +297,16 @@ def _profile(value: Any, folder: pathlib.Path) -> Profile:
         total = total + _term(
             "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder
         )
-    return total
+    if period is None:
+        return total
+    with _Naming("[profile]"):
+        return Periodic(total, number("period", period))
 
 
 def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
-    """One term of the profile: its kind, then mirrored, tilted, shifted."""
+    """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
+    if table.get("kind") == "row":
+        return _row(where, dict(table), folder)
     kind = _kind(where, table)
     make, entries = _maker(kind, table, folder)
     readers = {"kind": text, **entries.readers, **MODIFIERS}
@@ -305,9 +314,31 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
     require(f'{where} of kind "{kind}"', values, entries.required)
     given = {name: v for name, v in values.items() if name in entries.readers}
     with _Naming(where):
-        profile = make(**given)
-        profile = profile.mirrored() if values.get("mirrored") else profile
-        return profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+        return _moved(make(**given), values)
+
+
+def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
+    profile = profile.mirrored() if values.get("mirrored") else profile
+    moved = profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+    return moved.raised(values.get("raised", 0.0))
+
+
+def _row(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+    """Indenters on one holder, each a table under [[profile.of]]."""
+    indenters = table.pop("of", [])
+    tables = isinstance(indenters, list) and all(isinstance(one, dict) for one in indenters)
+    if not tables or not indenters:
+        raise ValueError(
+            f'{where} of kind "row" lacks its indenters: '
+            "write the header [[profile.of]], in double brackets, before each"
+        )
+    values = read_values(where, table, {"kind": text, **MODIFIERS}, kind=' of kind "row"')
+    profiles = [
+        _term(f"[[profile.of]] number {k}", dict(one), folder)
+        for k, one in enumerate(indenters, start=1)
+    ]
+    with _Naming(where):
+        return _moved(Row(profiles), values)
 
 
 def _kind(where: str, table: dict[str, Any]) -> str:
@@ -316,11 +347,12 @@ def _kind(where: str, table: dict[str, Any]) -> str:
         raise ValueError(
             f'{where} has no key "{meant}": did you mean "kind"?'
             if meant
-            else f"{where} lacks kind: give kind = {choices(KINDS)}"
+            else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
         )
     kind = text(f"{where} kind", table["kind"])
     if kind not in KINDS:
-        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, KINDS)}')
+        known = [*KINDS, "row"]
+        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, known)}')
     return kind
 
 

@@ -35,7 +35,7 @@ from .toml_values import (
     whole,
 )
 
-# How a parameter of each type stands in a scene file.
+# The reader of a parameter of each type.
 READERS: dict[Any, Reader] = {
     bool: flag,
     int: whole,
@@ -85,7 +85,12 @@ TABLES: dict[str, Mapping[str, Reader]] = {
     "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number) | {"path": rows},
 }
 TOP: tuple[str, ...] = ("title", "want", "profile", *TABLES)
-MODIFIERS: dict[str, Reader] = {"mirrored": flag, "tilted": number, "shifted": number}
+MODIFIERS: dict[str, Reader] = {
+    "mirrored": flag,
+    "tilted": number,
+    "shifted": number,
+    "raised": number,
+}
 
 
 def values_of(name: str, value: Any) -> dict[str, Any]:
@@ -112,9 +117,9 @@ def require(where: str, values: Mapping[str, Any], names: Iterable[str]) -> None
 
 
 def remedy(key: str, known: Iterable[str], here: str) -> str:
-    """Where a key belongs that its table may not hold.
+    """The remedy for a key that its table may not hold.
 
-    It is near a known key, belongs in another table, whose header may have been forgotten, or
+    The key is near a known one, belongs in another table, whose header may have been forgotten, or
     belongs to another kind of profile.
     """
     known, of_profile = tuple(known), here.startswith(("[profile]", "[[profile"))

@@ -1,5 +1,4 @@
-"""Fast sums of Cauchy kernels, Σ_j q_j / (t_j - z) for many sources on the line and many targets in
-the plane.
+"""Fast sums Σ_j q_j / (t_j - z), many sources t_j on the line and many targets z in the plane.
 
 The sources come in rows, one for each piece of a slope, that ascend and do not overlap. Rows are
 gathered in leaves, leaves in pairs, and so on up to one root: a tree whose every node is an
@@ -11,8 +10,8 @@ sqrt(s+1) the kernel is a geometric series outside the interval,
 
 of which TERMS terms leave rounding where |ρ| >= SEPARATION (s = ±2 on the line). A target takes
 every node's sum at the first level at which it is that far; what is left at the leaves are pairs
-(row, target), few for each target, that the caller knows exactly. So the cost grows like (sources +
-targets) log(sources), in a handful of array operations for each level and term.
+(row, target), few for each target, which the caller computes exactly. So the cost grows like
+(sources + targets) log(sources), in a handful of array operations for each level and term.
 
 Moments of a node come from its children's as from sources: a child's moments up to TERMS are those
 of TERMS charges on its Chebyshev points.
@@ -49,8 +48,9 @@ class KernelSums:
     """The tree of one set of sources."""
 
     def __init__(self, lo: Array, length: Array, offset: Array, charge: Array) -> None:
-        """Rows [lo, lo + length], shape (K,); sources at lo + offset with their charges, shape (K,
-        n).
+        """Build the tree of rows [lo, lo + length], shape (K,).
+
+        The sources lie at lo + offset; offsets and charges have the shape (K, n).
         """
         self.rows = len(lo)
         spare = -self.rows % LEAF
@@ -83,8 +83,9 @@ class KernelSums:
             self.levels.append((centre, half, A))
 
     def far(self, z: Any) -> tuple[Any, Index, Index]:
-        """(Σ q/(t - z) over all that is far from each target, rows k, targets i): the pairs (k, i),
-        of rows near a target, are left out.
+        """(Σ q/(t - z) over all sources far from each target, rows k, targets i).
+
+        The pairs (k, i) are the rows near a target, which the sum leaves out.
         """
         total = np.zeros_like(z)
         near = (np.zeros(len(z), dtype=np.int64), np.arange(len(z)))
@@ -104,9 +105,7 @@ class KernelSums:
         return total, steep, *self._pairs(*near)
 
     def _branches(self, z: Any, start: tuple[Index, Index]) -> Iterator[_Branch]:
-        """Level by level from the root: the targets that a level serves, and the (node, target)
-        that are left for the next.
-        """
+        """The targets that each level serves, from the root down, and the pairs for the next level."""
         node, target = start
         for level in range(len(self.levels) - 1, -1, -1):
             centre, half, A = self.levels[level]
@@ -130,8 +129,9 @@ class KernelSums:
 
 
 class _Branch(NamedTuple):
-    """Moments of a level's nodes; the nodes `of` that serve the targets `at`, s and sqrt(s² - 1)
-    there, half-lengths; what is left.
+    """Moments of a level's nodes, the nodes `of` that serve the targets `at`, and s, sqrt(s² - 1).
+
+    The half-lengths of the nodes and the remaining pairs follow.
     """
 
     A: Array
@@ -173,8 +173,9 @@ def _gathered(targets: Index, values: Any, size: int) -> Any:
 
 
 def _root(s: Any) -> Any:
-    """sqrt(s - 1) sqrt(s + 1), with the sign of s on the line; zero inside the interval, where
-    nothing is served.
+    """sqrt(s - 1) sqrt(s + 1), with the sign of s on the line.
+
+    It is set to zero inside the interval, where no series serves.
     """
     if np.iscomplexobj(s):
         return np.sqrt(s - 1.0) * np.sqrt(s + 1.0)
@@ -209,8 +210,9 @@ def _moments(u: Array, charge: Array) -> Array:
 
 
 def _charges() -> Array:
-    """Those on `POINTS` whose moments up to TERMS are A: Q_i = 2/TERMS Σ' A_n T_n(v_i), as a matrix
-    (n, i).
+    """The charges on `POINTS` whose moments up to TERMS are A, as a matrix (n, i).
+
+    They are Q_i = 2/TERMS Σ' A_n T_n(v_i).
 
     T_n(v_i) = cos(n (i + 1/2) π / TERMS) with the angle reduced as an integer: a recurrence would
     lose n² ulp at the ends, in every level.

@@ -30,8 +30,9 @@ def points(n: int) -> Array:
 
 
 def transform(values: Array) -> Array:
-    """Coefficients of the interpolant through `values` at `points(n)`, along the last axis (a DCT
-    by one complex FFT of length n).
+    """Coefficients of the interpolant through `values` at `points(n)`, along the last axis.
+
+    It is a DCT by one complex FFT of length n.
     """
     n = values.shape[-1]
     if n <= SHORT:
@@ -72,8 +73,9 @@ def evaluate(c: Array, s: Any) -> Any:
 
 
 def evaluate_second_kind(c: Array, s: Any) -> Any:
-    """Σ c_n U_n(s) by Clenshaw's recurrence; s real or complex, any shape; a constant comes back as
-    a scalar.
+    """Σ c_n U_n(s) by Clenshaw's recurrence; s real or complex, any shape.
+
+    The result of a constant is a scalar.
     """
     if len(c) <= 1:
         return c[0] if len(c) else 0.0
@@ -108,8 +110,9 @@ def antiderivative(c: Array) -> Array:
 
 
 def divided(c: Array, end: float) -> Array:
-    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis: 2
-    U_{n-1-j}(end) of T_n, the first halved.
+    """(Σ c_n T_n(s) - Σ c_n T_n(end)) / (s - end), end = ±1, in T_j(s), along the last axis.
+
+    T_n contributes 2 U_{n-1-j}(end), half of it for j = 0.
     """
     n = c.shape[-1]
     U = np.arange(1, n) * end ** np.arange(n - 1)
@@ -121,8 +124,9 @@ def divided(c: Array, end: float) -> Array:
 
 
 def second_kind_derivative(q: Array) -> Array:
-    """U-coefficients of the derivative of Σ q_m U_m, along the last axis: that of U_m is 2 Σ (j +
-    1) U_j over j = m - 1, m - 3, ...
+    """U-coefficients of the derivative of Σ q_m U_m, along the last axis.
+
+    The derivative of U_m is 2 Σ (j + 1) U_j over j = m - 1, m - 3, ...
     """
     d = np.zeros((*q.shape[:-1], max(q.shape[-1] - 1, 0)))
     for j in range(d.shape[-1]):
@@ -131,14 +135,15 @@ def second_kind_derivative(q: Array) -> Array:
 
 
 def chopped_length(c: Array, floor: float) -> int:
-    """How many coefficients of c matter: all beyond are below `floor` (at least one is kept)."""
+    """The number of coefficients of c up to the last above `floor` (at least one is kept)."""
     matter = np.flatnonzero(np.abs(c) > floor)
     return int(matter[-1]) + 1 if matter.size else 1
 
 
 def reach(c: Array, growth: float) -> Array:
-    """How far each series (K, N) can be continued beyond [-1, 1]: the largest Bernstein parameter ρ
-    with Σ|c_n| ρ^n <= growth max|c|.
+    """The Bernstein radius up to which each series (K, N) can be continued beyond [-1, 1].
+
+    It is the largest ρ with Σ|c_n| ρ^n <= growth max|c|.
     """
     size = np.abs(c)
     candidates, powers = _candidates(c.shape[-1], growth)
@@ -183,8 +188,9 @@ def gauss_legendre(n: int) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=64)
 def differentiation(n: int) -> tuple[Array, Array]:
-    """From values f at the n Gauss-Legendre nodes g: matrices D, E with D f = f'(g) and E f =
-    (f(0), f(1)).
+    """Matrices D, E with D f = f'(g) and E f = (f(0), f(1)) for values f at the nodes g.
+
+    g are the n Gauss-Legendre nodes.
 
     Barycentric (Berrut & Trefethen 2004), exact for polynomials of degree n - 1.
     """

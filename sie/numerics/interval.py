@@ -1,8 +1,8 @@
 """A contact [x1, x2] whose edges are known beyond double precision.
 
 Each edge is an unevaluated sum `x + tail` of two doubles, because the numerics need *distances*
-from an edge to relative accuracy: the rounded rim of a nearly flat punch, b - a = 1e-12 a, has only
-four digits left in the double nearest to b.
+from an edge to relative accuracy: the rounded edge of a nearly flat punch, b - a = 1e-12 a, has
+only four digits left in the double nearest to b.
 
     t = m + r sin φ,     -π/2 <= φ <= π/2,     dt / w(t) = dφ,     w(t) = sqrt((t - x1)(x2 - t))
 """
@@ -83,8 +83,9 @@ class Interval(NamedTuple):
         return Interval(-self.x2, -self.x1, -self.tail2, -self.tail1)
 
     def rounded(self, breaks: tuple[float, ...]) -> Interval:
-        """The same with the tails dropped where no distance to a break notices: what is printed is
-        then what is used.
+        """The same without the tails where these change no distance to a break.
+
+        The printed edges are then those that are used.
         """
         tails = [0.0, 0.0]
         for i, (x, tail) in enumerate(((self.x1, self.tail1), (self.x2, self.tail2))):
@@ -109,7 +110,7 @@ def interval_about(centre: float, half_width: float) -> Interval:
 
 
 def inner(contact: Interval, x: Array) -> Array:
-    """Those x that lie strictly inside the contact."""
+    """The x that lie strictly inside the contact."""
     within: Array = x[(contact.from_left(x) > 0.0) & (contact.from_right(x) > 0.0)]
     return within
 

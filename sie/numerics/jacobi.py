@@ -1,5 +1,4 @@
-"""Jacobi polynomials for the weights of Cauchy equations, real exponents or complex ones. No
-physics.
+"""Jacobi polynomials for the weights of Cauchy equations, with real or complex exponents.
 
 The weight w(s) = (1 - s)^α (1 + s)^β on [-1, 1] with α + β = -κ in {-1, 0, 1}: then (z - 1)^α (z +
 1)^β has no cut but [-1, 1], and everything about w is elementary. With orthonormal p_n = π_n / ν_n
@@ -10,7 +9,7 @@ The weight w(s) = (1 - s)^α (1 + s)^β on [-1, 1] with α + β = -κ in {-1, 0,
 
 p̃_{-1} = 0. The four Chebyshev weights are the case α, β = ±1/2. For complex exponents the products
 are bilinear, not Hermitian, and the Gauss nodes leave the real axis: polynomials may be integrated
-there, a user's function may not, so that `analysis` samples on real nodes.
+there, but a user's function may not. So `analysis` samples on real nodes.
 
 Sources: Tricomi (1957); Erdogan, Gupta & Cook, in Methods of Analysis and Solutions of Crack
 Problems (1973); Gautschi (1981) for the continued fraction; Mason & Handscomb (2003).
@@ -36,7 +35,7 @@ Exponent = float | complex
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
-FAINT = 0.25  # exponents below it: cosec(πα) > √2, and what it multiplies is to cancel by formula
+FAINT = 0.25  # exponents below it: cosec(πα) > √2, and its factor has to cancel by formula
 PHASE = 4.0 * EPS  # an imaginary part of a/b below it is rounding of constants of one phase
 # Of the continued fraction: it is asked only where a series of that many terms would grow
 MOST_STEPS = 20_000
@@ -48,7 +47,7 @@ class Weight(NamedTuple):
     alpha: Exponent
     beta: Exponent
     kappa: int  # the index
-    # For κ = 0: what rounding left of α, less of β; next to ±1 it is all that tells how far
+    # For κ = 0: the rounding error of α, less that of β; next to ±1 it alone gives the distance
     tail: Exponent = 0.0
 
     @property
@@ -61,7 +60,7 @@ class Weight(NamedTuple):
 
     @property
     def is_chebyshev(self) -> bool:
-        """One of the four, of sines and cosines."""
+        """Whether it is one of the four Chebyshev weights."""
         return {self.alpha, self.beta} <= {-0.5, 0.5}
 
     @property
@@ -78,8 +77,9 @@ class Weight(NamedTuple):
 
     @property
     def is_faint(self) -> bool:
-        """Close to 1, as |a| >> |b| makes it: cosec(πα) is then so large that the terms it
-        multiplies cancel.
+        """Whether the weight is close to 1, as for |a| >> |b|.
+
+        cosec(πα) is then so large that the terms with this factor cancel.
         """
         return self.kappa == 0 and abs(self.alpha) < FAINT
 
@@ -122,8 +122,9 @@ def _sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
 
 
 def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | None:
-    """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval, bounded or singular at (left,
-    right); None if there is none.
+    """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval; None if there is none.
+
+    The density is bounded or singular at (left, right).
 
     α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi = -atan(b/a)/π and integers N, M that
     make Re α, Re β positive (bounded) or negative. Of a and b only the ratio counts.
@@ -159,8 +160,9 @@ def _end(theta: Exponent, bounded: bool) -> Exponent | None:
 
 
 class Recurrence(NamedTuple):
-    """b_{k+1} p_{k+1} = (s - a_k) p_k - b_k p_{k-1}, p_0 = first: a_0 ... a_n, b_0 = 0, b_1 ...
-    b_n; in extended precision.
+    """b_{k+1} p_{k+1} = (s - a_k) p_k - b_k p_{k-1}, p_0 = first, in extended precision.
+
+    The coefficients are a_0 ... a_n and b_0 = 0, b_1 ... b_n.
     """
 
     a: Array
@@ -210,8 +212,9 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
 
 @lru_cache(maxsize=64)
 def second_sign(weight: Weight) -> float:
-    """p̃_{n-κ} of the docstring over that of the inverse weight's own recurrence, +1 or -1: complex
-    square roots have two branches.
+    """p̃_{n-κ} of the module's docstring over that of the inverse weight's own recurrence.
+
+    It is +1 or -1, because complex square roots have two branches.
     """
     low, high = (weight, weight.inverse) if weight.kappa >= 0 else (weight.inverse, weight)
     first = recurrence(low, 1)
@@ -283,8 +286,9 @@ def conjugate(weight: Weight, c: Array) -> Array:
 
 @lru_cache(maxsize=64)
 def gauss(weight: Weight, n: int) -> tuple[Array, Array]:
-    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding; both complex
-    for complex exponents.
+    """Gauss-Jacobi nodes, ascending (by their real parts), and weights, to rounding.
+
+    Both are complex for complex exponents.
     """
     s, w = _extended_gauss(weight, n)
     nodes, weights = s.astype(weight.kind), w.astype(weight.kind)
@@ -320,8 +324,9 @@ def _extended_gauss(weight: Weight, n: int) -> tuple[Array, Array]:
 
 
 def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
-    """The four Chebyshev rules: zeros at equal angles, as sines so that they are symmetric where
-    the weight is.
+    """The four Chebyshev rules: zeros at equal angles.
+
+    They are computed as sines, so that they are symmetric where the weight is.
     """
     a, b = weight.alpha.real, weight.beta.real
     step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
@@ -351,8 +356,9 @@ def _value_and_slope(r: Recurrence, n: int, s: Array) -> tuple[Array, Array, Arr
 
 @lru_cache(maxsize=32)
 def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
-    """Real nodes s_i and the matrix A (n, n) with  ∫ w f p_k ds = Σ_i f(s_i) A_ik  for polynomials
-    f up to degree n - 1.
+    """Real nodes s_i and the matrix A (n, n) with ∫ w f p_k ds = Σ_i f(s_i) A_ik.
+
+    This holds for polynomials f up to degree n - 1.
 
     The same sums are the coefficients of the interpolant, f = Σ_k p_k Σ_i f(s_i) A_ik. For real
     exponents A_ik = w_i p_k(s_i), of Gauss. For complex ones the nodes are those of |w|, and
@@ -385,8 +391,9 @@ def second(weight: Weight, c: Array, s: Array) -> Array:
 
 
 def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Array:
-    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends, at distances from them, for a weight that is
-    close to 1.
+    """1/π PV∫ w Σ c_n p_n/(s - t) dt between the ends for a weight that is close to 1.
+
+    The points are given by their distances from both ends.
     """
     power, half = weight.alpha * np.log(right / left), _sin_pi(0.5 * weight.alpha)
     return _faint(
@@ -395,8 +402,9 @@ def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Arra
 
 
 def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
-    """Σ c_n (p̃_n + excess p_n) / sin πα, 1 + excess the factor of p_n in the module's docstring
-    with its sign turned.
+    """Σ c_n (p̃_n + excess p_n) / sin πα.
+
+    1 + excess is the factor of p_n in the module's docstring with the opposite sign.
 
     For κ = 0 the two families differ in a_0 = -α alone, so that p̃_n - p_n = -2α p_0 v_n with v_n
     of their recurrence, v_0 = 0, v_1 = 1/b_1.
@@ -417,15 +425,16 @@ def _faint(weight: Weight, c: Array, z: Array, excess: Array) -> Array:
 
 
 def cut(weight: Weight, value: Array, side: int) -> Array:
-    """cot(πα) φ + i side φ: what is subtracted from it on the interval, from y > 0 (side 1), y < 0
-    (-1), or for the principal value (0).
+    """cot(πα) φ + i side φ, the part of the Cauchy integral with a cut, on the interval.
+
+    side is 1 from y > 0, -1 from y < 0, and 0 for the principal value.
     """
     factor = weight.cotangent + 1j * side if side else weight.cotangent
     return _product(factor, value) if factor else np.zeros_like(value)
 
 
 def _product(factor: Exponent, value: Array) -> Array:
-    """factor times value, which is infinite in some of its parts at a singular end."""
+    """factor times value, where the value is infinite in some of its parts at a singular end."""
     finite = np.isfinite(value)
     out: Array = factor * np.where(finite, value, 0.0)
     if not finite.all():
@@ -435,8 +444,9 @@ def _product(factor: Exponent, value: Array) -> Array:
 
 
 def infinite(direction: Array) -> Array:
-    """Infinity in each part, real and imaginary, of `direction` that is not zero: a product would
-    make nan of the others.
+    """Infinity in each part, real and imaginary, of `direction` that is not zero.
+
+    A product would make the other parts nan.
     """
     parts = np.ascontiguousarray(direction).view(float)
     out: Array = np.where(parts == 0.0, 0.0, np.copysign(np.inf, parts)).view(direction.dtype)
@@ -444,8 +454,9 @@ def infinite(direction: Array) -> Array:
 
 
 def cauchy(weight: Weight, c: Array, z: Array, right: Array, left: Array) -> Array:
-    """1/π ∫ w Σ c_n p_n/(z - t) dt off the interval; right = z - 1 and left = z + 1, given apart
-    for their accuracy.
+    """1/π ∫ w Σ c_n p_n/(z - t) dt off the interval; right = z - 1 and left = z + 1.
+
+    Both distances are given, for their accuracy.
 
     Near the interval by the closed form of the module's docstring; further out, where that cancels,
     by the continued fraction of the functions of the second kind.
@@ -476,8 +487,9 @@ def bernstein(z: Array, right: Array, left: Array) -> Array:
 
 
 def _continued_fraction(weight: Weight, c: Array, z: Array, rho: float) -> Array:
-    """Σ c_n q_n, q_n = ∫ w p_n/(z - t) dt, the minimal solution of the recurrence: backwards from
-    where rounding hides the rest.
+    """Σ c_n q_n, q_n = ∫ w p_n/(z - t) dt, the minimal solution of the recurrence.
+
+    It is computed backwards from a degree beyond which all terms are below rounding.
     """
     extra = math.log(1.0 / EPS) / (2.0 * math.log(rho))
     steps = len(c) + min(math.ceil(extra), MOST_STEPS) + 2

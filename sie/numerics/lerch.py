@@ -1,5 +1,4 @@
-"""What the logarithms and arctangents of the square root become for the exponents of frictional
-edges.
+"""The counterparts of 2 artanh sqrt(r) and 2 arctan sqrt(r) for the exponents of frictional edges.
 
     log(a):     Λ_a(r) = ∫_0^r t^(a-1)/(1 - t) dt = Σ r^(k+a)/(k+a)
     arctan(a):  A_a(r) = ∫_0^r t^(a-1)/(1 + t) dt = Σ (-1)^k r^(k+a)/(k+a)
@@ -65,8 +64,9 @@ def _bernoulli(a: float) -> Array:
 
 @lru_cache(maxsize=64)
 def _euler(a: float) -> Array:
-    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant that matches
-    the power series at SWITCH.
+    """The series of A_a in d: the integral of -e^((1-a) d)/(e^d + 1), after a constant.
+
+    The constant matches the power series at SWITCH.
     """
     n = np.arange(TERMS_EULER)
     denominator = np.array([1.0 / factorial(int(k)) for k in n])
@@ -86,8 +86,9 @@ def _euler(a: float) -> Array:
 
 
 def log(a: float, r: Array, y: Array) -> Array:
-    """Λ_a(r) for |r| <= 1, real or complex, given y = 1 - r too: near r = 1 that is what counts.
-    Infinite at y = 0.
+    """Λ_a(r) for |r| <= 1, real or complex; y = 1 - r is given too, for accuracy near r = 1.
+
+    It is infinite at y = 0.
     """
     far = np.abs(r) <= np.exp(-SWITCH)
     out = np.empty_like(r)

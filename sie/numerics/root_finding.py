@@ -34,7 +34,7 @@ def false_position(
     ends: tuple[float, float],
     settled: Callable[[float, float, float], bool],
 ) -> float:
-    """Where the function changes sign between a and b, given its values there.
+    """The place between a and b where the function changes sign, given its values there.
 
     The weight of the end that is kept is halved (Illinois), and the bracket is halved whenever two
     steps have not done so. It ends at `settled(a, b, value)`, or where the bracket is rounding.
@@ -59,12 +59,12 @@ def false_position(
 
 
 MOST_STEPS, BISECT_AFTER = 80, 12
-# of the bracket: the last step of a method that converges faster and faster leaves much less
+# of the bracket: the last step of a method of superlinear convergence leaves much less
 STEP_SETTLED = 1e-9
 
 
 def false_positions(function: Callable[[Array], Array], lo: Array, hi: Array) -> Array:
-    """Where the function falls through 0 between lo and hi, of those pairs where it does."""
+    """The places between lo and hi where the function falls through 0; only pairs that have one."""
     a, b = lo, hi
     fa, fb = function(np.stack((a, b)).ravel()).reshape(2, -1)
     falls = (fa > 0.0) & (fb < 0.0)
@@ -150,7 +150,7 @@ def logarithmic_root(
     *,
     rough: float = ROUGH,
 ) -> float:
-    """u in (0, limit) with f(u) = target, to `rough`, by Newton in ln u and ln f inside a bracket.
+    """u in (0, limit) with f(u) = target, to `rough`, by Newton in ln u and ln f in a bracket.
 
     `function` returns (f, u f'). It may fall again beyond a largest value, which a negative
     derivative shows; if the target exceeds that value, `error(u, f)` is raised with the best that
@@ -161,7 +161,7 @@ def logarithmic_root(
     steps = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         f, slope = function(u)
-        if f > best:
+        if f > best or f >= target:  # the last that is enough, or else the largest
             best, best_u = f, u
         rising = 0.0 < f < math.inf and slope > 0.0
         if rising and not 0.0 < target / f < math.inf:
@@ -205,22 +205,25 @@ Place = tuple[float, float]  # a sum of two doubles; such pairs are ordered as t
 
 @dataclass
 class Bracket:
-    """low < root < high; `cuts` tells which of the two bounds a value has confirmed."""
+    """low < root < high; `cuts` marks the bounds that a value has confirmed."""
 
     low: Place
     high: Place
     cuts: tuple[bool, bool] = (False, False)
 
     def cut(self, at: Place, above: bool) -> None:
-        """The root is above `at`, or below."""
+        """Use that the root is above `at`, or below."""
         if above:
             self.low, self.cuts = max(self.low, at), (True, self.cuts[1])
         else:
             self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
 
     def place(self, wanted: Place, slow: bool) -> Place:
-        """The place wanted; the middle if it is out of bounds, or if the steps are slow and both
-        bounds known."""
+        """The place itself, or the middle of the bracket.
+
+        It is the middle if the place is out of bounds, or if the steps are slow and both bounds
+        known.
+        """
         if self.low < wanted < self.high and not (slow and all(self.cuts)):
             return wanted
         return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted

@@ -1,4 +1,4 @@
-"""Pictures of an answer. They need Matplotlib, which nothing else here does."""
+"""Pictures of an answer. Only these modules need Matplotlib."""
 
 try:
     import matplotlib as matplotlib

@@ -54,7 +54,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
     """A Matplotlib figure of the pressure and the gap, and of the shear if there is any.
 
-    `units` are labels. The figure is not known to pyplot: save it with
+    `units` are labels. The figure is not registered with pyplot: save it with
     figure.savefig("contact.pdf"), or leave it as the last line of a notebook's cell.
     """
     view = _View(solution, units)
@@ -85,7 +85,7 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     return figure
 
 
-# -- what is drawn -------------------------------------------------------------------------------
+# -- the quantities ------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -248,7 +248,7 @@ def _draw_surface(
     """The indenter's surface, with a vertical side where the indenter ends inside the window."""
     lo, hi = view.solution.scene.profile.domain
     x, wall = view.x, [4.0 * view.highest * style.scaled(view.highest, view.units.length)[0]]
-    corners = view.solution.scene.profile.ends_are_corners  # a trace just ends
+    corners = view.solution.scene.profile.ends_are_corners  # the end of a trace has no side
     if view.left < lo and corners[0]:
         x, y = np.concatenate((x[:1], x)), np.concatenate((wall, y))
     if view.right > hi and corners[1]:
@@ -279,7 +279,7 @@ def _mark_peak(axes: Axes, view: _View, scale: float) -> None:
 
 
 def _label_peak(axes: Axes, view: _View) -> None:
-    """The peak in words, above it: towards the middle of the panel, and beside an arrow."""
+    """The value of the peak above it, towards the middle of the panel, or beside an arrow."""
     largest, where = peak(view.solution)
     text = (
         rf"$p_{{\max}}$ = {style.quantity(largest, largest, view.units.stress)}"

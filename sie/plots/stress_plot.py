@@ -1,8 +1,8 @@
 """The picture of the stress in the body: contours of √J2, and where it is largest.
 
-Depth runs downwards. Above the surface a bar says where the bodies touch, a thicker one where they
-stick; a cross stands where √J2 is largest, at every place where it is. Levels are tenths of the
-largest value, so that pictures of different contacts compare.
+Depth runs downwards. Above the surface a bar shows where the bodies touch, a thicker one where they
+stick. A cross marks every place where √J2 is largest. Levels are tenths of the largest value, so
+that pictures of different contacts can be compared.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The style of all pictures: sizes, colours, fonts, axes and units; and the files they become."""
+"""The style of all pictures (sizes, colours, fonts, axes and units), and their files."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ UNDATED: dict[str, dict[str, Any]] = {
 # Type 42 fonts are what journals accept.
 FILES: Any = {"pdf.fonttype": 42, "ps.fonttype": 42, "svg.hashsalt": "sie"}
 
-# Fonts that come with Matplotlib; the others have the letters that the first lacks.
+# Fonts that come with Matplotlib; the later ones have the letters that the first lacks.
 FAMILY = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 SIZE, SMALL = 8.0, 7.0
 TITLE_COLUMNS = 56

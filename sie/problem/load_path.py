@@ -9,6 +9,7 @@ from typing import Any
 
 from sie import arguments
 
+MOST_POINTS = 10**6  # of a path cut into parts
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
 
 
@@ -81,6 +82,11 @@ class Path:
             raise ValueError(
                 f"parts = {parts!r} is not a whole number of at least 1: give how many parts a "
                 "step gets"
+            )
+        if parts * len(self.points) > MOST_POINTS:
+            raise ValueError(
+                f"parts times the {len(self.points)} points of the path are more than "
+                f"{MOST_POINTS}: give fewer parts"
             )
         shares = [k / int(parts) for k in range(1, int(parts))]
         points = [self.points[0]]

@@ -10,7 +10,7 @@ from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
 WANTS = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
-# Names of the solution's own, and what they belong to.
+# Attributes of the solution, and the quantities that they belong to.
 ALSO = {
     "half_width": "edges",
     "centre": "edges",
@@ -18,12 +18,12 @@ ALSO = {
     "peak_tension": "tension",
 }
 ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
-# What is answered where nothing is said: the contact. The stress is asked for by name, as it may
+# The answer where nothing is asked for: the contact. The stress is asked for by name, as it may
 # need Poisson's ratio.
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
-# What depends on the shear traction.
+# Quantities that depend on the shear traction.
 NEED_SHEAR = frozenset({"shear", "stress", "yield", "tension", "check"})
-# What a scene may let the solver skip; `sie.solve(..., economy=())` switches all of it off.
+# Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
 
@@ -41,8 +41,9 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
 
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:
-    """Whether a scene needs the shear to be found: not without friction, nor (unless economy is
-    switched off) without Q and σ.
+    """Whether the shear of a scene has to be computed.
+
+    It is not computed without friction, nor (unless economy is switched off) without Q and σ.
     """
     return scene.friction != 0.0 and (
         scene.tangential_load != 0.0

@@ -1,6 +1,6 @@
 """The question: a profile, two bodies, loads and friction.
 
-A scene refuses what makes no contact problem when it is built.
+Values that make no contact problem are refused when the scene is built.
 """
 
 from __future__ import annotations
@@ -208,7 +208,7 @@ class Scene:
 
     @property
     def slides(self) -> int:
-        """+1 or -1 in full sliding, q = ±f p: if that was said, or if |Q| = f P to rounding."""
+        """+1 or -1 in full sliding, q = ±f p: `sliding` is given, or |Q| = f P to rounding."""
         if self.sliding or self.normal_load is None or self.tangential_load == 0.0 or self.bonded:
             return self.sliding
         limit = self.friction * self.normal_load
@@ -222,6 +222,11 @@ class Scene:
     def bonded(self) -> bool:
         """Full stick: infinite friction."""
         return self.friction == math.inf
+
+    @property
+    def coupled(self) -> bool:
+        """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in part."""
+        return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 
     @property
     def epsilon(self) -> float:
@@ -250,8 +255,8 @@ class Scene:
     @property
     def tau(self) -> float:
         """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress.
-         It is what 1/π PV∫q/(x - t) dt has to be where the bodies stick (equation (12)): σ/4 for
-        similar bodies. With modulus = E* the bodies are taken as similar.
+        1/π PV∫q/(x - t) dt has this value where the bodies stick (equation (12)): σ/4 for similar
+        bodies. With modulus = E* the bodies are taken as similar.
         """
         if self.body is None or self.indenter is None:
             return 0.25 * self.bulk_stress

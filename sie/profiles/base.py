@@ -31,8 +31,8 @@ Parity = Literal["even", "none"]
 def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike], Array]:
     """Extend a height from finite x to all x.
 
-    It is nan at nan, inf where it overflows, and infinite far away, with the sign that the slope
-    has there.
+    The result is nan at nan, inf where it overflows, and infinite at infinite x, with the sign that
+    the slope has there.
     """
 
     @wraps(height)
@@ -119,7 +119,7 @@ class Profile(ABC):
 
     @property
     def power_law(self) -> PowerLaw | None:
-        """h = A |x - c|^m, where the profile is known to be nothing else."""
+        """The law h = A |x - c|^m of the profile, None if it is not known to have one."""
         return None
 
     def slope(self, x: ArrayLike) -> Array:
@@ -165,7 +165,7 @@ class Profile(ABC):
     def ends_are_corners(self) -> tuple[bool, bool]:
         """Whether an end of the domain is the indenter's own corner, where contact is sharp.
 
-        Otherwise it is where the knowledge of the profile ends, as at the ends of a trace.
+        The ends of a trace are no corners: the profile is not known beyond them.
         """
         return True, True
 
@@ -242,10 +242,30 @@ class Profile(ABC):
         """
         return self if self.parity == "even" else Mirrored(self)
 
+    def raised(self, dz: float) -> Profile:
+        """h(x) + dz: the height counts only among the indenters of a row."""
+        dz = arguments.measure("raised", dz)
+        return self if dz == 0.0 else Raised(self, dz)
+
+    @property
+    def period(self) -> float:
+        """The distance after which the profile repeats itself, inf if it does not."""
+        return float("inf")
+
+    @property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Intervals (lo, hi) inside the domain without indenter; lo = hi where h jumps."""
+        return ()
+
     def __add__(self, other: Profile) -> Profile:
         """The profile h(x) + other.h(x), on the intersection of both domains."""
         if not isinstance(other, Profile):
             return NotImplemented
+        for profile in (self, other):
+            if profile.period < float("inf"):
+                raise ValueError(
+                    f"{profile!r} is repeated: add profiles first, then repeat the sum"
+                )
         return Sum(self, other)
 
 
@@ -262,9 +282,10 @@ class Placed(NamedTuple):
 
 
 class Derived(Profile):
-    """A profile made of others, to any depth. Nothing here recurses, so that no depth is too large.
+    """A profile made of others, to any depth.
 
-    Each level takes `reach` and `axis` from the level below when it is built: O(n) for n levels.
+    No method is recursive, so that Python's stack does not limit the depth. Each level takes
+    `reach` and `axis` from the level below when it is built: O(n) for n levels.
     """
 
     def __post_init__(self) -> None:
@@ -278,12 +299,12 @@ class Derived(Profile):
     @property
     @abstractmethod
     def operands(self) -> tuple[Profile, ...]:
-        """The profiles that it is made of; of a sum the terms, none of which is a sum."""
+        """The profiles that it is made of; for a sum its terms, none of which is a sum."""
 
     @property
     @abstractmethod
     def step(self) -> tuple[Any, ...]:
-        """(kind, how many operands, further arguments): how it is made of them."""
+        """(kind, number of operands, further arguments): the way it is made of them."""
 
     @cached_property
     def steps(self) -> tuple[Any, ...]:
@@ -329,7 +350,7 @@ class Derived(Profile):
 
     @cached_property
     def _parts(self) -> tuple[tuple[Placed, ...], float]:
-        """(profiles that add up to this one, placed, each with its own tilt; the tilt of sums)."""
+        """The placed profiles that add up to this one, each with its own tilt; the tilt of sums."""
         parts, tilt = [], 0.0
         todo: list[Placed] = [Placed(self, 1.0, 0.0, 0.0)]
         while todo:
@@ -341,6 +362,8 @@ class Derived(Profile):
                 todo.append(Placed(node.profile, sign, shift + sign * node.dx, own))
             elif isinstance(node, Mirrored):
                 todo.append(Placed(node.profile, -sign, shift, own))
+            elif isinstance(node, Raised):
+                todo.append(Placed(node.profile, sign, shift, own))
             elif isinstance(node, Sum):
                 tilt += own
                 todo += [Placed(term, sign, shift, 0.0) for term in reversed(node.terms)]
@@ -357,7 +380,7 @@ class Derived(Profile):
             .shifted(part.shift)
             for part in parts
         ]
-        while len(slopes) > 1:  # in pairs: of n slopes no break is merged more than log2 n times
+        while len(slopes) > 1:  # in pairs, so that no break is merged more than log2 n times
             pairs = [one + other for one, other in zip(slopes[::2], slopes[1::2], strict=False)]
             slopes = pairs + slopes[2 * len(pairs) :]
         return slopes[0].tilted(tilt)
@@ -368,6 +391,8 @@ class Derived(Profile):
         todo: list[tuple[Profile, Array]] = [(self, x)]
         while todo:
             node, u = todo.pop()
+            if isinstance(node, Raised):
+                total = total + node.dz
             if isinstance(node, Tilted):
                 total = total + node.tilt * u
             if isinstance(node, Shifted):
@@ -397,8 +422,19 @@ class Derived(Profile):
         return all(part.profile.convex for part in self._parts[0])
 
     @cached_property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Those of the profiles that add up to this one."""
+        lo, hi = self.domain
+        placed = [
+            sorted((part.sign * one + part.shift, part.sign * other + part.shift))
+            for part in self._parts[0]
+            for one, other in part.profile.walls
+        ]
+        return joined(tuple((max(a, lo), min(b, hi)) for a, b in placed if a < hi and b > lo))
+
+    @cached_property
     def ends_are_corners(self) -> tuple[bool, bool]:
-        """Whether the ends are corners, for the profile whose end comes first."""
+        """Whether each end is a corner of the profile whose domain ends there."""
         corners = [True, True]
         for profile, sign, shift, _ in self._parts[0]:
             ends = zip(profile.domain, profile.ends_are_corners, strict=True)
@@ -407,6 +443,17 @@ class Derived(Profile):
                 for k in (0, 1):
                     corners[k] &= is_corner or here != self.domain[k]
         return corners[0], corners[1]
+
+
+def joined(intervals: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    """The union of intervals, ascending."""
+    found: list[tuple[float, float]] = []
+    for lo, hi in sorted(intervals):
+        if found and lo <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], hi)
+        else:
+            found.append((lo, hi))
+    return tuple(found)
 
 
 def _reach(profile: Profile) -> tuple[float, float]:
@@ -500,6 +547,20 @@ class Mirrored(_OfOne):
 
     def mirrored(self) -> Profile:
         return self.profile
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Raised(_OfOne):
+    """h(x) + dz."""
+
+    dz: float
+
+    @property
+    def parity(self) -> Parity:
+        return self.profile.parity
+
+    def raised(self, dz: float) -> Profile:
+        return self.profile.raised(self.dz + arguments.measure("raised", dz))
 
 
 @dataclass(frozen=True, repr=False, eq=False)

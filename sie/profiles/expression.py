@@ -1,8 +1,8 @@
 """A formula in x as text, like "0.1*sinh(x/2)": a value that a scene file can hold.
 
-Python's own parser reads it. Only the operators and names below and x are let through, and each
-becomes one step of a program in postfix order that NumPy's functions carry out, so that a file
-cannot run code, nor can nesting exhaust the stack.
+Python's own parser reads it. Only x and the operators and names below are accepted. Each becomes
+one step of a program in postfix order, which NumPy's functions carry out. So a file cannot run
+code, and nesting cannot exhaust the stack.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
 }  # fmt: skip
 _ALLOWED = "+ - * / ** % //, comparisons, brackets, numbers, x"
 
-# What others write, and what it is here.
+# Spellings of other languages, and their equivalents here.
 _MEANT = {
     "^": "**", "²": "**2", "³": "**3", "·": "*", "×": "*", "−": "-", "π": "pi",
     "|": "abs(...)", "&": "where(...)",
@@ -65,15 +65,15 @@ _MEANT = {
     "max": "maximum", "pow": "**", "fabs": "abs", "if": "where(...)",
 }  # fmt: skip
 _STRANGE = re.compile(r"[^A-Za-z0-9_.,()<>=!+\-*/%\s]")
-# Also right after a digit, where Python's parser would warn before it refuses
+# Also right after a digit, where Python's parser would warn before it raises
 _KEYWORD = re.compile(
     r"(?<![A-Za-z_])(?:and|or|not|in|is|if|else|for|lambda|await|yield|from)(?![A-Za-z_0-9])"
 )
-LONGEST = 10_000  # characters; a longer formula is a program's, which can give a function
+LONGEST = 10_000  # characters; a program that writes a longer formula can pass a function
 DEEPEST = 500  # levels of the syntax tree: Python's own limit depends on where it is called from
 LONGEST_NUMBER = re.compile(
     r"\d{401}"
-)  # no double needs more digits, and Python's own limit speaks of something else
+)  # no double needs more digits, and Python's own message would not name the formula
 
 _SIMPLER = "use fewer terms and brackets, or give a Python function"
 
@@ -131,7 +131,7 @@ class Expression:
         return tuple(reversed(program))
 
     def _step(self, node: ast.AST) -> tuple[_Step, list[Any]]:
-        """What a node does, and the nodes of its operands."""
+        """The step that a node stands for, and the nodes of its operands."""
         if (
             isinstance(node, ast.Constant)
             and isinstance(node.value, (int, float))
@@ -189,7 +189,7 @@ class Expression:
         stack: list[Any] = []
         with np.errstate(
             all="ignore"
-        ):  # what is not finite is refused by who asked, with the place
+        ):  # the caller refuses values that are not finite, and names the place
             for operands, function in self._program:
                 first = len(stack) - operands
                 stack[first:] = [x if function is None else function(*stack[first:])]
@@ -223,7 +223,7 @@ def _written(node: ast.AST) -> str:
 
 
 def _advice(name: str) -> str:
-    """What to write in place of a name or sign that is not known."""
+    """The text to write in place of a name or sign that is not known."""
     meant = _MEANT.get(name) or (
         nearest(name, NAMES) if name.isidentifier() and not keyword.iskeyword(name) else ""
     )

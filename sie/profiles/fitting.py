@@ -1,10 +1,10 @@
-"""What a trace is like: its gaps, its outliers, the line through it, and the nearest rounded flat.
+"""Properties of a trace: its gaps, its outliers, its line, and the nearest rounded flat.
 
     h = c + t x + (|x - x0| - a)_+² / (2R)    flat |x - x0| <= a, arcs of radius R, tilt t
 
-c, t and 1/R enter linearly, so that the search is for x0 and a alone (variable projection, Golub &
-Pereyra 1973): a scan of both first, since a trace of a nearly flat pad has other minima, then least
-squares with all five.
+c, t and 1/R enter linearly, so that only x0 and a are searched for (variable projection, Golub &
+Pereyra 1973). Both are scanned first, because a trace of a nearly flat pad has other minima. Least
+squares with all five parameters follow.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ROUNDS = 4
 NEXT = 3  # points on one side of a point that is judged
 NEIGHBOURS = 6  # points on one side through which a parabola is laid
 FEWEST_NEIGHBOURS = 4
-LOOKED_AT = 30  # points on one side, among which these are found
+LOOKED_AT = 30  # points on one side, among which the neighbours are chosen
 MOST_EXAMINED = 1000  # points
 STRAIGHT = 64.0 * EPS  # of the largest height: a trace that leaves its line by less is the line
 ARCHED = 0.5  # of the variance is explained by a downward parabola: the trace is upside down
@@ -80,7 +80,7 @@ def _outstanding(x: Array, h: Array) -> list[int]:
     miss[middle] = np.einsum("ij,ij->i", weights, h[middle, None] - h[near])  # their sum is 1
     miss[middle] /= np.sqrt(1.0 + np.einsum("ij,ij->i", weights, weights))
     size = np.abs(miss)
-    few = 1.0 + 10.0 / len(middle)  # the spread of few points is known badly
+    few = 1.0 + 10.0 / len(middle)  # the spread of few points is uncertain
     usual = max(few * GAUSSIAN * float(np.median(size[middle])), EPS * float(np.abs(h).max()))
     suspects = np.flatnonzero(size > DEVIANT * usual)
     largest = suspects[np.argsort(-size[suspects], kind="stable")][:MOST_EXAMINED]
@@ -97,14 +97,14 @@ def _confirmed(x: Array, h: Array, miss: Array, k: int, usual: float) -> bool:
 
 
 def _sides(k: int, size: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The next neighbours on the left and on the right, less those that may be outliers too."""
+    """The next neighbours on the left and on the right, without those that may be outliers."""
     start, stop = max(k - LOOKED_AT, 0), k + 1 + LOOKED_AT
     near = start + np.flatnonzero(size[start:stop] <= 0.5 * size[k])
     return near[near < k][-NEIGHBOURS:], near[near > k][:NEIGHBOURS]
 
 
 def _off(x: Array, h: Array, k: int, side: NDArray[np.int64]) -> tuple[float, float]:
-    """(How far point k is off the parabola through some points, what noise of 1 adds to it)."""
+    """(distance of point k from the parabola through some points, its deviation by unit noise)."""
     if len(side) < FEWEST_NEIGHBOURS:
         return 0.0, 1.0
     weights = _extrapolation(x[None, side], x[k : k + 1], 2)[0]
@@ -122,7 +122,7 @@ def _extrapolation(x: Array, target: Array, degree: int) -> Array:
 class RoundedFlatFit:
     """h ≈ offset + tilt x + (|x - centre| - half_flat)_+² / (2 radius), by least squares.
 
-    rms, largest    what is left of h: the root of the mean square, and the largest
+    rms, largest    the residual of h: its root mean square, and its largest value
     residuals       at every point of the trace
 
     The profile is `sie.RoundedFlat(fit.half_flat,
@@ -176,16 +176,11 @@ def reason_at_an_end(x: Array, h: Array) -> str:
         return (
             "the trace is lowest at its end: it is too short, or tilted (levelled takes a line out)"
         )
-    bumps = np.count_nonzero((h[1:-1] < h[:-2]) & (h[1:-1] <= h[2:]))
-    return (
-        "the trace has several bumps and touches in several patches, which are not covered yet"
-        if bumps > 1
-        else ""
-    )
+    return ""
 
 
 def _arched(x: Array, left: Array) -> bool:
-    """Whether what the line leaves is mostly a parabola that opens downwards."""
+    """Whether the residual of the line is mostly a parabola that opens downwards."""
     u = (x - x.mean()) / np.ptp(x)
     bow = u * u - np.polyval(np.polyfit(u, u * u, 1), u)
     share = float(bow @ left)

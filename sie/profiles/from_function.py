@@ -1,4 +1,4 @@
-"""An indenter by its slope as a function: Python's, or a formula as text."""
+"""An indenter given by its slope: a Python function, or a formula as text."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .slope import FunctionTerm, Slope, Vectorised, polynomial_slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
-# Where the function is tried out, as shares of a part of the domain; none is a round number.
+# Points where the function is tried, as fractions of a part of the domain; no round numbers.
 TRIALS = np.array([0.13, 0.29, 0.5, 0.61, 0.83])
 EVEN = 1e-12  # |h'(x) + h'(-x)| of a symmetric profile, relative
 
@@ -49,14 +49,14 @@ class FromFunction(Profile):
 
     Notes
     -----
-    h is 0 at x = 0, or at the end of the domain that is nearest to it. A function is known by its
-    values at some points. The polynomials that resolve it are compared with it at 2584 points of
-    the contact, which depend on the edges; a jump, a kink, a cusp or a narrow feature that the
-    comparison shows is resolved like a declared one. Sampling cannot detect a feature narrower
-    than 5e-4 of the contact (a bump, a dent, two jumps, nan), except for one kink or jump beside an
-    edge, down to 1e-12 of the contact from it. Nor can it detect one below 32 ulp of the largest
-    slope or 8 times the roughness of the function's own rounding. The place of a jump is known to
-    one ulp of x. Declare breaks around such places.
+    h is 0 at x = 0, or at the end of the domain that is nearest to it. The solver uses the
+    function's values at some points. The polynomials that resolve it are compared with it at 2584
+    points of the contact, which depend on the edges; a jump, a kink, a cusp or a narrow feature
+    that the comparison shows is resolved like a declared one. Sampling cannot detect a feature
+    narrower than 5e-4 of the contact (a bump, a dent, two jumps, nan), except for one kink or jump
+    beside an edge, down to 1e-12 of the contact from it. Nor can it detect one below 32 ulp of the
+    largest slope or 8 times the roughness of the function's own rounding. The place of a jump is
+    known to one ulp of x. Declare breaks around such places.
 
     Examples
     --------

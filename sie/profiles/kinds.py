@@ -1,8 +1,9 @@
 """The kinds of indenter that a scene file can name.
 
 A new kind needs a class in this folder, a line here, and a commented example in
-sie/examples/KIND.toml. From the class' parameters and their types follows what a scene file may
-hold; the list of `sie example` and the laws of the tests follow from this table and the example.
+sie/examples/KIND.toml. The parameters of the class and their types determine what a scene file may
+hold. This table and the example determine the list of `sie example` and the profiles that the tests
+cover.
 """
 
 from __future__ import annotations

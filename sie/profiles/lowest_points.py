@@ -19,8 +19,8 @@ from .slope import Slope
 Array = NDArray[np.float64]
 
 SAMPLES = 24  # per piece, besides its degree; a sign change between two samples is then bisected
-MANY, FEWER = 100, 3  # of so many polynomials each is sampled less
-SHORTLIST = 16  # of the minima of a rough trace, those which the samples show as lowest
+MANY, FEWER = 100, 3  # a slope of more polynomials than MANY is sampled at FEWER points each
+SHORTLIST = 16  # of the minima of a rough trace: the lowest by the samples
 HEIGHT_NODES = 16
 BEYOND = 1e-3
 ROUNDING = 8.0  # ulp
@@ -119,7 +119,7 @@ def _change(
 ) -> tuple[float, float]:
     """The last point with H < 0 and the first with H > 0, between two points (x, piece).
 
-    H is negative at the one, positive at the other, and changes its sign once between them.
+    H is negative at the first point, positive at the second, and changes its sign once between.
     """
     (x, i), (y, j) = before, after
     if i == j:
@@ -165,7 +165,7 @@ def _height(slope: Slope, ends: Array, z: float) -> float:
 
 
 def raised(slope: Slope, touch: tuple[float, float], x: Array) -> Array:
-    """h(x) less its lowest value, by Gauss-Legendre from its lowest points on."""
+    """h(x) minus its lowest value, by Gauss-Legendre integration from the lowest points."""
     z1, z2 = touch
     pieces = slope.split_at(z1).split_at(z2)
     g, w = chebyshev.gauss_legendre(2 + pieces.degree // 2)

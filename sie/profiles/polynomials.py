@@ -1,4 +1,4 @@
-"""Indenters by the coefficients of polynomials: of the height, or of the slope on each piece."""
+"""Indenters given by polynomial coefficients, of the height or of the slope on each piece."""
 
 from __future__ import annotations
 
@@ -225,7 +225,7 @@ def _well_placed(row: tuple[float, ...], lo: float, hi: float) -> tuple[float, t
     """(origin, coefficients about it), where the slope at the origin is smallest.
 
     The origin is an end of the piece, x = 0 or the zero of a straight line. The arithmetic is
-    exact: what is left of the slope there follows from the given coefficients, not from rounding.
+    exact: the slope at the origin follows from the given coefficients without rounding.
     """
     candidates = [0.0, *(end for end in (lo, hi) if math.isfinite(end))]
     if len(row) == 2 and row[1] != 0.0:

@@ -1,7 +1,7 @@
 """A power law h = A |x - c|^m, m > 1, pressed upright: half-width, load and pressure.
 
-A convex, symmetric contact is a pile of flats whose half-width s grows with the load (Jäger 1998);
-a flat under dP has the pressure dP/(π sqrt(s² - x²)). Here
+A convex, symmetric contact is a superposition of flat punches whose half-width s grows with the
+load (Jäger 1998). A flat punch under dP has the pressure dP/(π sqrt(s² - x²)). Here
 
     P(s) = E* A m W s^m,   W = ∫_0^(π/2) sin^m φ dφ = (sqrt(π)/2) Γ((m+1)/2) / Γ(m/2+1),
 
@@ -18,8 +18,9 @@ cosh t = (1+v)/(1-v) with v = tanh²(t/2), and from cosh t = e^t (1 + e^(-2t))/2
     J = ((1+k)/2)^(m-1) Σ C(m-1, j) (q^j - q^((m-1)/2)) / (m-1-2j)
 
 with (n+1) a_{n+1} = (2m-1) a_n + n a_{n-1}. All terms of the first are positive, and those of the
-second with j < m. They meet at ξ² = 1/2, where w = q = 3 - 2 sqrt(2). The factor of q^((m-1)/2),
-which is the power |x-c|^(m-1) of the slope, is not summed: both series have to agree there.
+second with j < m. The series are joined at ξ² = 1/2, where w = q = 3 - 2 sqrt(2). The factor of
+q^((m-1)/2), which is the power |x-c|^(m-1) of the slope, is not summed: both series have to agree
+there.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from sie.numerics.interval import EPS
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# w and q where the two series meet, the ratio of their terms but for the growth of the factors
+# w and q where the two series are joined: the ratio of terms apart from the factors' growth
 MEET = 3.0 - 2.0 * math.sqrt(2.0)
 NEGLIGIBLE = EPS / 16.0  # of the sum
 LARGEST = 300.0  # exponent: gamma functions overflow beyond
@@ -83,7 +84,7 @@ class PowerLaw:
     def _refuse_beyond_range(self, given: str, *logarithms: float) -> None:
         if max(map(abs, logarithms)) > RANGE:
             raise LoadError(
-                f"the {given} under h = {self.coefficient:.6g} |x|^{self.exponent:.6g} asks for "
+                f"the {given} under h = {self.coefficient:.6g} |x|^{self.exponent:.6g} needs "
                 "numbers beyond the range of doubles: choose other units"
             )
 
@@ -131,7 +132,7 @@ class PowerLaw:
 
 @dataclass(frozen=True)
 class Corner:
-    """A jump of h' and one of h'' on the axis of a power law: what they add to p near it."""
+    """A jump of h' and one of h'' on the axis of a power law, and their part of p near it."""
 
     jump: float
     bend: float

@@ -4,10 +4,9 @@ A series is chopped where its coefficients decay, and the piece is halved where 
 
 All open intervals are sampled in one call of the function, level by level. Halving towards a point
 where the function behaves like |x|^s grades the pieces geometrically by itself; a jump or a kink
-that was not declared is closed in to rounding. At a break that was declared H may vanish like
-|x|^s. What a series misses there is a small jump, and the pressure at the break is off by
-ln(length/piece) times as much: pieces that touch one are resolved further than rounding of H
-elsewhere would let others be.
+that was not declared is bracketed to rounding. At a declared break H may vanish like |x|^s. The
+error of a series there is a small jump, and the error of the pressure at the break is
+ln(length/piece) times as large. So the tolerance is smaller for pieces that touch a break.
 """
 
 from __future__ import annotations
@@ -29,20 +28,20 @@ Array = NDArray[np.float64]
 
 SIZES = (17, 33)  # points a piece is tried with before it is split
 TAIL = 3  # the last coefficients that must have decayed
-# Points on no grid, where a settled series must agree with the function: what lies between the
-# points is seen there, if not always.
+# Points on no grid, where a settled series is compared with the function. They show most features
+# that lie between the sample points.
 PROBES = np.array([-0.913, -0.537, 0.071, 0.467, 0.859])
 MISSED = 32.0  # times what the series itself may miss
 NEIGHBOURS, CLOSE = 12, 1e-6
-NOISE = 8.0  # times the roughness that was seen, the floor of what is asked of a series ...
+NOISE = 8.0  # times the measured roughness: no series has to be more accurate ...
 ROUGHEST = 1e-9  # ... but noise above this fraction of the largest value is not rounding
 FINER = 1e-3  # of the tolerance: next to a declared break
 TINY = float(np.finfo(float).tiny)  # half of a piece next to x = 0 may be no double
 MAX_PIECES = 8_000  # of a formula: within seconds
 SHORTEST = EPS**6  # of the interval
 DEEP = 64  # levels, after which x = 0 is such a break
-# What has not settled next to a declared break after so many levels is singular there, and is then
-# halved so many times at once.
+# A piece at a declared break that has not settled after so many levels is singular there. It is
+# then halved so many times at once.
 PATIENCE, HALVINGS = 3, 8
 
 
@@ -55,7 +54,7 @@ class Tolerance(NamedTuple):
     shortest: float  # of the pieces: next to x = 0 powers of x are not smooth to the last double
 
     def of(self, pieces: Array, values: Array, scale: float) -> Array:
-        """For each piece (K, 2) with these values (K, n), where the largest of all is `scale`."""
+        """The tolerance of each piece (K, 2) with values (K, n); `scale` is the largest |value|."""
         enough = np.full(
             len(pieces), max(self.relative * scale, min(self.absolute, ROUGHEST * scale))
         )
@@ -149,7 +148,7 @@ def _degrees(
     scale = max(scale, float(np.abs(values).max()))
     c = chebyshev.transform(values[:, :n])
     enough = tolerance.of(pieces, values, scale)
-    # a few ulp of x move the value by rounding: no series can do better
+    # a few ulp of x change the value by as much: no series can be more accurate
     floor = np.maximum(
         enough,
         EPS * np.abs(x).max(axis=1) * np.ptp(values, axis=1) / (2.0 * np.maximum(half, TINY)),
@@ -169,12 +168,10 @@ def _at_probes(n: int) -> Array:
 
 
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
-    """How rough the function's values are on [lo, hi] by its own rounding, as exp(x) - 1 near 0.
+    """Roughness of the function's values on [lo, hi] by its own rounding, as of exp(x) - 1 near 0.
 
-    No series can do better.
-
-    What is left of its values at NEIGHBOURS points very close together after a parabola through
-    them, the median of several places.
+    No series can be more accurate. It is the residual of a parabola through the values at
+    NEIGHBOURS points very close together, as the median over several places.
     """
     middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
     s = chebyshev.points(NEIGHBOURS)

@@ -23,7 +23,7 @@ from .trace_values import Mended, Smoothing, checked, scaled, smoothing_of
 
 Array = NDArray[np.float64]
 INF = float("inf")
-SHOWN = 60  # points that are printed; a longer trace is summed up
+SHOWN = 60  # points that are printed; a longer trace is summarised
 
 
 @dataclass(frozen=True, init=False, repr=False, eq=False)
@@ -211,7 +211,7 @@ class Sampled(Profile):
     def ends_are_corners(self) -> tuple[bool, bool]:
         return False, False
 
-    # -- what is known of the measurement ---------------------------------------------------------
+    # -- the quality of the measurement ---------------------------------------------------------
 
     @property
     def misfit(self) -> float:
@@ -372,8 +372,8 @@ class Sampled(Profile):
 class PlacedTrace(NamedTuple):
     """A trace in a profile.
 
-    At x of the profile its own x is direction x + origin, and the profile's slope is direction
-    times the trace's slope, + tilt.
+    The position x of the profile is direction x + origin in the trace. The slope of the profile is
+    direction times the slope of the trace, plus tilt.
     """
 
     trace: Sampled
@@ -387,7 +387,7 @@ class PlacedTrace(NamedTuple):
 
 
 def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
-    """The traces that a profile is made of, tilted, shifted, mirrored and added as it may be."""
+    """The traces in a profile that may be tilted, shifted, mirrored and added."""
     parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
     for part, sign, shift, tilt in parts:
         if isinstance(part, Sampled):

@@ -1,4 +1,4 @@
-"""The slope H = h' of an indenter, piece by piece: what the numerics see of a profile.
+"""The slope H = h' of an indenter, piece by piece: all that the numerics use of a profile.
 
 On each piece, between two neighbouring breaks, H is a polynomial about an origin of its own plus
 functions that are smooth there:
@@ -6,8 +6,8 @@ functions that are smooth there:
     H(t) = Σ_j coefficients[k, j] (t - origins[k])^j + Σ functions(t),   breaks[k] < t < breaks[k+1]
 
 The first and last break are the ends of the indenter and may be infinite. Each piece has its own
-origin because a profile is often small there and nowhere else: (t - a)/R on the rim of a punch
-whose rim is 1e-12 of its width must not be formed as t/R - a/R.
+origin because a profile is often small there and nowhere else: (t - a)/R on the rounded edge of a
+punch must not be formed as t/R - a/R where that edge is 1e-12 of the width.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ FEW, LOW = 6, 4
 # A break carries a true jump of h' (and a logarithmic infinity of the pressure) when the jump
 # exceeds rounding by this factor.
 JUMP = 256.0 * EPS
-# Of a function, whose pieces are resolved one by one, only what their mismatch cannot be.
+# The same for a function: its pieces are resolved one by one, and do not match to rounding.
 SEEN_JUMP = 1e-9
 
 
@@ -73,7 +73,7 @@ class FunctionTerm:
         """Values at t, given offset = t - shift."""
         with np.errstate(
             all="ignore"
-        ):  # who resolves the function refuses what is not finite, with the place
+        ):  # `resolution` refuses values that are not finite, and names the place
             values: Array = self.sign * arguments.real_values(
                 "slope", self.function, self.sign * offset
             )
@@ -207,7 +207,7 @@ class Slope:
 
     @cached_property
     def continuous(self) -> bool:
-        """Whether H is known to be continuous, but for rounding.
+        """Whether H is known to be continuous, up to rounding.
 
         A function may jump at declared breaks.
         """
@@ -238,7 +238,7 @@ class Slope:
 
     @cached_property
     def rises(self) -> tuple[tuple[float, float], ...]:
-        """(break, rise of H there) of the inner breaks where H jumps by more than rounding."""
+        """(break, rise of H) for each inner break where H jumps by more than rounding."""
         sides = zip(self.breaks[1:-1].tolist(), *self.at_breaks, strict=True)
         return tuple(
             (b, above - below)
@@ -296,7 +296,7 @@ class Slope:
             self.breaks[1:-1],
             self.coefficients.shape[1],
         )
-        return _recentred(self, k[1:], inner, width) - _recentred(self, k[:-1], inner, width)
+        return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -309,8 +309,19 @@ class Slope:
         c[:, 0] += tilt
         return replace(self, coefficients=c)
 
+    def less_level(self, x: float, near: float) -> tuple[float, Slope]:
+        """H(x), and H - H(x) with x as the origin of every piece whose own is not so near.
+
+        Nothing cancels about x.
+        """
+        level = float(self(x))
+        origins = np.where(np.abs(self.origins - x) > near, x, self.origins)
+        c = recentred(self, np.arange(len(origins)), origins, self.coefficients.shape[1])
+        c[:, 0] -= level
+        return level, replace(self, origins=origins, coefficients=c)
+
     def split_at(self, x: float) -> Slope:
-        """The same slope with a break at x, which changes nothing but where its pieces end."""
+        """The same slope with one more break, at x."""
         k = int(np.searchsorted(self.breaks, x))
         if not self.breaks[0] < x < self.breaks[-1] or self.breaks[k] == x:
             return self
@@ -379,7 +390,7 @@ class Slope:
             other.origins[theirs],
         )
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
-        c = _recentred(self, mine, origins, width) + _recentred(other, theirs, origins, width)
+        c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])
         return Slope(breaks, origins, c, degrees, self.functions + other.functions)
 
@@ -397,7 +408,7 @@ def polynomial_slope(
 
 
 def _distance(origins: Array, breaks: Array) -> Array:
-    """How far each origin is from its piece.
+    """The distance of each origin from its piece.
 
     It is 0 inside a bounded piece; else the distance from the one end, or from x = 0 without ends.
 
@@ -413,8 +424,10 @@ def _distance(origins: Array, breaks: Array) -> Array:
     )
 
 
-def _recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins, by synthetic division (Horner)."""
+def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
+    """Coefficients of the pieces k about new origins, by synthetic division (Horner); exact where
+    the origin stays.
+    """
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]
     step = origins - slope.origins[k]

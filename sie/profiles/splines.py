@@ -7,7 +7,7 @@ The smoothing spline minimises, over all functions f on the trace's interval (Re
 
 It is a natural cubic spline with a knot at every point, and averages over a length of about (λ
 Δ)^(1/4), Δ the mean spacing. With thousands of points within that length a knot at every point
-costs digits (the equations' condition is the fourth power of the number) and buys nothing: then
+loses digits (the condition number is the fourth power of that number) and gains nothing. Then
 KNOTS_IN_LENGTH knots in each such length are used, at points of the trace, and all points count (as
 in R's `smooth.spline`).
 
@@ -21,9 +21,9 @@ would lose f between the points as λ → 0.
 (n - tr A)², A the matrix from h to f(x). Its trace is exact for a short trace; for a long one it is
 z·Az, the mean over a few fixed vectors of signs z (Girard 1989).
 
-What noise leaves in the spline: if h = f + noise, independent from point to point and of variance
+The effect of noise on the spline: if h = f + noise, independent from point to point and of variance
 s², then f given h has the mean of the smoothing spline, and its coefficients have the covariance s²
-(B'B + λE)^-1 (Wahba 1983). This covers, on the average over x, what smoothing itself takes from f
+(B'B + λE)^-1 (Wahba 1983). On the average over x this includes the bias that smoothing causes
 (Nychka 1988).
 """
 
@@ -49,10 +49,10 @@ KNOTS_IN_LENGTH = (
 SHORT = KNOTS_IN_LENGTH**4  # λ over the cube of the mean spacing: up to so many points are averaged
 EXACT_TRACE = 400
 PROBES = 16
-STEPS = 25  # of the first look at the score, from a third of the spacing to the length of the trace
+STEPS = 25  # of the first scan of the score, from a third of the spacing to the length of the trace
 LONGEST = 4.0  # times the length of the trace: beyond it, averaging leaves a straight line
 SIGNIFICANT = 3.0  # standard deviations
-LOCAL = 50  # points whose misfit tells the noise
+LOCAL = 50  # points whose misfit measures the noise
 REFINED = 0.02  # of the logarithm of the averaging length
 
 
@@ -108,7 +108,7 @@ def explains(x: Array, h: Array, lam: float, least: float, between: tuple[float,
 
 
 def slope_deviations(x: Array, h: Array, lam: float, points: Array, weights: Array) -> Array:
-    """The standard deviations (m,) that noise leaves in Σ_k weights[i, k] f'(points[k]).
+    """The standard deviations (m,) that noise causes in Σ_k weights[i, k] f'(points[k]).
 
     weights (m, K), points (K,) in the trace. Noise is measured by the misfit about the points:
     without bias its sum of squares has the expectation s² tr (I - A)².

@@ -2,7 +2,8 @@
 
 Text is read with a comma, semicolon, tab or blanks between the columns; with a decimal comma where
 commas do not separate columns; with comments after # or %, and with header lines before the first
-number. What is not a number after that is missing, and is reported with the number of its line.
+number. After that a cell without a number is a missing value, which is reported with its line
+number.
 Other formats are read by SurfaceTopography (the extra `traces`).
 """
 
@@ -13,6 +14,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 from numbers import Integral
+from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -26,7 +28,7 @@ Column = int | str
 
 
 class Limit(NamedTuple):
-    """How long a file may be."""
+    """The largest size of a file."""
 
     size: int  # bytes
     lines: int
@@ -51,6 +53,8 @@ def read_trace(
 
     Raises ValueError where the file holds no trace, and OSError where it cannot be read.
     """
+    if not isinstance(path, (str, PathLike)):
+        raise ValueError(f"path = {path!r} is not the name of a file: give a string or a Path")
     path = Path(path)
     pair = arguments.listed("columns", columns, "those of x and of h")
     if len(pair) != 2 or not all(isinstance(column, (Integral, str)) for column in pair):

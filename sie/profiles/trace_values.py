@@ -1,4 +1,4 @@
-"""The points and heights of a trace: what is refused, and what `mend` puts in order."""
+"""Checks of the points and heights of a trace, and their repair by `mend`."""
 
 from __future__ import annotations
 
@@ -103,6 +103,7 @@ def _refuse_out_of_range(points: Array, heights: Array) -> None:
 
 
 def _numbers(name: str, values: Any) -> Array:
+    arguments.refuse_masked(name, values)
     try:
         given = np.asarray(values)
         array = np.array(given, dtype=float) if given.dtype.kind in "biufO" else None

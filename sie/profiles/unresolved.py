@@ -1,6 +1,6 @@
 """Features of a function that its resolution has missed.
 
-A function is known by its values at some points only. Two tests show that it changes between the
+The solver uses a function's values at some points only. Two tests show that it changes between the
 points of a resolution:
 
     its values differ from the resolved ones at the points of a low-discrepancy sequence,
@@ -9,10 +9,10 @@ points of a resolution:
     two neighbouring pieces differ where they meet: the function jumps between the end of a piece
     and the first point on it.
 
-The digits of the contact's edges determine where the sequence starts, so no profile can be made to
-agree with it. SAMPLES is a Fibonacci number: the largest gap between so many points is 4.5e-4 of
-the contact (Sós 1957, three gaps). What is narrower may stay unseen. Towards each edge there is a
-point in every octave of the distance, for a kink close to it changes all that is beyond.
+The digits of the contact's edges determine where the sequence starts, so no profile can be adapted
+to it. SAMPLES is a Fibonacci number: the largest gap between so many points is 4.5e-4 of the
+contact (Sós 1957, three gaps). A narrower feature may not be detected. Towards each edge there is a
+point in every octave of the distance, because a kink close to an edge changes all of H beyond it.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ Known = Callable[[Array], Array]
 
 SAMPLES = 2584
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
-# Of the contact: how near to an edge points lie; there is one in each octave of the distance.
+# The smallest distance from an edge, of the contact; one point in each octave of the distance.
 CLOSEST, HALVINGS = 2.0**-40, 40
-# Times what the resolution may miss of the largest slope: a larger difference was not resolved.
+# A difference above this multiple of the tolerance shows that the slope was not resolved.
 MISSED = 32.0
 STEEPER = 8.0  # ulp of x: what these change in H is rounding
 CLOSER = 129  # points about the worst
@@ -97,10 +97,10 @@ def misfit(
     tol: float = EPS,
     start_at: int = 0,
 ) -> tuple[Array, Array]:
-    """(x, how far the worst of some resolutions is from H) on scattered points.
+    """(x, the largest difference of some resolutions from H) on scattered points.
 
-    0 where that is within their tolerance, or may be rounding: of H, that is, of the function's own
-    making, and of x.
+    The difference is set to 0 where it is within the tolerance, or may be rounding of x or of the
+    function's own values.
     """
     x = scattered(contact, start_at)
     if len(x) < 2:
@@ -123,8 +123,9 @@ def misfit(
 def largest_misfit(slope: Slope, known: Known, resolved: Slope, contact: Interval) -> float:
     """The largest |H - known(x)| beyond rounding, or difference between two pieces.
 
-    At points that did not serve `between_points`. Two pieces that are both shorter than rounding
-    of the contact, as next to the axis of |x|^1.04, leave nothing in the pressure beside them.
+    The points are other than those of `between_points`. Two pieces that are both shorter than
+    rounding of the contact, as next to the axis of |x|^1.04, leave nothing in the pressure beside
+    them.
     """
     pieces = expanded(slope, resolved, contact)
     where, difference = _apart(slope, pieces, contact)
@@ -144,7 +145,8 @@ def between_points(
 ) -> tuple[float, ...]:
     """Breaks around what a resolution of the slope has missed.
 
-    Of neighbouring points that were missed the worst, and the points beside them.
+    Each run of neighbouring points that were missed gives its worst point, and the points beside
+    the run.
     """
     x, missed = misfit(slope, resolutions, contact, tol)
     low = np.concatenate(([False], missed > 0.0, [False]))
@@ -208,9 +210,9 @@ def _new(places: list[float], slope: Slope, contact: Interval) -> tuple[float, .
 
 
 def _jumps(slope: Slope, brackets: Array, sizes: Array) -> list[float | None]:
-    """In each bracket (J, 2) the double where the slope jumps by about its size, or None.
+    """The double in each bracket (J, 2) where the slope jumps by about its size, or None.
 
-    By bisection towards the larger difference, of all at once.
+    All brackets are bisected at once, towards the larger difference.
     """
     if not len(brackets):
         return []

@@ -1,8 +1,8 @@
 """Stress histories of a cycle of loading, slip on the surface, and parameters of fretting damage.
 
-A cycle is a sequence of states, one Solution after each step of the load. Used of a state are
-.pressure, .shear and .scene.bulk_stress (through `stress(x, y)`), and .slip(x), the tangential
-displacement of the body against the indenter.
+A cycle is a sequence of states, one Solution after each step of the load. This module uses
+.pressure, .shear and .scene.bulk_stress of a state (through `stress(x, y)`), and .slip(x), the
+tangential displacement of the body against the indenter.
 
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 class State(Protocol):
-    """What a cycle needs of a solution."""
+    """The attributes of a solution that a cycle uses."""
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress: ...
     def slip(self, x: ArrayLike) -> Array: ...
@@ -75,8 +75,8 @@ class Cycle:
 
     Notes
     -----
-    What happens between two states is not looked at. Inside the body and in slip zones a stress may
-    be largest there: follow `path.subdivided(8)`.
+    Loads between two states are not examined. Inside the body and in slip zones a stress may be
+    largest there: follow `path.subdivided(8)`.
 
     References
     ----------
@@ -105,7 +105,7 @@ class Cycle:
 
     @cached_property
     def size(self) -> int:
-        """How many states there are."""
+        """The number of states."""
         return len(self.states)
 
     def history(self, x: ArrayLike, y: ArrayLike) -> Array:

@@ -1,5 +1,4 @@
-"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q on its
-surface.
+"""Stress, strain and displacement gradients in the half-plane y >= 0 under tractions p and q.
 
 With the potentials Fp(z) = 1/π ∫ p(t)/(z - t) dt and Fq likewise, z = x + iy, Φ = Fp - i Fq, and a
 bulk stress σ along x,
@@ -11,8 +10,8 @@ bulk stress σ along x,
 (Muskhelishvili 1953, §§ 32, 93; Hills, Nowell & Sackfield 1993, ch. 3; the paper's (21)-(23) if its
 Φ̄(z) is read as conj Φ(z̄)). On the surface Fp = hilbert_p - i p, so that σ_yy = -p, σ_xy = -q,
 σ_xx = -p - 2 hilbert_q + σ: real arithmetic, no derivative, exact. Potentials are exact to the
-surface and free of cancellation far away; so are the stresses. s and D are what is kept: of the
-four components none is lost in another, and invariants follow without differences.
+surface and free of cancellation far away; so are the stresses. s and D are stored: no component
+loses digits to another, and invariants follow without differences.
 """
 
 from __future__ import annotations
@@ -48,10 +47,9 @@ def _known(value: T | None, refusal: str) -> T:
 
 @dataclass(frozen=True, eq=False)
 class Tractions:
-    """What acts on the half-plane: p and q on its surface, a tension σ along x far below; and what
-    it is made of.
+    """The half-plane's loads, p and q on its surface and a tension σ along x, and its material.
 
-    `poisson` and `body` may be None: then only what does not depend on them can be asked for.
+    `poisson` and `body` may be None: quantities that depend on them then raise ValueError.
     """
 
     pressure: Density
@@ -98,12 +96,12 @@ class Tractions:
 
     @cached_property
     def singular(self) -> Array:
-        """Those marks at which the slope of a traction is infinite."""
+        """The marks at which the slope of a traction is infinite."""
         return np.unique(np.concatenate((self.pressure.singular, self.shear.singular)))
 
     @cached_property
     def depth_of_surface(self) -> float:
-        """What is less deep is the surface: 1/y would overflow."""
+        """The depth above which a point is on the surface: 1/y would overflow."""
         x1, x2 = self.pressure.interval
         return shallow(0.5 * (x2 - x1))
 
@@ -127,12 +125,12 @@ class Gradients(NamedTuple):
 
 
 class Stress:
-    """The stress at points of the body; every value is computed when it is asked for.
+    """The stress at points of the body; every value is computed when it is read.
 
     Parameters
     ----------
     tractions : Tractions
-        What acts on the body.
+        The tractions and the bulk stress.
     x, y : array_like of float
         Positions and depths, y >= 0, length. They are broadcast against each other, and every value
         has the broadcast shape.
@@ -198,7 +196,7 @@ class Stress:
 
     @property
     def knows_zz(self) -> bool:
-        """Whether σ_zz can be told: in plane stress, or with Poisson's ratio."""
+        """Whether σ_zz is determined: in plane stress, or with Poisson's ratio."""
         return self.tractions.plane == "stress" or self.tractions.poisson is not None
 
     @property
@@ -272,7 +270,7 @@ class Stress:
         xy, yx = e.xy - finite, np.where(infinite, _times(1.0 - body.kolosov, e.xy), e.xy + finite)
         return Gradients(e.xx, xy, yx[()], e.yy)
 
-    # -- the potentials, part by part --------------------------------------------------------------
+    # -- the potentials, by parts ------------------------------------------------------------------
 
     @property
     def _s(self) -> Array:
@@ -341,15 +339,16 @@ class Stress:
 
 
 def hilbert_of_shear(tractions: Tractions, x: Array, p: Array) -> Array:
-    """1/π PV∫ q/(x - t) dt on the surface; 0 at a sharp edge of dissimilar bodies, where p is
-    infinite too and outweighs it.
+    """1/π PV∫ q/(x - t) dt on the surface.
+
+    It is set to 0 at a sharp edge of dissimilar bodies, where p is infinite and much larger.
     """
     values = tractions.shear.hilbert(x)
     return np.where(np.isinf(p) & np.isinf(values), 0.0, values)
 
 
 def potentials(tractions: Tractions, z: Complex) -> tuple[Complex, Complex, Complex]:
-    """(Φ, Φ', Fq) at z, Im z > 0: each density underneath p and q is asked once."""
+    """(Φ, Φ', Fq) at z, Im z > 0: each density in p and q is evaluated once."""
     Phi, dPhi, Fq = np.zeros_like(z), np.zeros_like(z), np.zeros_like(z)
     for density, p, q in tractions.combined:
         F, dF = density.potentials(z)

@@ -1,25 +1,27 @@
 """The largest value of a measure of stress in the body: scanned at every scale, polished by Newton.
- Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
+
+Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
 What is not smooth are the edges and breaks of the tractions, the marks. On a disc that keeps away
 from these by its own radius the stress is a fast convergent power series, so that a scan whose
 cells are as large as a fraction of
 
     s(x) = min_j (|x - m_j| + g_j),      m_j the marks, g_j a fraction of the gap to the next one
 
-resolves it equally well at every scale: a rim of 1e-6 b has as many cells as the whole contact.
-Where the slope of a traction is infinite the stress goes like r ln r, or like the root of r, with
-the distance r. Beside a falling term k r that has a maximum at a distance of exp(-k), however
-small: there g_j is FINEST. The scan goes from the depth up to the surface, and leaves out what is
-too small, at one scale and on the surface, to be the largest at a finer one. Every local maximum of
-the scan becomes a start, with its neighbours to both sides, because two maxima may lie on either
-side of a saddle under the centre; so does what lies beneath a maximum of the surface from which the
-measure grows inwards.
+resolves it equally well at every scale: a rounded edge of 1e-6 b has as many cells as the whole
+contact. Where the slope of a traction is infinite the stress goes like r ln r, or like the root of
+r, with the distance r. Beside a falling term k r that has a maximum at a distance of exp(-k),
+however small: there g_j is FINEST. The scan goes from the depth up to the surface. It leaves out
+windows where the values, at one scale and on the surface, are too small for a maximum at a finer
+scale. Every local maximum of the scan is a start, and so are its neighbours on both sides, because
+two maxima may lie on either side of a saddle under the centre. Points beneath a maximum of the
+surface from which the measure grows inwards are starts too.
 
 Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with
 ρ = y/400 exact to 400^-N,
 
     F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
- so that gradient and Hessian are those of the stress itself, without finite differences. On the
+
+so that gradient and Hessian are those of the stress itself, without finite differences. On the
 surface the derivative is Fp' there, and its sign changes are bracketed between neighbouring
 columns, of which every edge and break is one.
 """
@@ -47,18 +49,18 @@ NEAR, NEAR_OF_MANY = (
 # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is
 # rounding
 FINEST = 1e-12
-RESOLVED = 1e-8  # half-widths: how near to each other many marks are looked at
+RESOLVED = 1e-8  # half-widths: many marks nearer to each other are not told apart
 MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
 SHALLOW = 0.06  # of s: where a column begins
-OUTSIDE = 1.8  # half-widths: how far beside the contact the scan looks, and ...
+OUTSIDE = 1.8  # half-widths: the scan reaches so far beside the contact, and ...
 FAR = 1e3  # ... the surface
 DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
-LEVELS = 6  # depths between two decisions of what to leave out
+LEVELS = 6  # depths between two decisions on which columns to leave out
 # of the depth: columns nearer to a mark are left out, and others nearer to each other
 SPACING, CELL = 0.15, 0.03
 ALONE = 8.0  # depths: columns farther apart are no neighbours
-# what stays below this fraction of the largest value at one scale, on a surface so many depths
-# wide, is left
+# columns whose values are below this fraction of the largest one at one scale, on a surface so many
+# depths wide, are left out
 HOPELESS, WINDOW = 0.8, 4.0
 # of the largest value known: maxima of the scan below it, which is off by its curvature over a
 # cell, are not polished
@@ -73,28 +75,29 @@ PATIENCE, CLOSE = (
     0.99,
 )  # steps after which a start goes on only if it is within that fraction of the highest
 STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
-SETTLED = 1e-7  # of the depth: after it the step to come, its square, is below rounding
+SETTLED = 1e-7  # of the depth: after it the next step, its square, is below rounding
 SAME_VALUE, STUCK = (
     4e-15,
     1e-9,
 )  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
 TOGETHER = 1e-3  # of the depth
-# of the depth of the start, or of the shallowest one there: what climbs beyond belongs to the
-# surface
+# of the depth of the start, or of the shallowest one there: a path that rises beyond it belongs to
+# the surface
 LEFT = 0.25
 INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
 # of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
 AT_MARK = 1e-9
-BENEATH = 1e-100  # half-widths: so near to where p is infinite that nothing else is left
+BENEATH = 1e-100  # half-widths: so near to a place where p is infinite that other terms vanish
 # Maxima this close in value are tied, this close in place (of the half-width) the same.
 TIED, SAME_PLACE = 1e-10, 1e-7
-# half-widths: so near to a place on the surface one below that is tied with it is the same
+# half-widths: a tied place below one on the surface that is so near is the same
 RISING = 1e-4
 
 
 class Local(NamedTuple):
-    """s, D_r, D_i and their derivatives in units of the depth, each with a first axis (s, D_r, D_i)
-    of length 3.
+    """s, D_r, D_i and their derivatives in units of the depth.
+
+    Each array has a first axis (s, D_r, D_i) of length 3.
     """
 
     value: Array
@@ -106,8 +109,9 @@ class Local(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...): its value,
-    gradient (3, ...), Hessian (3, 3, ...).
+    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...).
+
+    It has a value, a gradient (3, ...) and a Hessian (3, 3, ...).
     """
 
     value: Callable[[Array], Array]
@@ -122,8 +126,9 @@ class Maximum(NamedTuple):
 
 
 def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
-    """The largest value in the body, with every place where it is taken (ties within TIED), those
-    on the left first.
+    """The largest value in the body, and every place where it is reached, from the left.
+
+    Values within TIED of it count as equal.
     """
     mesh = mesh_of(tractions)
     above = surface_values(tractions, mesh.x)
@@ -137,8 +142,8 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     tied = [m for m in found if m.value == best or m.value >= best * (1.0 - TIED)]
     ties: list[Maximum] = []
     for m in sorted(tied, key=lambda m: (m.y > 0.0, -m.value)):
-        # Towards a jump of h' the largest value is approached: what is tied with it on the way is
-        # not another place
+        # The largest value is a limit towards a jump of h': points with nearly that value on the
+        # way are not another place
         apart = (RISING if m.y else SAME_PLACE) * r
         if all(
             abs(m.x - t.x) + abs(m.y - t.y) > (apart if t.y == 0.0 else SAME_PLACE * r)
@@ -148,12 +153,13 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
     return tuple(sorted(ties, key=lambda m: m.x))
 
 
-# -- where the scan looks --------------------------------------------------------------------------
+# -- the columns of the scan -----------------------------------------------------------------------
 
 
 class Mesh(NamedTuple):
-    """Marks with their g, and columns of the scan, marks among them, with their distances from the
-    next mark; all ascending.
+    """Marks with their g, and columns of the scan with their distances from the next mark.
+
+    The marks are among the columns; all are ascending.
     """
 
     marks: Array
@@ -176,7 +182,7 @@ def _from_marks(marks: Array, x: Array) -> tuple[Array, Array, NDArray[np.intp]]
 def mesh_of(tractions: Tractions) -> Mesh:
     marks, singular = tractions.marks, tractions.singular
     r = 0.5 * float(marks[-1] - marks[0])
-    if len(marks) > MANY_MARKS:  # those that resolve a cusp close in on it for hundreds of octaves
+    if len(marks) > MANY_MARKS:  # those that resolve a cusp approach it over hundreds of octaves
         marks = np.unique(np.concatenate((_thinned(marks, RESOLVED * r), singular, marks[-1:])))
     gaps = np.diff(marks)
     smaller = np.minimum(np.append(gaps, np.inf), np.insert(gaps, 0, np.inf))
@@ -192,16 +198,14 @@ def mesh_of(tractions: Tractions) -> Mesh:
     left, right = (
         np.append(half, OUTSIDE * r),
         np.insert(half, 0, OUTSIDE * r),
-    )  # how far columns go on both sides of a mark
+    )  # the extent of columns on both sides of a mark
     (k, d), (j, e) = _graded(g, left), _graded(g, right)
     x = np.unique(np.concatenate((tractions.marks, marks[k] + d, marks[j] - e)))
     return Mesh(marks, g, x, np.minimum(*_from_marks(marks, x)[:2]))
 
 
 def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
-    """(marks, distances) of columns beside them, in cells that grow in proportion to the distance
-    plus g.
-    """
+    """(marks, distances) of the columns beside them; cells grow like the distance plus g."""
     step = 0.5 * np.log(
         RATIO
     )  # at every depth the columns beside a mark then lie in the same directions from it
@@ -219,8 +223,9 @@ def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
 def inside(
     tractions: Tractions, measure: Measure, mesh: Mesh, above: Array, known: list[Maximum]
 ) -> list[Maximum]:
-    """Local maxima below the surface that may be larger than the known ones; `above` are the values
-    over the columns.
+    """Local maxima below the surface that may be larger than the known ones.
+
+    `above` holds the values on the surface over the columns.
     """
     best = max(m.value for m in known)
     if np.isinf(best):
@@ -233,8 +238,8 @@ def inside(
     )
     if not starts.size:
         return []
-    # The best of the scan stays, where all that climb from it leave: under a jump of h' the largest
-    # value is not taken anywhere
+    # The best point of the scan is kept if all searches from it leave the body: under a jump of h'
+    # the largest value is not reached anywhere
     z = np.concatenate((scanned[:1], _climbed(tractions, measure, mesh, starts)))
     values = measure.value(_values(tractions, z))
     return [
@@ -255,7 +260,7 @@ def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
         for other, margin in (
             (k - 1, 0.0),
             (k + 1, SAME_VALUE),
-        ):  # towards a mark a value may stay the same but for rounding
+        ):  # towards a mark a value may be constant up to rounding
             if 0 <= other < len(rows) and top.size:
                 _, x_other, value_other = rows[other]
                 nearest = _nearest(x_other, x[top])
@@ -316,8 +321,9 @@ def _rows(
 
 
 def _bounds(x: Array, above: Array, window: float) -> Array:
-    """About how large |s|, |D_r| and |D_i| may be at a depth below the window's width, from the
-    surface within the windows around x.
+    """Approximate bounds of |s|, |D_r| and |D_i| at a depth below the window's width.
+
+    They follow from the surface within the windows around x.
 
     s and Fq are harmonic, and y Φ' is not larger than the oscillation of Φ around it, but for a
     factor of 2/π.
@@ -336,8 +342,9 @@ def _bounds(x: Array, above: Array, window: float) -> Array:
 
 
 def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[float]) -> Complex:
-    """Starts beneath those maxima of the surface from which the measure grows inwards: each the
-    best of some depths.
+    """Starts beneath those maxima of the surface from which the measure grows inwards.
+
+    Each is the best of some depths.
     """
     x = np.array(places)
     x = x[~np.isin(x, tractions.marks)]
@@ -352,8 +359,9 @@ def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[fl
 
 
 def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> Complex:
-    """Where Newton's method for the gradient, turned uphill, comes to rest inside; starts that
-    leave through the surface are dropped.
+    """The maxima inside that Newton's method reaches, with every step uphill.
+
+    Starts that leave through the surface are dropped.
     """
     rest: list[Complex] = []
     lowest = LEFT * np.minimum(z.imag, SHALLOW * mesh.scale(z.real))
@@ -373,7 +381,7 @@ def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> 
         done = uphill & (length <= SETTLED)
         rest.append((z + step)[done])
         step *= np.minimum(1.0, trust / np.maximum(length, 1e-300))
-        # back to where it was better, and from there half as far as last time
+        # back to the better point, and from there a step half as long
         new = np.where(uphill, z + step, before + 0.25 * (z - before))
         before, value = np.where(uphill, z, before), np.where(uphill, here, value)
         stuck = trust <= STUCK
@@ -387,15 +395,16 @@ def _climbed(tractions: Tractions, measure: Measure, mesh: Mesh, z: Complex) -> 
 
 
 def _distinct(z: Complex, *others: Any) -> tuple[Any, ...]:
-    """Without those that have come together: from there they would go the same way."""
+    """The points without those that coincide, which would have the same steps."""
     same = np.abs(z[:, None] - z) <= TOGETHER * z.imag
     first = same.argmax(axis=1) == np.arange(len(z)) if z.size else np.zeros(0, dtype=bool)
     return z[first], *(other[first] for other in others)
 
 
 def _newton(measure: Measure, at: Local) -> Complex:
-    """The step -H⁻¹ g to a maximum, in units of the depth; every eigenvalue of H is taken as
-    negative: from anywhere it leads uphill.
+    """The step -H⁻¹ g to a maximum, in units of the depth.
+
+    Every eigenvalue of H is taken as negative, so that the step leads uphill from any point.
     """
     g, G = measure.gradient(at.value), measure.hessian(at.value)
     gx, gy = (g * at.x).sum(axis=0), (g * at.y).sum(axis=0)
@@ -424,8 +433,9 @@ def _values(tractions: Tractions, z: Complex) -> Array:
 
 
 def _local(tractions: Tractions, z: Complex) -> Local:
-    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d): from the
-    potentials on circles inside.
+    """(s, D_r, D_i) and two derivatives of each, in units of the depth, at z (1-d).
+
+    They follow from the potentials on circles inside the body.
     """
     y = z.imag
     omega = np.exp(2j * np.pi * np.arange(CIRCLE) / CIRCLE)
@@ -451,9 +461,7 @@ def _local(tractions: Tractions, z: Complex) -> Local:
 
 
 def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array) -> list[Maximum]:
-    """Local maxima along the surface that may be the largest; edges and breaks are taken as they
-    are.
-    """
+    """Local maxima along the surface that may be the largest, edges and breaks included."""
     far = 0.5 * float(mesh.marks[-1] - mesh.marks[0]) * np.geomspace(OUTSIDE, FAR, 12)
     far_left, far_right = mesh.marks[0] - far[::-1], mesh.marks[-1] + far
     x = np.concatenate((far_left, mesh.x, far_right))
@@ -468,8 +476,7 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
     floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
     top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
     columns = top
-    # Between columns a concave top rises above the middle one by no more than that falls to a
-    # neighbour
+    # Between columns a concave top exceeds the middle value by no more than the fall to a neighbour
     fall = value[top] - np.minimum(padded[top], padded[top + 2])
     top = top[(fall > 0.0) & (value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best)]
     left = np.unique(np.concatenate((top - 1, top)))
@@ -494,8 +501,9 @@ def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array)
 
 
 def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
-    """What a measure of D alone (an incompressible body) tends to where p is infinite: on the
-    surface itself D knows nothing of it.
+    """The limit of a measure of D alone (an incompressible body) where p is infinite.
+
+    D on the surface itself does not depend on p.
 
     At a sharp edge D grows without limit. At a jump of h' Fp' ~ C/(z - x), and D tends to Fq - C
     sin θ e^(-iθ) in the direction θ, on a circle of diameter |C| through Fq: the largest |D| is |Fq
@@ -540,8 +548,9 @@ def surface_values(tractions: Tractions, x: Array) -> Array:
 
 
 def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = False) -> Array:
-    """d/dx, or d/dy, of the measure on the surface in units of the half-width, off edges and
-    breaks: the potentials' limit, y Φ' = 0.
+    """d/dx, or d/dy, of the measure on the surface, in units of the half-width.
+
+    It is taken beside edges and breaks, by the limit of the potentials, y Φ' = 0.
     """
     x1, x2 = tractions.pressure.interval
     Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
@@ -559,8 +568,9 @@ def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = Fal
 
 
 def _thinned(x: Array, spacing: float) -> Array:
-    """A subset of x (ascending) with one of every cell of that width, so that depth decides how
-    many columns there are.
+    """A subset of x (ascending) with one of every cell of that width.
+
+    The number of columns then depends on the depth.
     """
     cell = np.floor((x - x[:1]) / spacing)
     return x[np.append(np.ones(min(len(x), 1), dtype=bool), cell[1:] != cell[:-1])]

@@ -42,7 +42,7 @@ class YieldPoint:
     j2 : float
         Second invariant of the stress deviator there, stress², under the load of the solution.
     stress : float
-        What the criterion compares with k: √J2 (von Mises) or the largest shear stress (Tresca).
+        √J2 (von Mises) or the largest shear stress (Tresca), which the criterion compares with k.
     half_width : float
         Half-width b of the contact, length.
     places : tuple of tuple of float
@@ -62,7 +62,7 @@ class YieldPoint:
 
     @property
     def ratio(self) -> float:
-        """P/(bk), as in charts."""
+        """P/(bk), the ordinate of the charts."""
         return self.load / self.half_width
 
     @property
@@ -115,11 +115,12 @@ def elastic_limit(
 
 
 def peak_tension(tractions: Tractions) -> Peak:
-    """The largest σ_xx on the surface and where; inf beside a sharp edge that drags the surface
-    away from it.
+    """The largest σ_xx on the surface and its place; inf beside a sharp edge.
 
-    Where a compressive bulk stress is exceeded nowhere, it is the value, approached far away: x is
-    the farthest place that was looked at.
+    It is infinite where the shear traction at that edge pulls the surface away from it.
+
+    Where σ_xx exceeds a compressive bulk stress nowhere, the value is the bulk stress, the limit
+    far away, and x is the farthest place that was examined.
     """
     for edge, x, outward in zip(
         tractions.shear.interval, tractions.shear.interval, (1.0, -1.0), strict=True
@@ -131,7 +132,7 @@ def peak_tension(tractions: Tractions) -> Peak:
     found = on_surface(tractions, _tension(), mesh, surface_values(tractions, mesh.x))
     best = max(m.value for m in found)
     middle = 0.5 * sum(tractions.pressure.interval)
-    # Where nothing pulls, the whole free surface is tied
+    # Without a tension, σ_xx is the same on the whole free surface
     x = min((m.x for m in found if m.value == best), key=lambda x: abs(x - middle))
     return Peak(max(best, tractions.bulk_stress) + 0.0, x)
 

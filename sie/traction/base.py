@@ -37,13 +37,14 @@ FAR_AWAY, LARGEST = 1e100, 1e308
 
 
 def shallow(half_width: float) -> float:
-    """A depth that no value but 1/depth can tell from the surface."""
+    """A depth at which all values but 1/depth equal those on the surface."""
     return max(SHALLOW * half_width, SHALLOWEST)
 
 
 def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
-    """function(x) of a function of finite x (1-d), in the shape of x: 0 where x is infinite, nan
-    where it is nan.
+    """function(x) in the shape of x, for a function of finite x (1-d).
+
+    It is 0 where x is infinite, and nan where x is nan.
     """
     x = arguments.reals("x", x)
     flat = x.ravel()
@@ -54,8 +55,9 @@ def on_line(function: Callable[[Array], Array], x: ArrayLike) -> Array:
 
 
 def zero_or_nan(z: Any) -> Any:
-    """What a traction and its integrals are where it does not act, infinitely far away included: 0,
-    but nan at nan.
+    """The value of a traction and its integrals where it does not act: 0, but nan at nan.
+
+    Points infinitely far away are included.
     """
     nan = complex(np.nan, np.nan) if np.iscomplexobj(z) else np.nan
     return np.where(np.isnan(z), nan, 0.0)
@@ -79,8 +81,9 @@ def reflected(function: Callable[[Complex], Any], z: Complex) -> Any:
 
 
 def in_order(function: Callable[[Array], Any], x: Array) -> Any:
-    """function(x) for a function that wants x ascending and returns one array or several of its
-    shape.
+    """function(x) for any x, by a function of ascending x.
+
+    The function returns one array or several of the shape of x.
     """
     if x.size < 2 or (x[1:] >= x[:-1]).all():
         return function(x)
@@ -279,6 +282,7 @@ class Density(ABC):
         float
             The factor of the infinity. Those of densities of one profile add up as these do.
         """
+        arguments.real("x", x)
         return 0.0
 
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
@@ -316,14 +320,14 @@ class Density(ABC):
 
     @property
     def singular(self) -> tuple[float, ...]:
-        """Those breaks at which the slope of the density is, or may be, infinite."""
+        """The breaks at which the slope of the density is, or may be, infinite."""
         return self.breaks
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
         """The limits of `hilbert` at both edges, from inside.
 
-        It has its peaks there, and the rounding of an edge would show.
+        It has its peaks there, where rounding of an edge would change its values.
         """
         left, right = self.hilbert(np.array(self.interval)).tolist()
         return left, right

@@ -1,8 +1,7 @@
-"""Tractions made of others: a multiple, a sum. Full sliding is friction times pressure; nothing is
-solved twice.
+"""Multiples and sums of tractions. Full sliding is friction times pressure.
 
-Potentials are linear, so that a stress asks each density underneath once (`Density.bases`), however
-often it occurs.
+Potentials are linear, so that a stress evaluates each density once (`Density.bases`), however often
+it occurs.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The pressure whose slope is H: p solves 1/π PV∫ p/(x - t) dt = E*/2 H in the contact.
 
-`SlopeDensity` is what all such densities share. Where H is smooth the Chebyshev series of
+`SlopeDensity` is the common part of all such densities. Where H is smooth the Chebyshev series of
 `TransformDensity` solves the equation; where it has breaks the pieces of `on_panels` do. Both take
 the square-root singular ends of a sharp-edged punch apart, as
 k1/2 sqrt((1-s)/(1+s)) + k2/2 sqrt((1+s)/(1-s)), so that a smooth edge stays smooth.
@@ -36,8 +36,9 @@ CONTINUATION = 4.0
 
 @dataclass(frozen=True, eq=False)
 class SlopeDensity(Density):
-    """The density that answers the slope H on `contact`; `half_modulus` = E*/2; k1, k2 its singular
-    ends (0: smooth), as stresses.
+    """The density whose slope is H on `contact`, with `half_modulus` = E*/2.
+
+    k1, k2 are the intensities of its singular ends (0: smooth), as stresses.
     """
 
     contact: Interval
@@ -67,6 +68,7 @@ class SlopeDensity(Density):
 
     def strength(self, x: float) -> float:
         """k1, k2 at a sharp edge; ±1 under a corner of the profile, whatever the load."""
+        x = arguments.real("x", x)
         for edge, k in zip(self.interval, (self.k1, self.k2), strict=True):
             if x == edge and k:
                 return k
@@ -105,7 +107,7 @@ class SlopeDensity(Density):
     resolves = True  # whether a slope that is a function is known by its values at some points only
 
     def resolved_slope(self, x: Array) -> Array:
-        """H inside the contact, x ascending, as the pressure knows it: of a function its
+        """H inside the contact, x ascending, as the pressure uses it: for a function its
         resolution.
         """
         return self._slope(x)

@@ -195,7 +195,11 @@ class OnPanels(SlopeDensity):
 
     @property
     def singular(self) -> tuple[float, ...]:
-        """Among many pieces a kink is not told from what resolves a function, but a jump is."""
+        """Breaks at which the slope of p is infinite.
+
+        Among many pieces a kink is not distinguished from a break that resolves a function, but a
+        jump is.
+        """
         inner = self.panels.jumps if self.panels.many else self._kinks
         return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
 

@@ -9,7 +9,7 @@ part of V that the piece contributes in closed form,
 
 (Ciavarella, Hills & Monno 1998, eqs (26)-(31)). That is exact near the piece. Far from it H(z),
 continued as a polynomial, grows and digits vanish: there the piece's Gauss rule for dt/w converges
-geometrically. `reach` says where one hands over to the other, from the piece's own coefficients.
+geometrically. `reach` is the limit between the two, from the piece's own coefficients.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
-"""Where the pieces of a slope lie in a contact, and the quadrature on each of them.
+"""The positions of the pieces of a slope in a contact, and the quadrature on each of them.
 
-With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all that
-is needed of a piece [A, B] comes from the square roots of its ends' distances, without differences
-of nearly equal numbers, and so to relative accuracy however thin a piece or a rim is:
+With sin²(ψ/2) = (x2 - x)/(2r), cos²(ψ/2) = (x - x1)/(2r), ψ the angle from the right edge, all
+quantities of a piece [A, B] follow from the square roots of its ends' distances, without
+differences of nearly equal numbers. So they have relative accuracy however thin a piece or a
+rounded edge is:
 
     ψ_A - ψ_B = 2 atan2((B - A)/(2r (a d + b c)), b d + a c)
     a, b = sin ψ_A/2, cos ψ_A/2,      c, d = sin ψ_B/2, cos ψ_B/2
@@ -39,8 +40,7 @@ SHORTEST = 1e-300  # half a length that may be divided by
 
 
 class Geometry:
-    """Where the pieces of a slope lie in the contact, in angles measured from the nearer edge, to
-    relative accuracy.
+    """The pieces of a slope in the contact, in angles from the nearer edge, to relative accuracy.
 
     Only the first and the last piece can be cut by an edge. Building one costs a few microseconds:
     the search for the edges builds many.

@@ -1,4 +1,4 @@
-"""V(z) of a slope given in pieces, and V'(z): of both pressure, potential and gap are values.
+"""V(z) of a slope given in pieces, and V'(z), which give the pressure, the potential and the gap.
 
     V(z) = X(z) ∫ H(t) / (w(t) (t - z)) dt,        on the contact  w(x) PV∫ ...
 

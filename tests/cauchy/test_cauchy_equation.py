@@ -69,7 +69,7 @@ def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(firs
         else:
             with pytest.raises(
                 ValueError,
-                match=rf"index {index} asks for {max(index, 0)} side condition\(s\), but {given} "
+                match=rf"index {index} needs {max(index, 0)} side condition\(s\), but {given} "
                 rf"given",
             ):
                 sie.CauchyEquation(intervals, 0.0, ends=(first, second), **conditions)
@@ -78,7 +78,7 @@ def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(firs
 def test_a_free_function_asks_for_one_condition_more():
     with pytest.raises(
         ValueError,
-        match=r"index 1 and 1 free function\(s\) asks for 2 side condition\(s\), but 1 given",
+        match=r"index 1 and 1 free function\(s\) needs 2 side condition\(s\), but 1 given",
     ):
         sie.CauchyEquation((-1.0, 1.0), 0.0, total=0.0, free=(1.0,))
     assert sie.CauchyEquation(
@@ -428,6 +428,10 @@ ILL_POSED = [
     ({"interval": (-1e308, 1e308)}, "more than the largest double"),
     ({"a": 1.0, "b": 1e-310}, "b is nothing next to a"),
     ({"b": 0.0}, "b = 0.*Fredholm"),
+    ({"b": 5e-324}, "b = 4.94066e-324 is below the least normal double"),
+    ({"interval": 10**400}, "beyond the range of doubles"),
+    ({"interval": (0, 10**400)}, "beyond the range of doubles"),
+    ({"interval": np.ma.array([-1.0, 1.0], mask=[0, 1])}, "interval has masked entries"),
     ({"a": 1j}, r"a² \+ b² = 0"),
     ({"a": np.nan}, "a is nan"),
     ({"b": np.inf}, "b = inf"),
@@ -438,13 +442,13 @@ ILL_POSED = [
     ({"ends": ("singular",) * 3}, "given for 3 intervals, but there are 1"),
     ({"ends": 5}, "ends are 5: give"),
     ({"ends": (None, "bounded")}, "ends are given for 2 intervals"),
-    ({"total": None}, r"index 1 asks for 1 side condition\(s\), but 0 given"),
+    ({"total": None}, r"index 1 needs 1 side condition\(s\), but 0 given"),
     (
         {"moment": 1.0},
-        r"asks for 1 side condition\(s\), but 2 given: give as many of total and moment, or make "
+        r"needs 1 side condition\(s\), but 2 given: give as many of total and moment, or make "
         r"other ends",
     ),
-    ({"ends": "bounded"}, r"index -1 asks for 0 side condition\(s\), but 1 given"),
+    ({"ends": "bounded"}, r"index -1 needs 0 side condition\(s\), but 1 given"),
     ({"total": (0.0, 1.0)}, "total is given for 2 intervals, but there are 1"),
     ({"total": np.nan}, "total is nan"),
     ({"total": "x"}, "total = 'x' is not a number"),

@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import analytic
-from analytic import flat, hertz, power, rounded_flat, wedge
+from analytic import flat, hertz, power, rounded_flat, two_parabolas, wedge
 
 EPS = float(np.finfo(float).eps)
 UNIT = {"radius": 1.0, "modulus": 1.0}
@@ -947,3 +947,24 @@ def test_the_closed_forms_import_nothing_but_numpy_and_themselves() -> None:
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             names += [str(node.module)] if isinstance(node, ast.ImportFrom) else []
             assert {name.split(".")[0] for name in names} <= allowed, path
+
+
+HEIGHTS = {
+    "hertz": lambda x: hertz.height(x, radius=1.0),
+    "power": lambda x: power.height(x, exponent=2.0, coefficient=1.0),
+    "slope of power": lambda x: power.slope(x, exponent=3.0, coefficient=1.0),
+    "rounded_flat": lambda x: rounded_flat.height(x, half_flat=1.0, radius=1.0),
+    "two_parabolas": lambda x: two_parabolas.height(x, distance=1.0, radius=1.0),
+}
+
+
+@pytest.mark.parametrize("name", HEIGHTS)
+@pytest.mark.parametrize("x", [1e300, np.array([0.0, 1e300])], ids=["number", "array"])
+def test_a_height_beyond_doubles_is_refused_with_its_place(name, x):
+    with pytest.raises(ValueError, match=r"x = 1e\+300 is more than the largest double"):
+        HEIGHTS[name](x)
+
+
+def test_masked_entries_are_refused():
+    with pytest.raises(ValueError, match="x has masked entries"):
+        hertz.height(np.ma.array([0.1, 0.2], mask=[0, 1]), radius=1.0)

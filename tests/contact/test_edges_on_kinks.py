@@ -274,6 +274,46 @@ def test_a_half_width_with_the_moment_of_a_tilt_gives_that_moment(profile, r, ti
     assert turned.pressure.moment == pytest.approx(tilted.moment, rel=1e-12)
 
 
+@pytest.mark.parametrize("share", [1e3, 1e6, -1e9])
+@pytest.mark.parametrize("radius", [1e-7, 1.0, 1e5])
+def test_a_half_width_far_from_the_axis_carries_what_it_does_on_the_axis(share, radius):
+    """Of a parabola the load is that of the half-width, wherever it acts: m = M/P, tilt = -m/R."""
+    r = 0.3 * radius
+    P = 0.25 * np.pi * r * r / radius
+    solution = sie.solve(
+        sie.Scene(profile=sie.Parabola(radius), modulus=1.0, half_width=r, moment=share * r * P)
+    )
+    assert solution.normal_load == pytest.approx(P, rel=1e-14)
+    assert solution.tilt == pytest.approx(-share * r / radius, rel=32 * EPS)
+    assert solution.centre == pytest.approx(share * r, rel=32 * EPS)
+
+
+@pytest.mark.parametrize("m", [1e2, -1e5, 1e9])
+def test_a_half_width_far_from_the_axis_of_a_fourth_power_is_right_to_rounding_of_the_moment(m):
+    """h' = 4 (m + sin φ)³: P = I1/2 = π (3 m² + 3/4), M = m P - (C2 - I0/2)/2 = m P + 3 π m/4."""
+    load = mp.pi * (3 * mp.mpf(m) ** 2 + mp.mpf(3) / 4)
+    moment = m * load + 3 * mp.pi * m / 4
+    profile = sie.Power(4.0, 1.0)
+    scene = sie.Scene(profile=profile, modulus=1.0, half_width=1.0, moment=float(moment))
+    solution = sie.solve(scene)
+    assert solution.normal_load == pytest.approx(float(load), rel=32 * EPS)
+    assert solution.centre == pytest.approx(m, rel=32 * EPS)
+
+
+def test_the_centre_of_two_that_have_the_moment_is_where_a_load_presses():
+    """Between the lowest points of this profile such a contact would be pulled."""
+    profile = sie.Polynomial((0.0, 0.0, 0.5, -0.26, -0.17, 0.0, 0.05))
+    tilted = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=0.3, tilt=0.58))
+    turned = tilted.with_(tilt=0.0, moment=tilted.moment)
+    assert turned.edges == pytest.approx(tilted.edges, rel=1e-12)
+
+
+def test_a_half_width_under_a_large_tilt_lies_where_the_slope_has_risen_to_it():
+    profile = sie.FromFunction(slope=lambda x: np.sign(x) * np.abs(x) ** 1.5, breaks=(0.0,))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, half_width=1.0, tilt=-1e20))
+    assert solution.centre == pytest.approx(1e20 ** (2 / 3), rel=1e-12)
+
+
 def test_a_flat_base_wider_than_the_contact_is_pressed_by_its_rim():
     """Untilted it touches as a whole: the tilt follows from the moment."""
     tilted = sie.solve(sie.Scene(profile=FLAT.profile, modulus=1.0, half_width=0.2, tilt=-0.05))

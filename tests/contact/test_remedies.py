@@ -111,10 +111,9 @@ SCENES = {
                    lambda: scene(FLAT.shifted(2.0))),
     "shift before adding": (lambda: scene(FLAT + FLAT.shifted(5.0)), "shift one of them",
                             lambda: scene(FLAT + FLAT.shifted(0.5))),
-    "bumps, higher load": (
+    "bumps, their load": (
+        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), half_width=0.1), "give normal_load",
         lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=0.05),
-        "raise it until they merge",
-        lambda: scene(sie.FromFunction("x - 1.5*sin(2*x)"), normal_load=60.0),
     ),
 }  # fmt: skip
 

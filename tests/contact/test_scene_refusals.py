@@ -248,7 +248,7 @@ def test_a_profile_that_lifts_off_names_where():
     """Two bumps: one patch would need tension between them."""
     profile = sie.FromFunction("x - 1.2*sin(2*x)")
     with pytest.raises(sie.InequalityError, match="x = ") as caught:
-        asked(scene(profile=profile, normal_load=0.5))
+        asked(scene(profile=profile, normal_load=..., half_width=1.4))
     assert "x" in caught.value.reached
 
 
@@ -257,7 +257,7 @@ def test_a_profile_that_touches_elsewhere_names_where():
         (-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0))
     )  # h' = 0 again at ±3
     with pytest.raises(sie.ContactError, match="x = ") as caught:
-        asked(scene(profile=profile, normal_load=0.5))
+        asked(scene(profile=profile, normal_load=..., half_width=0.15))
     assert np.isfinite(caught.value.reached["x"])
 
 
@@ -320,12 +320,11 @@ def test_nothing_is_computed_before_it_is_asked_for():
     assert "normal" not in vars(solution)
 
 
-@pytest.mark.parametrize("load", [{"normal_load": 0.1}, {"half_width": 0.5}], ids=["load", "width"])
-def test_a_corner_that_points_into_the_indenter_is_refused_as_lifting_off(load):
+def test_a_corner_that_points_into_the_indenter_is_refused_as_lifting_off():
     """p is -inf there: an end of that interval cannot be read off between two values."""
     concave = sie.Piecewise((-0.3, 0.0, 0.3), ((0.0, 1.0), (0.1, 1.0), (-0.1, 1.0), (0.0, 1.0)))
     with pytest.raises(sie.ContactError, match=r"tension at x = 0 .p = -inf.* lifts off"):
-        _ = sie.solve(sie.Scene(profile=concave, modulus=1.0, **load)).edges
+        _ = sie.solve(sie.Scene(profile=concave, modulus=1.0, half_width=0.5)).edges
 
 
 SHEARED = sie.solve(scene(profile=sie.Parabola(1.0), friction=0.4, tangential_load=0.1))

@@ -183,3 +183,38 @@ def test_the_height_and_the_slope_of_nan_are_nan_and_no_height_overflows_aloud(p
         )
         assert not np.isnan(query([-np.inf, -1e300, -1e160, 1e160, 1e300, np.inf])).any()
     assert (profile.height([-np.inf, np.inf]) == np.inf).all()
+
+
+MASKED = np.ma.array(TRACE, mask=TRACE[3] == TRACE)
+
+
+@pytest.mark.parametrize(("query", "_far"), queries())
+def test_masked_entries_are_refused_and_never_read_through_the_mask(query, _far):
+    with pytest.raises(ValueError, match="has masked entries"):
+        query(MASKED)
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda: sie.Sampled(MASKED, TRACE**2),
+        lambda: sie.Sampled(TRACE, MASKED**2, mend=True),
+        lambda: sie.Polynomial(MASKED),
+        lambda: sie.Path(np.ma.array([[1.0, 0.0], [2.0, 0.1]], mask=[[0, 0], [0, 1]])),
+        lambda: sie.Parabola(MASKED[3]),
+    ],
+    ids=["x of a trace", "h of a trace", "coefficients", "path", "a single number"],
+)
+def test_what_is_masked_is_no_part_of_a_scene(build):
+    with pytest.raises(ValueError, match="masked"):
+        build()
+
+
+@pytest.mark.parametrize("x", ["a", [1.0, 2.0], None, np.nan], ids=repr)
+@pytest.mark.parametrize("traction", ["pressure", "shear"])
+def test_the_strength_of_a_singularity_is_asked_at_one_place(traction, x):
+    for solution in SOLUTIONS.values():
+        density = getattr(solution, traction)
+        if density.breaks:
+            with pytest.raises(ValueError, match="x "):
+                density.strength(x)

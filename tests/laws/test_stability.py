@@ -6,6 +6,7 @@ import laws
 import numpy as np
 import pytest
 from hypothesis import example, given
+from hypothesis import strategies as st
 from strategies import between, log_between
 
 import sie
@@ -161,6 +162,30 @@ def test_a_tiny_tilt_changes_the_answer_by_a_tiny_amount(profile, tilt):
     assert tilted.half_width == pytest.approx(upright.half_width, rel=PROMISE + 4 * tilt)
     assert tilted.centre == pytest.approx(0.0, abs=PROMISE + 30 * tilt)
     assert tilted.check().ok
+
+
+@given(
+    between(-30.0, -17.0).map(lambda e: 10.0**e),
+    log_between(1e-20, 1e-10),
+    log_between(1e-16, 1e-12),
+    st.sampled_from((-1.0, 1.0)),
+)
+@example(delta=2.24e-27, radius=1e-20, share=1e-10, side=1.0)
+@example(delta=4.8e-14, radius=1e-20, share=1e-17, side=-1.0)
+def test_a_tiny_tilt_leaves_a_rim_that_is_thinner_than_doubles(delta, radius, share, side):
+    """The edge lies between the corner and the next double, where the load is 0 and far too much."""
+    P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=1.0, rim=delta))
+    solution = sie.solve(
+        sie.Scene(
+            profile=sie.RoundedFlat(1.0, radius),
+            modulus=1.0,
+            normal_load=P,
+            tilt=side * share * P,
+        )
+    )
+    contact = solution.normal.edges.contact
+    rims = rim(solution), -1.0 - contact.x1 - contact.tail1
+    assert rims == pytest.approx((delta, delta), rel=10.0 * share + 1e-12)
 
 
 @pytest.mark.parametrize("load", [1e-100, 1e-30, 1e-12, 1e-6, 1e6, 1e30, 1e100])

@@ -1,6 +1,4 @@
-"""Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed; several
-patches are refused, with help.
-"""
+"""Traces: what a file holds is what is solved; splines are SciPy's; noise is smoothed."""
 
 import itertools
 import json
@@ -343,7 +341,7 @@ WAVY = sie.Sampled(X, H + 0.1 * np.cos(12.0 * X))
 def test_a_rough_trace_is_refused_with_its_intervals_and_the_call_that_helps():
     says = r"for x in \[.*\], \[.*sie\.least_smoothing\(scene\)"
     with pytest.raises(sie.ContactError, match=says):
-        pressed(WAVY, 0.3).pressure(0.0)
+        sie.solve(sie.Scene(profile=WAVY, modulus=1.0, half_width=0.6)).pressure(0.0)
 
 
 @pytest.mark.parametrize(
@@ -359,8 +357,7 @@ def test_the_least_smoothing_makes_one_patch_of_the_profile_that_was_asked(made)
     scene = sie.Scene(profile=made(WAVY), modulus=1.0, normal_load=0.3)
     lam = sie.least_smoothing(scene)
     assert pressed(made(WAVY.smoothed(lam)), 0.3).check().ok
-    with pytest.raises(sie.ContactError, match="patch"):
-        pressed(made(WAVY.smoothed(0.3 * lam)), 0.3).edges  # noqa: B018 -- computes it
+    assert len(pressed(made(WAVY.smoothed(0.3 * lam)), 0.3).patches) > 1
 
 
 def test_a_trace_that_touches_in_one_patch_needs_no_more_smoothing_than_it_has():
@@ -374,16 +371,15 @@ def test_what_no_smoothing_makes_one_patch_is_refused_as_is_what_is_no_trace():
         sie.least_smoothing(pressed(sie.Parabola(1.0)).scene)
 
 
-@pytest.mark.parametrize("load", [1e-3, 0.3, 5.0])
-def test_a_refused_trace_costs_one_search(load, monkeypatch):
+@pytest.mark.parametrize("load", [1e-3, 0.3, 2.0])
+def test_a_rough_trace_costs_one_search_for_one_patch(load, monkeypatch):
     searches, smoothings = [], []
     whole = normal.normal_contact
     counted = lambda *args: searches.append(args) or whole(*args)  # noqa: E731
     monkeypatch.setattr("sie.solution.normal_contact", counted)
     monkeypatch.setattr("sie.profiles.sampled.cross_validated", smoothings.append)
     rough = sie.Sampled(X, H + 0.1 * np.cos(40.0 * X))
-    with pytest.raises(sie.ContactError, match=r"least_smoothing|several patches"):
-        pressed(rough, load).edges  # noqa: B018 -- computes it
+    assert len(pressed(rough, load).patches) > 1
     assert (len(searches), smoothings) == (1, [])
 
 
@@ -395,9 +391,8 @@ def test_a_refused_trace_costs_one_search(load, monkeypatch):
         (0.2 * X - 1e6, "straight line"),
         (H - 4.0 * X, "lowest at its end.*levelled"),
         (H - 3.0 * X, "measure further out$"),
-        (np.cos(40.0 * X) + 0.02 * X * X, "several patches"),
     ],
-    ids=["upside down", "flat", "tilted flat", "tilted", "askew", "levelled and rough"],
+    ids=["upside down", "flat", "tilted flat", "tilted", "askew"],
 )
 def test_a_contact_at_the_end_of_a_trace_is_refused_with_the_trace_s_own_reason(h, says):
     with pytest.raises(sie.ContactError, match=says) as refused:
@@ -637,3 +632,9 @@ def test_noise_is_no_suspicion(mesh):
     x = np.linspace(*solution.edges, 101)
     noise = np.random.default_rng(0).normal(size=x.shape)
     assert "factor" not in run({"x": x, "p": noise})[1]
+
+
+@pytest.mark.parametrize("path", [5, None, ["a.csv"], 1.5], ids=repr)
+def test_what_is_no_name_of_a_file_is_refused(path):
+    with pytest.raises(ValueError, match="is not the name of a file"):
+        sie.Sampled.read(path)

@@ -125,3 +125,9 @@ def test_a_path_in_parts_shows_extremes_between_its_turning_points():
 def test_parts_that_are_no_count_are_refused(parts):
     with pytest.raises(ValueError, match=f"parts = {parts!r} is not a whole number"):
         PATH.subdivided(parts)
+
+
+@pytest.mark.parametrize("parts", [10**6, 10**60, 10**400], ids=["1e6", "1e60", "1e400"])
+def test_a_path_is_not_cut_into_more_parts_than_memory_holds(parts):
+    with pytest.raises(ValueError, match="give fewer parts"):
+        PATH.subdivided(parts)

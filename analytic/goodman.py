@@ -1,0 +1,84 @@
+"""Dissimilar bodies pressed with friction, as Goodman (1962) approximated them: beta q is left out
+of the normal equation.
+
+The pressure is that without friction, and the shear q, with q = ± f p where the bodies slip
+outwards, obeys
+
+    (1/pi) PV∫ q(t)/(x-t) dt + beta p(x) = 0          |x| < c
+
+under a flat punch of half-width b. For P = pi, b = 1 and K(k) the complete elliptic integral of
+modulus k that is
+
+    f/beta = K(c/b)/K(sqrt(1 - c²/b²)),
+
+the limit of Spence's problem for small beta and f. The ratio of the integrals is the logarithm of
+the nome, -pi/ln q, so that c/b is explicit in theta functions (Whittaker & Watson 1927, §§ 21.1,
+22.3), with q = exp(-pi beta/f):
+
+    c/b = (theta2(q)/theta3(q))²,      sqrt(1 - c²/b²) = (theta4(q)/theta3(q))²;
+
+for f > beta the two change places and q = exp(-pi f/beta). c/b is the same under every symmetric
+convex indenter that is pressed by a growing load (Spence 1975).
+"""
+
+import numpy as np
+
+from analytic._core.documentation import documented
+from analytic._core.numbers import Library, Number, as_result, bits
+from analytic._core.parameters import positive
+
+GOODMAN = "L. E. Goodman, Contact stress analysis of normally loaded rough spheres (1962)"
+SPENCE = "D. A. Spence, The Hertz contact problem with finite friction (1975)"
+SOURCES = (GOODMAN, SPENCE)
+
+
+@documented("c, a length", *SOURCES)
+def stick_half_width(
+    *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
+) -> Number:
+    """The half-width of the stick zone, of dundurs > 0.
+
+    >>> round(float(stick_half_width(half_width=1.0, friction=0.01, dundurs=0.01)), 12)
+    0.707106781187
+    """
+    b, k, _ = _moduli(half_width, friction, dundurs, lib)
+    return as_result(b * k)
+
+
+@documented("b - c, a length", *SOURCES)
+def slip_width(
+    *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
+) -> Number:
+    """The width of either slip zone to relative accuracy, of dundurs > 0.
+
+    >>> round(float(slip_width(half_width=1.0, friction=1.0, dundurs=0.1)), 15)
+    1.81e-13
+    """
+    b, k, complement = _moduli(half_width, friction, dundurs, lib)
+    return as_result(b * complement * complement / (1 + k))
+
+
+def _moduli(
+    half_width: Number, friction: Number, dundurs: Number, lib: Library
+) -> tuple[Number, Number, Number]:
+    """b, c/b and sqrt(1 - c²/b²)."""
+    b = positive("half_width", half_width, lib)
+    f, beta = positive("friction", friction, lib), positive("dundurs", dundurs, lib)
+    sticks = f > beta
+    ratio = _choose(lib, sticks, f / beta, beta / f)
+    q = lib.exp(-lib.pi * ratio)
+    theta2, theta3, theta4 = 1 + 0 * q, 1 + 0 * q, 1 + 0 * q
+    n = 1
+    while n * n * 3.14 < 0.7 * bits(lib) + 1:  # q^(n²) <= exp(-pi n²)
+        theta2, theta3 = theta2 + q ** (n * (n + 1)), theta3 + 2 * q ** (n * n)
+        theta4 = theta4 + 2 * (-1) ** n * q ** (n * n)
+        n += 1
+    small = 4 * lib.exp(-lib.pi * ratio / 2) * (theta2 / theta3) ** 2
+    large = (theta4 / theta3) ** 2
+    return b, _choose(lib, sticks, large, small), _choose(lib, sticks, small, large)
+
+
+def _choose(lib: Library, condition: Number, one: Number, other: Number) -> Number:
+    if lib is np:
+        return np.where(condition, one, other)
+    return one if condition else other

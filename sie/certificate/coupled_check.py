@@ -1,0 +1,189 @@
+"""The certificate of coupled partial slip: equations (1) and (12), measured on values of p and q
+alone.
+
+    residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
+    of (12)       max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p       in stick
+
+γ' is the same under a lighter load under which x already stuck (0 under a flat punch): in stick
+the slip gradient stays. The integrals are Gauss rules on panels that shrink towards every place
+where a traction is not smooth, with the value at x subtracted; nothing of how p and q were found
+is used.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.small_strains import notes
+from sie.friction.coupled_contact import CoupledContact
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import EPS
+from sie.problem.scene import Scene
+
+from .result import Certificate, ShearCertificate
+
+Array = NDArray[np.float64]
+
+PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
+NODES = 14
+NEAREST, RATIO = (
+    1e-12,
+    4.0,
+)  # panels next to a mark: the first, in parts of the way to the next; growth
+EDGE_LEVELS, LAST = 8, 28  # at the edge: panels towards it, and nodes of the last
+LOOKS = 5  # points of each of the middle panels at which the equations are looked at
+THIN = 1e-8  # half-widths: a zone so narrow is left out, where no edge is sharp
+P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
+LIGHTER = 0.9  # of the growth beyond the flat base
+BESIDE = 0.02  # of the half-width: no point of the residual is nearer to a sharp edge
+OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is looked at
+
+
+class Values(NamedTuple):
+    """Nodes y and b - y, weights, and p and q there; how far before b the LAST of them begin."""
+
+    edge: float
+    y: Array
+    rest: Array
+    weight: Array
+    p: Array
+    q: Array
+
+
+def coupled_certificate(state: CoupledContact, scene: Scene, tol: float) -> Certificate:
+    """Measured on p and q under the load, and q also under a lighter one."""
+    values, x = _values(state), _looked_at(state)
+    p, q = state.pressure(x), state.shear(x)
+    Hp, Hq = (_principal(values, state.b, x, f, s) for f, s in ((p, 1.0), (q, -1.0)))
+    slopes = scene.profile.slope(state.axis + x), -scene.profile.slope(state.axis - x)
+    peak = float(p.max())
+    G, beta = state.half_modulus, scene.beta
+    missed = max(float(np.abs(Hp - beta * q - G * H).max()) for H in slopes) / peak
+    gamma = Hq + beta * p
+    stuck, of_shear = _drift(state, x, gamma, beta), float(np.abs(q).max())
+    rounding = EPS * state.b / float(np.diff((0.0, *_marks(state))).min()) if state.growth else EPS
+    f_p = scene.friction * p
+    beside = state.b * np.array(OUTSIDE)
+    gaps = state.gap(state.axis + beside, scene.profile)
+    finite = gaps[np.isfinite(gaps)]
+    flow = sum(panel.load(state.ahead) for panel in state.growth) + state.corner_load
+    shear = ShearCertificate(
+        residual=stuck / of_shear,
+        equilibrium=abs(flow - state.load) / state.load,
+        excess=max(float((np.abs(q) - f_p).max()) / float(f_p.max()), 0.0),
+        opposing=min(float((state.sign * state.slip(x)).min()), 0.0),
+        abscissae=rounding + P_ROUNDING * peak / of_shear,
+        condition=1.0,
+        advancing=True,
+        kind="outwards on both sides while the normal load grew; β couples p and q",
+        tol=max(tol, OF_SHEAR),
+    )
+    return Certificate(
+        residual=missed,
+        implied=missed,
+        force=abs(2.0 * float(values.weight @ values.p) - state.load) / state.load,
+        moment=0.0,
+        lowest_pressure=min(float(p.min()) / peak, 0.0),
+        lowest_gap=float(finite.min(initial=0.0)) / float(np.abs(finite).max(initial=EPS)),
+        abscissae=rounding,
+        tol=max(tol, PROMISED),
+        shear=shear,
+        notes=notes(np.concatenate(slopes), peak / scene.Estar),
+    )
+
+
+def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
+    """The largest change of γ, since the stick zone reached x, where that can be measured."""
+    base = state.flat_base
+    if not state.growth:
+        inside = x < state.flat.c * state.b
+        return float(np.abs(gamma[inside]).max(initial=0.0))
+    ahead = state.ahead if state.corner_load else LIGHTER * state.ahead
+    load, b = sum(panel.load(ahead) for panel in state.growth), base + ahead
+    kinks = tuple(k for k in state.kinks if k < b)
+    lighter = replace(state, ahead=ahead, corner_load=0.0, load=load, kinks=kinks)
+    inside = x < 0.999 * state.flat.c * b
+    x = x[inside]
+    before = _principal(_values(lighter), b, x, lighter.shear(x), -1.0) + beta * lighter.pressure(x)
+    return float(np.abs(gamma[inside] - before).max(initial=0.0))
+
+
+def _values(state: CoupledContact) -> Values:
+    """Values on panels between the marks; next to the edge the distance from it is what counts."""
+    marks = _marks(state)
+    widths = np.diff((0.0, *marks))
+    if len(marks) > 1 and not state.growth:
+        widths[-1] = state.flat.rest * state.b
+    beyond = np.append(np.cumsum(widths[:0:-1])[::-1], 0.0)
+    parts = []
+    nearest = min(NEAREST, 0.1 * state.flat.rest)
+    powers = [*(0.0 for _ in marks[1:]), state.edge_power]
+    for lo, width, after, power in zip((0.0, *marks), widths, beyond, powers, strict=False):
+        first = min(nearest, 0.1 * lo / float(width)) if lo else nearest
+        ahead, behind, weight = _panels(float(width), power, first)
+        parts.append((lo + ahead, after + behind, weight))
+    y, rest, weight = (np.concatenate(column) for column in zip(*parts, strict=True))
+    y = np.minimum(y, state.b)
+    start = 0.5 * float(widths[-1]) * RATIO ** -(EDGE_LEVELS - 1.0)
+    return Values(start, y, rest, weight, state.pressure(y, rest), state.shear(y, rest))
+
+
+def _marks(state: CoupledContact) -> tuple[float, ...]:
+    """Those of the tractions; without edges of zones of stick or slip that are too narrow to be
+    seen."""
+    flat = state.flat
+    if min(flat.rest, flat.c) > THIN or not state.growth:
+        return state.marks
+    places = {y for y in (*state.kinks, state.flat_base) if 0.0 < y < state.b}
+    return (*sorted(places), state.b)
+
+
+def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
+    """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end
+    with a power."""
+    half, at_edge = 0.5 * width, power != 0.0
+    levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
+    near = half * np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
+    x, _, w = with_weight(NODES, 0.0, 0.0)
+    length = np.diff(near)[:, None]
+    side, weight = (near[:-1, None] + length * x).ravel(), (length * w).ravel()
+    other, beside = side, weight
+    if at_edge:
+        start = half * RATIO ** -(EDGE_LEVELS - 1.0)
+        kept = side > start
+        x, _, w = with_weight(LAST, 0.0, power)
+        other = np.append(side[kept], start * x[::-1])
+        beside = np.append(weight[kept], start * w[::-1])
+    return (
+        np.append(side, width - other),
+        np.append(width - side, other),
+        np.append(weight, beside),
+    )
+
+
+def _looked_at(state: CoupledContact) -> Array:
+    """Points between the marks, not on nodes."""
+    ends = (0.0, *_marks(state))
+    part = (np.arange(LOOKS) + 0.5) / LOOKS
+    x = np.concatenate([lo + (hi - lo) * part for lo, hi in itertools.pairwise(ends)])
+    if state.corner_load:
+        x = x[x < (1.0 - BESIDE) * state.b]
+    kept: Array = x[x > BESIDE * state.marks[0]]
+    return kept
+
+
+def _principal(values: Values, b: float, x: Array, at_x: Array, parity: float) -> Array:
+    """1/π PV∫f/(x - t) dt over the whole contact, f = p (parity 1) or q (-1)."""
+    f = values.p if parity > 0.0 else values.q
+    y, w = values.y, values.weight
+    subtracted = np.where(np.arange(len(y)) < len(y) - LAST, at_x[:, None], 0.0)
+    own = ((f - subtracted) / (x[:, None] - y)) @ w + at_x * np.log(x / (b - values.edge - x))
+    mirrored = (parity * f / (x[:, None] + y)) @ w
+    total: Array = (own + mirrored) / math.pi
+    return total

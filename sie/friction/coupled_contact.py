@@ -1,0 +1,448 @@
+"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: edges,
+P', tractions.
+
+The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
+stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
+carry. Where b reaches a corner at the indenter's end, what is left of the load is that of a flat
+punch. β < 0 only turns the sign of the shear and of the slip.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie.contact.edges import Edges
+from sie.contact.normal import normal_contact
+from sie.errors import ContactError, LoadError
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import EPS, interval_about
+from sie.problem.request import ECONOMY
+from sie.problem.scene import Scene
+from sie.profiles.base import Profile
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.base import on_line, zero_or_nan
+
+from .coupled_flat import FULL_STICK
+from .coupled_functions import FlatFunctions, flat_functions
+from .coupled_growth import Piece, load_slope, power_law_growth, solved_growth
+from .coupled_profile import GrowthPanel, Superposition, _graded, _rules
+from .coupled_traction import CoupledTraction, Panels, resolved_panels
+
+Array = NDArray[np.float64]
+
+WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
+TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
+FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
+LOOKS, EVEN = (
+    64,
+    1e-10,
+)  # where the symmetry of a profile is measured, and to what part of its slope
+ENERGY_NODES = 24
+NEAR_EDGE = (
+    1e-9  # half-widths: the first panel beside the edge, where H has a power of the distance
+)
+
+
+@dataclass(frozen=True, eq=False)
+class CoupledContact:
+    """The state under the load P, with y = |x - axis|.
+
+    flat            functions of the flat punch; |β| and f
+    growth          P' on panels, from the axis outwards
+    corner_load     what an indenter whose end is a corner carries beyond ∫P'
+    axis, ahead     the contact is axis ± b, b = a + ahead beyond the flat base
+    load            P
+    sign            of β
+    half_modulus    E*/2
+    kinks           y at which h' or h'' jumps, up to b
+    """
+
+    flat: FlatFunctions
+    growth: tuple[GrowthPanel, ...]
+    corner_load: float
+    axis: float
+    ahead: float
+    load: float
+    sign: float
+    half_modulus: float
+    kinks: tuple[float, ...] = field(default=())
+
+    @cached_property
+    def b(self) -> float:
+        """Half the width of the contact."""
+        return (self.growth[0].origin if self.growth else 0.0) + self.ahead
+
+    @property
+    def c(self) -> float:
+        """Half the width of the stick zone."""
+        return self.b if self.full_stick else self.flat.c * self.b
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        return ((self.axis - self.c, self.axis + self.c),)
+
+    @property
+    def slip_zones(self) -> tuple[tuple[float, float, float], ...]:
+        """(lo, hi, sign of q)."""
+        if self.full_stick:
+            return ()
+        left = (self.axis - self.b, self.axis - self.c, -self.sign)
+        return left, (self.axis + self.c, self.axis + self.b, self.sign)
+
+    @cached_property
+    def tractions(self) -> tuple[CoupledTraction, CoupledTraction]:
+        """p and q with their potentials, which share their panels."""
+        contact = interval_about(self.axis, self.b).rounded((self.axis,))
+
+        @lru_cache(maxsize=1)
+        def panels() -> tuple[Panels, ...]:
+            return resolved_panels((self.pressure, self.shear), self.marks, self.edge_power)
+
+        return (
+            CoupledTraction(
+                self.pressure, lambda: panels()[0], 1.0, self.load, self.marks, contact
+            ),
+            CoupledTraction(self.shear, lambda: panels()[1], -1.0, 0.0, self.marks, contact),
+        )
+
+    @property
+    def edge_power(self) -> float:
+        """The exponent of the tractions at the edge."""
+        return -self.flat.h if self.corner_load else 1.0 - self.flat.h
+
+    @property
+    def marks(self) -> tuple[float, ...]:
+        """y where p or q is not smooth, up to b: kinks of the profile, and c times them."""
+        places = (*self.kinks, self.b, self.flat_base)
+        inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < self.b}
+        return (*sorted(inside), self.b)
+
+    def relative_slip(self, x: ArrayLike) -> Array:
+        """The slip at x, same shape: 0 outside the contact."""
+
+        def value(flat: Array) -> Array:
+            y = np.abs(flat - self.axis)
+            inside = y <= self.b
+            g = np.zeros(flat.shape)
+            g[inside] = np.sign(flat[inside] - self.axis) * self.slip(y[inside])
+            return g
+
+        return on_line(value, x)
+
+    def gap(self, x: Array, profile: Profile) -> Array:
+        """The gap between the deformed bodies: 0 in contact."""
+        flat = np.asarray(x, dtype=float).ravel()
+        lo, hi = profile.domain
+        out: Array = zero_or_nan(flat)
+        out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
+        y = np.abs(flat - self.axis)
+        beside = (y > self.b) & np.isfinite(flat) & (out == 0.0)
+        if beside.any():
+            edge = self.axis + self.b * np.sign(flat[beside] - self.axis)
+            rise = profile.height(flat[beside]) - profile.height(np.clip(edge, lo, hi))
+            out[beside] = rise - self.raised(y[beside])
+        return out.reshape(np.shape(x))
+
+    @property
+    def full_stick(self) -> bool:
+        """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
+        return self.flat.rest <= FULL_STICK * (1.0 + 1e-6)
+
+    @cached_property
+    def superposition(self) -> Superposition:
+        return Superposition(self.flat, self.growth)
+
+    @property
+    def flat_base(self) -> float:
+        """Half the width of the profile's flat base, or of the flat punch."""
+        return self.growth[0].origin if self.growth else self.b
+
+    def pressure(self, y: Array, rest: Array | None = None) -> Array:
+        """p at 0 <= y <= b; rest is b - y where that is known better than from y."""
+        p = self._of(self.superposition.pressure, y)
+        if not self.flat_base:
+            p[y == 0.0] = self._pressure_on_axis
+        return p + self._of_corner(self.flat.pressure, y, self.b, rest)
+
+    def shear(self, y: Array, rest: Array | None = None) -> Array:
+        """q on the right; odd in x."""
+        deficit = self._of(self.superposition.shear_deficit, y)
+        deficit += self._of_corner(self.flat.shear_deficit, y, self.b, rest)
+        p = self.pressure(y, rest)
+        q = self.flat.friction * p
+        inside = deficit != 0.0
+        q[inside] -= deficit[inside]
+        q[y == 0.0] = 0.0
+        return self.sign * q
+
+    def slip(self, y: Array) -> Array:
+        """The slip since y came into contact, on the right; odd in x."""
+        g = self._of(self.superposition.slip, y) + self._of_corner(self.flat.slip, y, 1.0)
+        return self.sign / self.half_modulus * g
+
+    def _of(self, function: Callable[[Array, Array], Array], y: Array) -> Array:
+        values = np.zeros(len(y))
+        inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
+        values[inside] = function(y[inside], np.full(int(inside.sum()), self.ahead))
+        return values
+
+    def _of_corner(
+        self,
+        function: Callable[[Array, Array, Array], Array],
+        y: Array,
+        unit: float,
+        rest: Array | None = None,
+    ) -> Array:
+        """A function of the flat punch of half-width b under the load of the corner."""
+        if not self.corner_load:
+            return np.zeros(len(y))
+        t, c = y / self.b, self.flat.c
+        e = (self.b - y if rest is None else rest) / self.b
+        from_c = np.abs(self.flat.rest - e) if c > 0.5 else np.abs(t - c)
+        return self.corner_load / unit * function(t, e, from_c)
+
+    @cached_property
+    def _pressure_on_axis(self) -> float:
+        """p(0) = A(0) ∫P'/s ds without a flat base; inf under a wedge."""
+        first, *others = self.growth
+        A = float(self.flat.A(np.array([0.0]), np.array([1.0]))[0])
+        start = float(first(np.array([0.0]))[0]) if not first.power else 0.0
+        if abs(start) > FALLING * float(np.abs(first.series).max()):
+            return math.inf
+        hi = min(first.hi, self.ahead)
+        x, _, w = with_weight(ENERGY_NODES, 0.0, first.power - 1.0 if first.power else 0.0)
+        total = float(w @ (first(hi * x) / x))
+        for panel in others:
+            if panel.lo < self.ahead:
+                length = min(panel.hi, self.ahead) - panel.lo
+                x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
+                total += length * float(w @ (panel(length * x) / (panel.lo + length * x)))
+        return A * total
+
+    # -- beside the contact ------------------------------------------------------------------------
+
+    def hilbert_outside(self, y: Array) -> Array:
+        """1/π PV∫p/(y - t) dt at y > b."""
+        H = load_slope(self.flat, self.growth, self.ahead, y)
+        if self.corner_load:
+            H += self.corner_load * self.flat.outside(self.b / y, (y - self.b) / y) / y
+        return H
+
+    def raised(self, y: Array) -> Array:
+        """2/E* times the integral of that from b to each y >= b: how far the surfaces part less
+        than the profile rises."""
+        ahead = y - self.b
+        none = np.full(len(y), np.inf)
+        owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
+        z, _, w = _rules(0.0, 0.0)
+        at = self.b + (start[:, None] + size[:, None] * z[kind])
+        H = self.hilbert_outside(at.ravel()).reshape(at.shape)
+        integral = size * (H * w[kind]).sum(axis=1)
+        return np.bincount(owner, integral, minlength=len(y)) / self.half_modulus
+
+    @cached_property
+    def energy(self) -> float:
+        """What friction turned into heat: ∫ f p |dg| over both slip zones, while P grew."""
+        flat, total = self.flat, 0.0
+        steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
+        for panel, length in steps:
+            if length > 0.0:
+                x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
+                ahead = panel.lo + length * x
+                total += length * float((w * panel(length * x)) @ self._rate(ahead))
+        if self.corner_load:
+            # The flat's own part grows as the square of its load
+            edge = self._rate(np.array([self.ahead]))[0]
+            total += self.corner_load * float(edge) + 0.5 * self.corner_load**2 * flat.dissipation
+        return 2.0 * total / self.half_modulus
+
+    def _rate(self, ahead: Array) -> Array:
+        """∫ f p ĝ dx over c s < x < s, p the pressure under P(s), s = a + ahead."""
+        t, e, from_c, weight = self.flat.slip_places
+        s = (self.b - self.ahead) + ahead
+        x = (s[:, None] * t).ravel()
+        p = np.zeros((len(s), len(t)))
+        if self.growth:
+            p = self.superposition.pressure(x, np.repeat(ahead, len(t))).reshape(p.shape)
+        g = self.flat.slip(t, e, from_c)
+        rate: Array = s * self.flat.friction * (p @ (weight * g))
+        return rate
+
+
+def refuse_unsolved(scene: Scene, remedy: str) -> None:
+    """Raises ContactError for what is asked of dissimilar bodies with friction beyond a monotone
+    normal load."""
+    pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
+    if scene.tangential_load:
+        raise ContactError(
+            f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is "
+            "solved for them, "
+            "not how Q then changes stick and slip; set tangential_load = 0, let them slide "
+            f"(sliding = ±1), set friction = 0, or {remedy}"
+        )
+    if scene.tilt or scene.moment:
+        name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
+        raise ContactError(
+            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
+            "contact "
+            f"only under a symmetric profile; set {name} = 0, set friction = 0, or {remedy}"
+        )
+
+
+def _axis(scene: Scene, bound: Edges) -> float:
+    """The axis of the profile, or of the frictionless contact if h' is odd about it there."""
+    profile, contact = scene.profile, bound.contact
+    if profile.axis is not None:
+        return profile.axis
+    y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
+    right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
+    uneven = float(np.abs(right + left).max() / np.abs(right).max())
+    if uneven > EVEN:
+        raise ContactError(
+            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
+            f"{uneven:.2g} of the "
+            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as "
+            "others tilt "
+            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to "
+            "neglect β"
+        )
+    return contact.m
+
+
+def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
+    """The edges and the state; ContactError where no contact answers."""
+    beta, profile = scene.beta, scene.profile
+    flat = flat_functions(abs(beta), scene.friction)
+    half_modulus = 0.5 * scene.Estar
+    bound = normal_contact(
+        Scene(
+            profile=profile,
+            modulus=scene.Estar,
+            normal_load=scene.normal_load,
+            half_width=scene.half_width,
+        ),
+        tol,
+        ECONOMY,
+    )
+    widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
+    axis = _axis(scene, bound.edges)
+    law = profile.power_law
+    kinks: tuple[float, ...] = ()
+    if law is not None:
+        slope = half_modulus * law.exponent * law.coefficient * widest ** (law.exponent - 1.0)
+        growth: tuple[GrowthPanel, ...] = (
+            power_law_growth(flat, law.exponent, slope, widest * WIDER),
+        )
+    else:
+        pieces = _pieces(profile.pieces, axis, widest, half_modulus)
+        kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
+        growth = solved_growth(flat, pieces) if pieces else ()
+    ahead, load, corner = _width(growth, widest, sharp, scene)
+    _refuse_falling(growth, ahead, axis)
+    b = (growth[0].origin if growth else 0.0) + ahead
+    contact = interval_about(axis, b).rounded((axis,))
+    state = CoupledContact(
+        flat,
+        growth,
+        corner,
+        axis,
+        ahead,
+        load,
+        math.copysign(1.0, beta),
+        half_modulus,
+        tuple(k for k in kinks if k < b),
+    )
+    edges = Edges(
+        contact, load, contact.m * load, 0.0, (corner > 0.0, corner > 0.0), 0.0, 0.0, 0.0, 0
+    )
+    return edges, state
+
+
+def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> list[Piece]:
+    """E*/2 h' on the right of the axis, piece by piece, without a flat base."""
+    _lo, hi = slope.domain
+    end = min(axis + widest * WIDER, hi)
+    resolved = refined(slope, axis, end, EPS)
+    inner = resolved.breaks[(resolved.breaks > axis) & (resolved.breaks < end)]
+    ends = [axis, *inner.tolist(), end]
+    declared = set(slope.breaks.tolist())
+    rises = dict(slope.rises)
+    pieces: list[Piece] = []
+    for left, right in itertools.pairwise(ends):
+        k = int(
+            np.clip(
+                np.searchsorted(resolved.breaks, left, "right") - 1, 0, len(resolved.origins) - 1
+            )
+        )
+        if not pieces and resolved.is_zero[k]:
+            continue
+
+        def H(ahead: Array, k: int = k, left: float = left) -> Array:
+            at = np.array([left])
+            values: Array = resolved.local(np.array([k]), at, np.zeros(1), ahead.reshape(1, -1))
+            return half_modulus * values.reshape(ahead.shape)
+
+        jumps = left in rises or (not pieces and left > axis and float(H(np.zeros(1))[0]) > 0.0)
+        pieces.append(Piece(left - axis, right - axis, H, jumps, left in declared))
+    return pieces
+
+
+def _width(
+    growth: tuple[GrowthPanel, ...], widest: float, sharp: bool, scene: Scene
+) -> tuple[float, float, float]:
+    """b beyond the flat base, P and what a corner at the end of the indenter carries of it."""
+
+    def load(ahead: float) -> float:
+        return sum(panel.load(ahead) for panel in growth)
+
+    if not growth:
+        assert scene.normal_load is not None
+        return widest, scene.normal_load, scene.normal_load
+    farthest = widest - growth[0].origin
+    if scene.normal_load is None:
+        return farthest, load(farthest), 0.0
+    P, most = scene.normal_load, load(farthest * WIDER)
+    if most >= P:
+        return _root(load, P, farthest * WIDER), P, 0.0
+    if sharp:
+        return farthest, P, P - load(farthest)
+    raise LoadError(
+        f"the coupled contact of half-width {widest:.6g} carries {most:.6g} of {P:.6g}: "
+        "friction should not make it softer; give dundurs = 0 to neglect β"
+    )
+
+
+def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
+    """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
+    from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
+
+    hi = farthest
+    while load(0.5 * hi) > P and hi > TINIEST * farthest:
+        hi *= 0.5
+    if load(hi) <= P:
+        return hi
+    return float(brentq(lambda a: load(a) / P - 1.0, 0.5 * hi, hi, xtol=1e-300, rtol=4.0 * EPS))
+
+
+def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
+    """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
+    there."""
+    for panel in growth:
+        s, mass = panel.places
+        near = s < ahead
+        if (mass[near] < -FALLING * np.abs(mass).max()).any():
+            where = axis + panel.origin + float(s[near][np.argmin(mass[near])])
+            raise ContactError(
+                "the contact of dissimilar bodies with friction would not grow steadily at x = "
+                f"{where:.6g}: "
+                "coupled slip is solved for convex profiles; smooth the profile, or give dundurs "
+                "= 0 to neglect β"
+            )

@@ -1,0 +1,494 @@
+"""Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t =
+x/b.
+
+Two functions say all (notation of `coupled_flat`; S is derived in
+docs/derivations/coupled_slip.md):
+
+    stick, t < c        p = A                  q = f A - χ S/β
+    slip, c < t < 1     p = A - cos(πθ) χ S    q = f p         γ = Hq + β p = (1 - β²) cos(πθ) χ S/β
+    near the edge       p = cos(πθ) χ Ψ                        γ = β (1 + f²) p - J
+
+A is analytic across c and S too. With 1/χ for the inverse weight, κ = β f = cot πh,
+
+    A(t)  = 1/((1-β²) π²) ∫ W Φ/(1 - t² s) ds,      Ψ(t) = 1/(π t) ∫ W p/(1 - c² r/t²) dr
+    J(t)  = 1/π ∫_0^c r [1/(t-ξ) - 1/(t+ξ)] dξ + 2f/π ∫_0^1 p/(t+ξ) dξ,      r = f p - q = χ S/β
+    S(t)  = 2 cos πh/π ∫_c^1 (A/χ)/(t+ξ) dξ + 2κ/(π(1-β²)) ∫_1^∞ Ψ/(η+t) dη
+            + β/(π(1-β²)) ∫_1^∞ (J/χ) [1/(η-t) - 1/(η+t)] dη
+
+The last is an equation of the second kind for S, all of whose terms are of the order β f: nothing
+cancels as β tends to 0. (S is also N - A n, a difference; it serves where p needs S.) The slip of
+the flat is g(t) = ∫_c^t γ. Tables on panels that shrink towards t = 0 and t = 1 make them cheap.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.elliptic import elliptic_functions
+from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
+
+from .coupled_flat import NEARER, SPARE, FlatPunch, double_exponential, flat_punch
+
+Array = NDArray[np.float64]
+Function = Callable[[Array, Array], Array]
+
+DEGREE = 20  # of a panel as far from every singularity as it is long: (3 + sqrt(8))^-20 is rounding
+LEAST = 1e-320
+ROUNDING = 1e-9  # of a panel: no shorter one ends a table
+CHOP = 2e-17  # of the largest coefficient
+ACROSS = 36.0  # -ln of the error of a rule that is not even
+
+
+class Points(NamedTuple):
+    """Places of t, with 1 - t and |t - c|, and a weight each."""
+
+    t: Array
+    rest: Array
+    from_c: Array
+    weight: Array
+
+    def times(self, values: Array) -> Points:
+        return self._replace(weight=self.weight * values)
+
+
+class Table:
+    """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both
+    ends."""
+
+    def __init__(self, cuts: list[tuple[float, float]], function: Function) -> None:
+        ends = np.array(cuts)
+        lo, hi = ends[:-1], ends[1:]
+        self._in_t = hi[:, 0] <= 0.5
+        self._keys = _key(lo[:, 0], lo[:, 1])
+        column = np.where(self._in_t, 0, 1)
+        rows = np.arange(len(lo))
+        self._start, self._scale = lo[rows, column], 2.0 / (hi - lo)[rows, column]
+        part = 0.5 * (1.0 + chebyshev.points(DEGREE))
+        t, e = (lo[:, [k]] + (hi - lo)[:, [k]] * part for k in (0, 1))
+        series = chebyshev.transform(function(t.ravel(), e.ravel()).reshape(t.shape))
+        self.series = [chopped(row) for row in series]
+
+    def __call__(self, t: Array, e: Array) -> Array:
+        if len(self.series) == 1:
+            return self._on(0, t if self._in_t[0] else e)
+        k = np.searchsorted(self._keys, _key(t, e), side="right") - 1
+        values = np.empty(k.shape)
+        k = np.maximum(k, 0)
+        for j in np.unique(k).tolist():
+            here = k == j
+            values[here] = self._on(j, (t if self._in_t[j] else e)[here])
+        return values
+
+    def _on(self, k: int, place: Array) -> Array:
+        return summed(self.series[k], self._scale[k] * (place - self._start[k]) - 1.0)
+
+
+def chopped(c: Array) -> Array:
+    """A series without the last coefficients that are below rounding."""
+    kept = np.flatnonzero(np.abs(c) > CHOP * np.abs(c).max())
+    return c[: kept[-1] + 1] if kept.size else c[:1]
+
+
+def summed(c: Array, y: Array) -> Array:
+    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the
+    time."""
+    twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
+    spare = np.empty_like(y)
+    for a in c[-2:0:-1].tolist():
+        np.multiply(twice, high, out=spare)
+        spare -= higher
+        spare += a
+        higher, high, spare = high, spare, higher
+    high *= y
+    high -= higher
+    high += c[0]
+    return high
+
+
+def _key(t: Array, e: Array) -> Array:
+    """What grows with t and keeps the relative distances from 0 and 1."""
+    low = t < 0.5
+    size = np.log2(np.maximum(np.where(low, t, e), LEAST))
+    key: Array = np.where(low, size, -size)
+    return key
+
+
+class FlatFunctions:
+    """p, q, γ and g of the flat punch on 0 <= t <= 1, from t, e = 1 - t and |t - c|."""
+
+    def __init__(self, punch: FlatPunch) -> None:
+        self.punch = punch
+        self.beta, self.friction, self.theta = punch.beta, punch.friction, punch.theta
+        self.c, self.rest, self.h = punch.c, punch.rest, punch.exponent
+        # sin πh = cos πθ and cos πh = sin πθ, κ = cot πh
+        self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
+        root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate
+        self.middle, self.beyond = root, self.rest / (1.0 + root)
+        self._scale = self.c ** (2.0 * self.theta)
+        strength = self._scale * punch.eigenvalue / ((1.0 - self.beta**2) * math.pi**2)
+        self._a = strength * punch.weight * punch.pressure
+
+    def weight(self, t: Array, e: Array, from_c: Array) -> Array:
+        """χ, infinite at the edge."""
+        with np.errstate(divide="ignore"):
+            chi: Array = (from_c * (t + self.c) / (e * (1.0 + t))) ** self.h
+        return chi
+
+    def pressure(self, t: Array, e: Array, from_c: Array) -> Array:
+        """p."""
+        edge = e < self.beyond
+        p = np.empty(t.shape)
+        p[edge] = (
+            self.sine * self.weight(t[edge], e[edge], from_c[edge]) * self.Psi(t[edge], e[edge])
+        )
+        p[~edge] = self.A(t[~edge], e[~edge])
+        slip = ~edge & (e < self.rest)
+        chi = self.weight(t[slip], e[slip], from_c[slip])
+        p[slip] -= self.sine * chi * self.S(t[slip], e[slip])
+        return p
+
+    def shear_deficit(self, t: Array, e: Array, from_c: Array) -> Array:
+        """f p - q."""
+        deficit, stick = np.zeros(t.shape), e > self.rest
+        chi = self.weight(t[stick], e[stick], from_c[stick])
+        deficit[stick] = chi * self.S(t[stick], e[stick]) / self.beta
+        return deficit
+
+    def slip(self, t: Array, e: Array, from_c: Array) -> Array:
+        """g."""
+        regular, singular = self.slip_near_edge
+        g, edge = np.zeros(t.shape), e < self.beyond
+        g[edge] = regular(t[edge], e[edge]) + singular(t[edge], e[edge]) * e[edge] ** (1.0 - self.h)
+        near_c = ~edge & (e < self.rest)
+        g[near_c] = self.slip_near_c(t[near_c], e[near_c]) * from_c[near_c] ** (1.0 + self.h)
+        return g
+
+    @cached_property
+    def slip_places(self) -> Points:
+        """A rule for the slip zone, whatever the exponents at its ends."""
+        return self._of_slip_zone(*double_exponential())
+
+    @cached_property
+    def dissipation(self) -> float:
+        """∫ f p g dt over the slip zone."""
+        t, e, from_c, dt = self.slip_places
+        both = self.pressure(t, e, from_c) * self.slip(t, e, from_c)
+        return self.friction * float(dt @ both)
+
+    # -- tables ------------------------------------------------------------------------------------
+
+    @cached_property
+    def A(self) -> Table:
+        return Table(self._lower_cuts, self._A)
+
+    @cached_property
+    def S(self) -> Table:
+        return Table(self._lower_cuts, self._S)
+
+    @cached_property
+    def Psi(self) -> Table:
+        return Table(self._upper_cuts, self._Psi)
+
+    @cached_property
+    def slip_near_c(self) -> Table:
+        """g/(t - c)^(1+h), from γ = (t - c)^h times a function that is smooth across c."""
+        x, _, w = gauss_jacobi(DEGREE, 0.0, self.h)
+        factor = (1.0 - self.beta**2) * self.sine / self.beta
+
+        def mean(t: Array, e: Array) -> Array:
+            back = self._beyond_c(t, e)[:, None] * (1.0 - x)
+            t, e = t[:, None] - back, e[:, None] + back
+            S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
+            return factor * (((t + self.c) / (e * (1.0 + t))) ** self.h * S) @ w
+
+        cuts = [cut for cut in self._lower_cuts if cut[0] > self.c and cut[1] < self.rest]
+        return Table([(self.c, self.rest), *cuts], mean)
+
+    @cached_property
+    def slip_near_edge(self) -> tuple[Table, Table]:
+        """g = regular + singular (1 - t)^(1-h) beyond c^(1/2), from γ = β (1 + f²) p - J."""
+        x, _, w = gauss_jacobi(DEGREE, 0.0, -self.h)
+        legendre = gauss_jacobi(DEGREE, 0.0, 0.0)
+        at = np.array([self.middle]), np.array([self.beyond])
+        gap = self._beyond_c(*at)
+
+        def singular(t: Array, e: Array) -> Array:
+            e = e[:, None] * x
+            t = 1.0 - e
+            chi = (self._beyond_c(t, e) * (t + self.c) / (1.0 + t)) ** self.h
+            Psi = self.Psi(t.ravel(), e.ravel()).reshape(t.shape)
+            return -self.beta * (1.0 + self.friction**2) * self.sine * (chi * Psi) @ w
+
+        def regular(t: Array, e: Array) -> Array:
+            ahead = e[:, None] * legendre.x
+            J = self._J((1.0 - ahead).ravel(), ahead.ravel(), self._S_in_stick)
+            return e * (J.reshape(ahead.shape) @ legendre.weight)
+
+        there = self.slip_near_c(*at) * gap ** (1.0 + self.h)
+        start = (there - singular(*at) * at[1] ** (1.0 - self.h) - regular(*at))[0]
+        cuts = self._upper_cuts
+        return Table(cuts, lambda t, e: start + regular(t, e)), Table(cuts, singular)
+
+    @cached_property
+    def _outside_table(self) -> Table:
+        cuts = _cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: 0.5 * (e + self.rest))
+        return Table(cuts, self._potential_outside)
+
+    @property
+    def _lower_cuts(self) -> list[tuple[float, float]]:
+        """Panels of 0 <= t <= c^(1/2), as far from -c as from 1 as they are long, as (t, 1 - t)."""
+        return _cuts((0.0, 1.0), (self.middle, self.beyond), lambda t, e: min(t + self.c, 0.5 * e))
+
+    @property
+    def _upper_cuts(self) -> list[tuple[float, float]]:
+        """Panels of c^(1/2) <= t <= 1, as far from c."""
+        start = self.middle, self.beyond
+        return _cuts(start, (1.0, 0.0), lambda t, e: float(self._beyond_c(t, e)))
+
+    def _beyond_c(self, t: Any, e: Any) -> Any:
+        return self.rest - e if self.c > 0.5 else t - self.c
+
+    # -- A and Ψ, from the eigenvector -------------------------------------------------------------
+
+    def _A(self, t: Array, e: Array) -> Array:
+        return _poles(t, e, self.punch.remainder, self._a)
+
+    def _Psi(self, t: Array, e: Array) -> Array:
+        square = self._beyond_c(t, e) * (t + self.c)
+        kernel = 1.0 / (square[:, None] + self.c**2 * self.punch.remainder)
+        v = self.punch.weight * self.punch.pressure
+        Psi: Array = (self._scale / math.pi) * t * (kernel @ v)
+        return Psi
+
+    def outside(self, s: Array, e: Array) -> Array:
+        """η D(η) at η = 1/s > 1, e = 1 - s; D = χ Ψ there, χ = ((1 - c² s²)/(1 - s²))^h."""
+        D: Array = (self.below_one(s, e) / (e * (1.0 + s))) ** self.h * self._outside_table(s, e)
+        return D
+
+    def _potential_outside(self, s: Array, e: Array) -> Array:
+        """η Ψ at η = 1/s."""
+        inside = (self.c * s)[:, None] ** 2 * self.punch.remainder
+        kernel = 1.0 / (self.below_one(s, e)[:, None] + inside)
+        v = self.punch.weight * self.punch.pressure
+        potential: Array = (self._scale / math.pi) * (kernel @ v)
+        return potential
+
+    def below_one(self, s: Array, e: Array) -> Array:
+        """1 - c² s²."""
+        gap: Array = e * (1.0 + s) + (s * self.punch.modulus.complement) ** 2
+        return gap
+
+    # -- S -----------------------------------------------------------------------------------------
+
+    def _S(self, t: Array, e: Array) -> Array:
+        return self._source(t, e) + self._acting_back(t, e) @ self._S_in_stick
+
+    @cached_property
+    def _S_in_stick(self) -> Array:
+        at = self._stick
+        system = np.eye(len(at.t)) - self._acting_back(at.t, at.rest)
+        return np.asarray(np.linalg.solve(system, self._source(at.t, at.rest)), dtype=float)
+
+    def _source(self, t: Array, e: Array) -> Array:
+        """What friction alone makes of S."""
+        beta = self.beta
+        beside = (1.0 / (t[:, None] + self._left_slip.t)) @ self._left_slip.weight
+        s = self._outside(1.0)
+        far = s.weight * self._potential_outside(s.t, s.rest)
+        sliding = (1.0 / (1.0 + t[:, None] * s.t)) @ far
+        s, reach = self._reach
+        J = self._due_to(self._pressure, 1.0 / (1.0 + s.t[:, None] * self._pressure.t))
+        acting = _between(t, e, s.t, s.rest) @ (reach * 2.0 * self.friction * J)
+        source: Array = (2.0 / math.pi) * self.cosine * beside
+        source += 2.0 * beta * self.friction / (math.pi * (1.0 - beta**2)) * sliding
+        source += beta * acting
+        return source
+
+    def _acting_back(self, t: Array, e: Array) -> Array:
+        """The matrix that takes S in stick to its part of S."""
+        s, reach = self._reach
+        stick = self._stick
+        r = stick.weight * self.weight(*stick[:3]) / math.pi
+        back: Array = _between(t, e, s.t, s.rest) @ (
+            reach[:, None] * (_between(s.t, s.rest, stick.t, stick.rest) * r)
+        )
+        return back
+
+    @cached_property
+    def _reach(self) -> tuple[Points, Array]:
+        """Places outside and (1/π(1-β²)) (1/χ) cn dn du there."""
+        s = self._outside(2.0 - 2.0 * self.theta)
+        inverse = (s.rest * (1.0 + s.t) / self.below_one(s.t, s.rest)) ** self.h
+        return s, s.weight * inverse / (math.pi * (1.0 - self.beta**2))
+
+    @staticmethod
+    def _due_to(masses: Points, kernel: Array) -> Array:
+        integral: Array = kernel @ masses.weight / math.pi
+        return integral
+
+    @cached_property
+    def _difference(self) -> Function:
+        """S as N - A n, whose error is rounding of numbers of order one: it serves where p needs
+        S."""
+        punch, theta = self.punch, self.theta
+        aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
+        slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)
+        inverse = slip.weight / self.weight(*slip[:3])
+        s = self._outside(2.0 - 2.0 * theta)
+        outside = s.weight * (s.rest * (1.0 + s.t) / self.below_one(s.t, s.rest)) ** self.h
+
+        def difference(t: Array, e: Array) -> Array:
+            n = 2.0 / math.pi * t * (_inverse(t, e, s.t, s.rest) @ outside)
+            n -= 2.0 / math.pi * self.cosine * ((1.0 / (t[:, None] + slip.t)) @ inverse)
+            n -= self.beta * self.friction
+            N: Array = t * _poles(t, e, punch.remainder, aG)
+            return N - self._A(t, e) * n
+
+        return difference
+
+    # -- places of quadrature ----------------------------------------------------------------------
+
+    def _stick_points(self, a: float) -> Points:
+        """0 < t < c, for (c - t)^((a - 1)/2) times a smooth function."""
+        x, rest, w = with_weight(self._nodes(2.0 * self._tau), a, 0.0)
+        sn, cn, dn = elliptic_functions(self.punch.modulus, x, rest)
+        from_c = self.c * cn * cn / (1.0 + sn)
+        return Points(
+            self.c * sn, self.rest + from_c, from_c, w * (self.punch.modulus.K * self.c * cn * dn)
+        )
+
+    def _outside(self, a: float) -> Points:
+        """1/η for η > 1, for (η - 1)^((a - 1)/2) times a smooth function; weights of cn dn du."""
+        x, rest, w = with_weight(self._nodes(2.0 * self._tau), a, 0.0)
+        sn, cn, dn = elliptic_functions(self.punch.modulus, x, rest)
+        e = cn * cn / (1.0 + sn)
+        return Points(sn, e, 1.0 - self.c * sn, w * (self.punch.modulus.K * cn * dn))
+
+    def _slip_points(self, a: float, b: float, lo: float = 0.0, hi: float = 1.0) -> Points:
+        """A part of c < t < 1, in the elliptic coordinate v, for (hi - v)^a (v - lo)^b."""
+        x, rest, w = with_weight(self._nodes(2.0 / (self._tau * (hi - lo))), a, b)
+        return self._of_slip_zone(lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest, (hi - lo) * w)
+
+    def _of_slip_zone(self, part: Array, remaining: Array, w: Array) -> Points:
+        """The places at these parts of the elliptic coordinate."""
+        swapped = self.punch.modulus.swapped
+        sn, cn, dn = elliptic_functions(swapped, part, remaining)
+        t = self.c / dn
+        from_c = t * (swapped.k * sn) ** 2 / (1.0 + dn)
+        e = (swapped.k * cn / dn) ** 2 / (1.0 + t)
+        dt = swapped.K * t * swapped.k**2 * sn * cn / dn
+        return Points(t, e, from_c, w * dt)
+
+    @property
+    def _tau(self) -> float:
+        return self.punch.modulus.K_complement / self.punch.modulus.K
+
+    @staticmethod
+    def _nodes(ratio: float) -> int:
+        """For an interval whose nearest singularities are at half its length times ratio."""
+        return math.ceil(ACROSS / (2.0 * math.asinh(NEARER * min(ratio, 1.5)))) + SPARE
+
+    # -- p, r and A/χ there ------------------------------------------------------------------------
+
+    @cached_property
+    def _stick(self) -> Points:
+        return self._stick_points(2.0 - 2.0 * self.theta)
+
+    @cached_property
+    def _pressure(self) -> Points:
+        """p dt on 0 < t < 1."""
+        theta = self.theta
+        stick, slip = self._stick_points(1.0), self._slip_points(0.0, 1.0, hi=0.5)
+        deviating = self._slip_points(0.0, 2.0 - 2.0 * theta, hi=0.5)
+        edge = self._slip_points(2.0 * theta, 0.0, lo=0.5)
+        S = self._difference(deviating.t, deviating.rest)
+        return _joined(
+            stick.times(self._A(stick.t, stick.rest)),
+            slip.times(self._A(slip.t, slip.rest)),
+            deviating.times(-self.sine * self.weight(*deviating[:3]) * S),
+            edge.times(self.sine * self.weight(*edge[:3]) * self._Psi(edge.t, edge.rest)),
+        )
+
+    @cached_property
+    def _left_slip(self) -> Points:
+        """A/χ dt on c < t < 1; next to the edge A = p + β γ/(1 - β²)."""
+        beta, f, theta = self.beta, self.friction, self.theta
+        near_c = self._slip_points(0.0, 2.0 * theta, hi=0.5)
+        edge = self._slip_points(1.0, 0.0, lo=0.5)
+        acting = self._slip_points(2.0 - 2.0 * theta, 0.0, lo=0.5)
+        coupled = beta / (1.0 - beta * beta)
+        S = self._difference(self._stick.t, self._stick.rest)
+        J = self._J(acting.t, acting.rest, S)
+        return _joined(
+            near_c.times(self._A(near_c.t, near_c.rest) / self.weight(*near_c[:3])),
+            edge.times(
+                (1.0 + coupled * beta * (1.0 + f * f)) * self.sine * self._Psi(edge.t, edge.rest)
+            ),
+            acting.times(-coupled * J / self.weight(*acting[:3])),
+        )
+
+    def _J(self, t: Array, e: Array, S: Array) -> Array:
+        """J at t nearer to 1 than to c, given S at the places in stick."""
+        stick = self._stick
+        r = stick.weight * self.weight(*stick[:3]) * S / self.beta
+        apart = stick.rest - e[:, None] if self.c > 0.5 else t[:, None] - stick.t
+        kernel = 1.0 / apart - 1.0 / (t[:, None] + stick.t)
+        p = self._pressure
+        J: Array = (kernel @ r) / math.pi
+        J += 2.0 * self.friction * self._due_to(p, 1.0 / (t[:, None] + p.t))
+        return J
+
+
+def _joined(*parts: Points) -> Points:
+    return Points(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _poles(t: Array, e: Array, remainder: Array, a: Array) -> Array:
+    """Σ a/(1 - t² s), s = 1 - remainder."""
+    total: Array = (1.0 / ((e * (1.0 + t))[:, None] + (t * t)[:, None] * remainder)) @ a
+    return total
+
+
+def _inverse(t: Array, e: Array, s: Array, rest: Array) -> Array:
+    """1/(1 - t² s²), given 1 - t and 1 - s."""
+    ts = t[:, None] * s
+    values: Array = 1.0 / ((e[:, None] + rest - e[:, None] * rest) * (1.0 + ts))
+    return values
+
+
+def _between(t: Array, e: Array, s: Array, rest: Array) -> Array:
+    """1/(1 - t s) - 1/(1 + t s)."""
+    values: Array = 2.0 * t[:, None] * s * _inverse(t, e, s, rest)
+    return values
+
+
+def _cuts(
+    start: tuple[float, float],
+    end: tuple[float, float],
+    longest: Callable[[float, float], float],
+) -> list[tuple[float, float]]:
+    """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest`
+    at their start."""
+    cuts = [start]
+    while cuts[-1] != end:
+        t, e = cuts[-1]
+        length = longest(t, e)
+        if t < 0.5:
+            length = min(length, 0.5 - t)
+        t, e = (t + length, 1.0 - (t + length)) if t < 0.5 else (1.0 - (e - length), e - length)
+        left = end[0] - t if end[0] <= 0.5 else e - end[1]
+        cuts.append((t, e) if left > ROUNDING * length else end)
+    return cuts
+
+
+@lru_cache(maxsize=8)
+def flat_functions(beta: float, friction: float) -> FlatFunctions:
+    """Those of `flat_punch`, with their tables as far as these were asked for."""
+    return FlatFunctions(flat_punch(beta, friction))

@@ -1,0 +1,304 @@
+"""Superposition of flat punches: the tractions and the slip under a symmetric convex profile.
+
+Under monotone normal load the rate of every state is that of a flat punch of the contact's width
+(its slope does not change, nor does the slip in stick), so that with P'(s) = dP/ds
+
+    p(x) = ∫ P'(s) φ(x/s) ds/s,   q alike,   g(x) = 2/E* ∫ P'(s) ĝ(x/s) ds,   max(|x|, a) < s < b
+
+with φ, ψ, ĝ those of the flat under P = 1 on |t| < 1 (`coupled_functions`), and c/b is the
+flat's. Each function of t = x/s is smooth between its singular places times known powers at
+these; P' is (s - lo)^e times a polynomial on each of its panels. The integrals are Gauss-Jacobi
+and Gauss-Legendre on panels that shrink towards the next singularity, all x at once.
+
+Spence (1975), J. Elasticity 5, 297, for the stick zone that no profile changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
+
+from .coupled_functions import FlatFunctions, chopped, summed
+
+Array = NDArray[np.float64]
+
+GROWTH = 2.0  # a panel's length over its distance from the singularity; with NODES that is 1e-13
+NODES = 12
+FAR = 1e300  # stands for no singularity
+NEAREST = 1e-17  # of the half-width, to a singularity of P' that x may be on
+
+
+@dataclass(frozen=True, eq=False)
+class GrowthPanel:
+    """P'(s) = (s - origin - lo)^power Σ c_k T_k for lo <= s - origin <= hi.
+
+    From the origin, the half-width of a flat base, short panels keep their digits.
+    """
+
+    origin: float
+    lo: float
+    hi: float
+    power: float
+    series: Array = field(repr=False)
+
+    def __call__(self, ahead: Array) -> Array:
+        """P' at s = origin + lo + ahead."""
+        values = summed(self._chopped, 2.0 / (self.hi - self.lo) * ahead - 1.0)
+        return values * ahead**self.power if self.power else values
+
+    @cached_property
+    def _chopped(self) -> Array:
+        return chopped(self.series)
+
+    @cached_property
+    def places(self) -> tuple[Array, Array]:
+        """s - origin and P' ds of a Gauss rule over the panel."""
+        length = self.hi - self.lo
+        x, _, w = with_weight(len(self.series), 0.0, self.power)
+        return self.lo + length * x, length * w * self(length * x)
+
+    def load(self, ahead: float) -> float:
+        """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
+        beyond."""
+        length = max(min(ahead, self.hi) - self.lo, 0.0)
+        x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
+        c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
+        return float(length ** (1.0 + self.power) * (w @ (c + 0.0 * x)))
+
+
+Function = Callable[[Array, Array, Array], Array]
+
+
+class Kernel(NamedTuple):
+    """A function of t, 1 - t and |t - c| on lo <= t <= hi, as it is integrated over s = x/t.
+
+    above           (1 - hi)/hi, so that s - x = x above at its end
+    behind          (lo - c)/(c lo), so that x/c - s = x behind at its other end
+    span            1/lo - 1/hi, so that the interval is x span long
+    pole            where it is singular next, t >= hi
+    power, at_c     its exponents at t = hi and, if lo = c, at c; 0 where it is smooth
+    """
+
+    value: Function
+    lo: float
+    hi: float
+    above: float
+    behind: float = 0.0
+    span: float = math.inf
+    pole: float = 1.0
+    power: float = 0.0
+    at_c: float = 0.0
+
+
+class Part(NamedTuple):
+    """Intervals of s for some of the x: where they begin, beyond x and beyond lo of the panel;
+    lengths; and scales.
+
+    before, after   distances from either end to the next singularity, inf if there is none
+    powers          exponents at both ends
+    """
+
+    which: NDArray[np.intp]
+    from_x: Array
+    from_lo: Array
+    length: Array
+    to_c: Array  # |x/c - s| at the end from which it is counted
+    before: Array
+    after: Array
+    powers: tuple[float, float]
+
+
+class Superposition:
+    """The integrals over s up to origin + b, of P' on its panels."""
+
+    def __init__(self, flat: FlatFunctions, growth: tuple[GrowthPanel, ...]) -> None:
+        self.flat, self.growth = flat, growth
+
+    def pressure(self, x: Array, b: Array) -> Array:
+        """p at 0 < x <= origin + b, for each x with a contact of its own."""
+        return self._sum(self._pressure_kernels, x, b, over_s=True)
+
+    def shear_deficit(self, x: Array, b: Array) -> Array:
+        """f p - q, 0 in slip."""
+        return self._sum(self._deficit_kernels, x, b, over_s=True)
+
+    def slip(self, x: Array, b: Array) -> Array:
+        """E*/2 times the slip of x > 0 since it came into contact."""
+        return self._sum(self._slip_kernels, x, b, over_s=False)
+
+    # -- kernels -----------------------------------------------------------------------------------
+
+    def _near_edge(self, value: Function, power: float, pole: float = 1.0) -> Kernel:
+        """A function on c^(1/2) <= t <= 1."""
+        f = self.flat
+        behind = (f.rest - f.beyond) / (f.c * f.middle)
+        return Kernel(value, f.middle, 1.0, 0.0, behind, f.beyond / f.middle, pole, power)
+
+    def _beside_c(self, value: Function, at_c: float) -> Kernel:
+        """A function on c <= t <= c^(1/2)."""
+        f = self.flat
+        span = (f.rest - f.beyond) / (f.c * f.middle)
+        return Kernel(value, f.c, f.middle, f.beyond / f.middle, span=span, at_c=at_c)
+
+    @cached_property
+    def _pressure_kernels(self) -> tuple[Kernel, ...]:
+        f = self.flat
+        chi, A, S, Psi = f.weight, f.A, f.S, f.Psi
+        return (
+            self._near_edge(lambda t, e, d: f.sine * chi(t, e, d) * Psi(t, e), -f.h),
+            Kernel(lambda t, e, d: A(t, e), 0.0, f.middle, f.beyond / f.middle),
+            self._beside_c(lambda t, e, d: -f.sine * chi(t, e, d) * S(t, e), f.h),
+        )
+
+    @cached_property
+    def _deficit_kernels(self) -> tuple[Kernel, ...]:
+        f = self.flat
+
+        def deficit(t: Array, e: Array, from_c: Array) -> Array:
+            return f.weight(t, e, from_c) * f.S(t, e) / f.beta
+
+        return (Kernel(deficit, 0.0, f.c, f.rest / f.c, pole=f.c, power=f.h),)
+
+    @cached_property
+    def _slip_kernels(self) -> tuple[Kernel, ...]:
+        f, smoother = self.flat, 1.0 - self.flat.h
+        near_c, (regular, singular) = f.slip_near_c, f.slip_near_edge
+        return (
+            self._near_edge(lambda t, e, d: regular(t, e), 0.0, math.inf),
+            self._near_edge(lambda t, e, d: singular(t, e) * e**smoother, smoother),
+            self._beside_c(lambda t, e, d: near_c(t, e) * d ** (1.0 + f.h), 1.0 + f.h),
+        )
+
+    # -- integrals ---------------------------------------------------------------------------------
+
+    def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
+        total = np.zeros(len(x))
+        for kernel in kernels:
+            for panel in self.growth:
+                for part in self._parts(kernel, panel, x, b):
+                    integral = self._integral(kernel, panel, part, x[part.which], over_s)
+                    total[part.which] += integral
+        return total
+
+    def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
+        """The intervals of s - origin that lie on the panel and below b, by what they begin and
+        end at."""
+        begin = (x - panel.origin) + x * kernel.above
+        end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
+        top = np.minimum(b, panel.hi)
+        lo, hi = np.maximum(begin, panel.lo), np.minimum(end, top)
+        for own_start in (True, False):
+            for own_end in (True, False):
+                # Between two places of its own an interval may be shorter than the doubles are
+                # apart
+                longer = (lo <= hi) if own_start and own_end else (lo < hi)
+                chosen = longer & ((begin >= panel.lo) == own_start) & ((end <= top) == own_end)
+                if chosen.any():
+                    i = np.flatnonzero(chosen)
+                    at = x[i], lo[i], hi[i]
+                    yield self._part(kernel, panel, i, at, (own_start, own_end))
+
+    def _part(
+        self,
+        kernel: Kernel,
+        panel: GrowthPanel,
+        which: NDArray[np.intp],
+        at: tuple[Array, Array, Array],
+        own: tuple[bool, bool],
+    ) -> Part:
+        """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the
+        panel's."""
+        (x, lo, hi), (own_start, own_end) = at, own
+        c, origin = self.flat.c, panel.origin
+        from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)
+        length = x * kernel.span if own_start and own_end else hi - lo
+        if own_start:
+            from_x = x * kernel.above
+            before = from_x if kernel.above else x
+            if panel.power:
+                before = np.minimum(before, np.maximum(from_lo, nearest))
+        else:
+            from_x = (origin - x) + lo
+            before = np.maximum((origin - x / kernel.pole) + lo, nearest)
+        if kernel.hi == c:
+            to_c = np.zeros(len(x)) if own_start else np.maximum((origin - x / c) + lo, 0.0)
+        else:
+            to_c = x * kernel.behind if own_end else np.maximum((x / c - origin) - hi, 0.0)
+        after = np.full(len(x), np.inf)
+        if kernel.at_c:
+            after = length if own_end else np.maximum(to_c, nearest)
+        powers = kernel.power if own_start else panel.power, kernel.at_c if own_end else 0.0
+        return Part(which, from_x, from_lo, length, to_c, before, after, powers)
+
+    def _integral(
+        self, kernel: Kernel, panel: GrowthPanel, part: Part, x: Array, over_s: bool
+    ) -> Array:
+        """∫ P' kernel ds, or ds/s, for each interval of the part."""
+        owner, start, length, left, kind = _graded(part.length, part.before, part.after)
+        z, rest, w = _rules(*part.powers)
+        ahead = start[:, None] + length[:, None] * z[kind]
+        to_c = part.to_c[owner][:, None]
+        to_c = (
+            to_c + ahead
+            if kernel.hi == self.flat.c
+            else to_c + (left[:, None] + length[:, None] * rest[kind])
+        )
+        from_x = part.from_x[owner][:, None] + ahead
+        at = x[owner][:, None]
+        s = at + from_x
+        values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s))
+        values *= panel(part.from_lo[owner][:, None] + ahead)
+        if over_s:
+            values /= s
+        integral = length * (values * w[kind]).sum(axis=1)
+        total: Array = np.bincount(owner, integral, minlength=len(x)).astype(float)
+        return total
+
+
+@lru_cache(maxsize=64)
+def _rules(at_start: float, at_end: float) -> tuple[Array, Array, Array]:
+    """Rows of nodes, their distances from 1 and weights: at the start, between, at the end."""
+    rules = with_weight(NODES, 0.0, at_start), with_weight(NODES, 0.0, 0.0)
+    x, rest, w = (
+        np.array(rows) for rows in zip(*rules, with_weight(NODES, at_end, 0.0), strict=True)
+    )
+    return x, rest, w
+
+
+def _graded(length: Array, before: Array, after: Array) -> tuple[Array, ...]:
+    """Panels of intervals: whose, beginning, length, what is left behind them, and which of
+    `_rules`.
+
+    From either end they grow in proportion to the distance from the singularity beyond it.
+    """
+    first = np.where(np.isinf(after), length, 0.5 * length)
+    owner, k, start, size = _geometric(first, before)
+    backwards, j, behind, back = _geometric(length - first, after)
+    return (
+        np.concatenate((owner, backwards)),
+        np.concatenate((start, length[backwards] - behind - back)),
+        np.concatenate((size, back)),
+        np.concatenate((length[owner] - start - size, behind)),
+        np.concatenate((np.minimum(k, 1), np.where(j == 0, 2, 1))),
+    )
+
+
+def _geometric(length: Array, scale: Array) -> tuple[Any, ...]:
+    """(owner, number, beginning, length) of panels that grow with the distance from -scale."""
+    scale = np.minimum(scale, FAR)
+    folds = np.log1p(length / scale)
+    count = np.ceil(folds / math.log1p(GROWTH)).astype(np.intp)
+    owner = np.repeat(np.arange(len(count)), count)
+    k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    ratio, scale = (folds / np.maximum(count, 1))[owner], scale[owner]
+    start = scale * np.expm1(k * ratio)
+    return owner, k, start, scale * np.expm1((k + 1) * ratio) - start

@@ -1,0 +1,56 @@
+"""Gauss rules for x^b (1 - x)^a on (0, 1), with the distances of the nodes from both ends.
+
+The nodes are eigenvalues of the matrix of the three-term recurrence (Golub & Welsch 1969), the
+weights are Christoffel's numbers 1/Σ p_k², a sum of squares. SciPy's weights lose three digits.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Rule(NamedTuple):
+    """∫_0^1 f dx = Σ weight f(x) where f is x^b (1 - x)^a times a smooth function g."""
+
+    x: Array
+    rest: Array  # 1 - x
+    weight: Array  # of g
+
+
+@lru_cache(maxsize=64)
+def gauss_jacobi(n: int, a: float, b: float) -> Rule:
+    """The rule of n nodes for the weight x^b (1 - x)^a; a, b > -1."""
+    k = np.arange(1.0, n)
+    s = 2.0 * k + a + b
+    middle = np.concatenate(([(b - a) / (a + b + 2.0)], (b * b - a * a) / (s * (s + 2.0))))
+    squared = 4.0 * k * (k + a) * (k + b) / (s * s * (s + 1.0))
+    squared[1:] *= (k[1:] + a + b) / (s[1:] - 1.0)
+    squared[:1] = 4.0 * (1.0 + a) * (1.0 + b) / ((2.0 + a + b) ** 2 * (3.0 + a + b))
+    beside = np.sqrt(squared)
+    t = np.linalg.eigvalsh(np.diag(middle) + np.diag(beside, 1) + np.diag(beside, -1))
+    before, value, total = np.zeros(n), np.ones(n), np.ones(n)
+    for j in range(n - 1):
+        last = beside[j - 1] * before if j else 0.0
+        before, value = value, ((t - middle[j]) * value - last) / beside[j]
+        total += value * value
+    mass = math.gamma(a + 1.0) * math.gamma(b + 1.0) / math.gamma(a + b + 2.0)
+    rule = Rule(0.5 * (1.0 + t), 0.5 * (1.0 - t), mass / total)
+    for array in rule:
+        array.flags.writeable = False
+    return rule
+
+
+@lru_cache(maxsize=64)
+def with_weight(n: int, a: float, b: float) -> Rule:
+    """The same rule with weights of the whole integrand f."""
+    x, rest, weight = gauss_jacobi(n, a, b)
+    whole = weight * (x**-b * rest**-a)
+    whole.flags.writeable = False
+    return Rule(x, rest, whole)

@@ -1,0 +1,1 @@
+"""Contact in several patches, on the line and per period."""

@@ -1,0 +1,368 @@
+"""Whether patches are the answer: p >= 0 on all of them and gap >= 0 beside them, by bounds and not by samples.
+
+    on a patch     D >= 0, panel by panel: a Legendre series has c_0 - Σ|c_n| as a lower bound
+    beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
+
+A panel whose bound says nothing is halved. Where the conditions of the edges hold as well this is
+the answer: the problem is convex.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+
+from .chord import Points
+from .newton import gap_values
+from .operator import Operator, Targets
+from .panels import GapPanels, distance_of, gap_panels
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+NODES = 8  # on a part of a panel
+DEEPEST = 30  # halvings
+TENSION = 1e-13  # of the largest D: rounding
+OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
+
+
+class Tension(NamedTuple):
+    """Where a patch would have to pull: [lo, hi] of patch k."""
+
+    patch: int
+    lo: float
+    hi: float
+
+
+class Overlap(NamedTuple):
+    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the largest g of that gap."""
+
+    gap: int
+    lo: float
+    hi: float
+    x: float
+    depth: float
+    largest: float
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What is wrong with patches; nothing if they are the answer.
+
+    lowest      the lowest bound of D over the largest D
+    """
+
+    tension: tuple[Tension, ...]
+    overlap: tuple[Overlap, ...]
+    lowest: float
+
+    @property
+    def ok(self) -> bool:
+        return not self.tension and not self.overlap
+
+
+def findings(o: Operator) -> Findings:
+    tension, lowest = _tensions(o)
+    return Findings(tension, _overlaps(o), lowest)
+
+
+@lru_cache(maxsize=8)
+def legendre(n: int) -> Array:
+    """Values at the n Gauss nodes to Legendre coefficients, as a matrix (n, n)."""
+    g, w = chebyshev.gauss_legendre(n)
+    P = np.polynomial.legendre.legvander(2.0 * g - 1.0, n - 1)
+    matrix = P * w[:, None] * (2.0 * np.arange(n) + 1.0)
+    matrix.flags.writeable = False
+    return matrix
+
+
+def lower_bound(values: Array) -> Array:
+    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
+    c = values @ legendre(values.shape[1])
+    return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))
+
+
+# -- on the patches --------------------------------------------------------------------------------
+
+
+def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+    k = o.panels
+    parts = np.stack((k.lo, k.hi), axis=1)
+    panel = np.arange(len(k.lo))
+    scale, lowest = 0.0, np.inf
+    bad: list[tuple[int, float, float, float, float]] = []
+    g, _ = chebyshev.gauss_legendre(NODES)
+    for depth in range(DEEPEST):
+        lo, length = parts[:, :1], np.diff(parts, axis=1)
+        angle = lo + length * g
+        D, x = intensities(o, panel, angle)
+        finite = D[np.isfinite(D)]
+        scale = max(scale, float(finite.max(initial=0.0)))
+        bound = lower_bound(np.where(np.isfinite(D), D, scale))
+        negative = -TENSION * scale > D
+        for j in np.flatnonzero(negative.any(axis=1)):
+            bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
+        enough = bound >= -TENSION * scale
+        lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
+        lowest = min(lowest, float(np.where(negative, D, np.inf).min()))
+        open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
+        if not open_.any():
+            break
+        middle = parts[open_].mean(axis=1)
+        parts = np.concatenate(
+            (
+                np.stack((parts[open_, 0], middle), axis=1),
+                np.stack((middle, parts[open_, 1]), axis=1),
+            )
+        )
+        panel = np.tile(panel[open_], 2)
+    return tuple(_joined(bad)), lowest / scale if scale else 0.0
+
+
+def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
+    """Runs of neighbouring nodes of a panel where D is negative: (from, first node, last node, up to).
+
+    They reach half-way to the next node, or as far beyond the panel's first or last one.
+    """
+    order = np.argsort(x)
+    x, negative = x[order], negative[order]
+    ends = np.concatenate((x[:1] - (x[1] - x[0]), 0.5 * (x[1:] + x[:-1]), x[-1:] + (x[-1] - x[-2])))
+    padded = np.concatenate(([False], negative, [False]))
+    starts = np.flatnonzero(padded[1:] & ~padded[:-1])
+    stops = np.flatnonzero(padded[:-1] & ~padded[1:])
+    return [
+        (float(ends[i]), float(x[i]), float(x[j - 1]), float(ends[j]))
+        for i, j in zip(starts.tolist(), stops.tolist(), strict=True)
+    ]
+
+
+def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
+    """Runs of the same patch that touch, as one."""
+    found: list[Tension] = []
+    until = -np.inf
+    for patch, start, lo, hi, stop in sorted(bad):
+        if found and found[-1].patch == patch and start <= until:
+            found[-1] = Tension(patch, found[-1].lo, max(hi, found[-1].hi))
+            until = max(until, stop)
+        else:
+            found.append(Tension(patch, lo, hi))
+            until = stop
+    return found
+
+
+def intensities(o: Operator, panel: Index, angle: Array) -> tuple[Array, Array]:
+    """D at angles (m, n) on panels (m,), and where that is."""
+    k, P = o.panels, o.patches
+    patch, right = k.patch[panel], k.right[panel]
+    inward = 2.0 * P.r[patch, None] * np.sin(0.5 * angle) ** 2
+    anchor = np.broadcast_to(np.where(right, P.b[patch], P.a[patch])[:, None], inward.shape)
+    x = Points(anchor, np.where(right[:, None], -inward, inward))
+    piece = np.broadcast_to(k.piece[panel, None], inward.shape)
+    return on_patches(o, np.broadcast_to(patch[:, None], inward.shape), x, piece), x.x
+
+
+def on_patches(o: Operator, patch: Index, x: Points, piece: Index) -> Array:
+    """D_k at points x on patches k, on these pieces of H; any shape."""
+    P = o.patches
+    shape = x.offset.shape
+    owner, anchor, offset = patch.ravel(), x.anchor.ravel(), x.offset.ravel()
+    D = np.empty(owner.shape)
+    flat = Points(anchor, offset)
+    which = piece.ravel()
+    reference = o.pieces.value(which, anchor, offset)
+    S = o.others(owner, flat)
+    order = np.argsort(owner, kind="stable")
+    starts = np.flatnonzero(np.diff(owner[order], prepend=-1))
+    for some in np.split(order, starts[1:]):
+        i = int(owner[some[0]])
+        group = o.group(i, float(P.a[i]), float(P.b[i]))
+        for part in _clusters(flat.x[some], some, P.r[i]):
+            close = (
+                o.group(i, float(flat.x[part].min()), float(flat.x[part].max()))
+                if len(part) < len(some)
+                else group
+            )
+            targets = Targets(flat[part], reference[part], which[part], S[part], owner[part])
+            D[part] = close.D(targets)
+    return D.reshape(shape)
+
+
+def _clusters(x: Array, index: Index, r: float) -> list[Index]:
+    """Targets in runs of neighbours, so that cells far from a run act through charges."""
+    if len(index) <= 256:
+        return [index]
+    order = index[np.argsort(x, kind="stable")]
+    return np.array_split(order, max(len(order) // 128, 1))
+
+
+# -- beside the patches ----------------------------------------------------------------------------
+
+
+class Side(NamedTuple):
+    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ and of the integrand, g at its start."""
+
+    panels: GapPanels
+    sign: Array
+    phi: Array
+    primitive: Array
+    start: Array
+    reference: Array
+
+
+def _overlaps(o: Operator) -> tuple[Overlap, ...]:
+    panels = gap_panels(o.patches, o.pieces, outside=True)
+    if not len(panels.gap):
+        return ()
+    side = sides(o, panels)
+    panel, lo, hi, edge = _parts(o, panels)
+    largest = np.zeros(o.patches.number + 1)
+    bad: list[tuple[int, float, float, float]] = []
+    hull = float(o.patches.b[-1] - o.patches.a[0])
+    H = float(np.abs(o.H).max())
+    g, _ = chebyshev.gauss_legendre(NODES)
+    for depth in range(DEEPEST):
+        t = lo[:, None] + (hi - lo)[:, None] * g
+        value, x, phi = opening(o, side, panel, t)
+        gap = panels.gap[panel] + 1
+        away = np.abs(x - panels.points.anchor[panel])
+        if depth == 0:
+            beside = np.where(np.isfinite(value) & (away <= hull), value, 0.0)
+            np.maximum.at(largest, gap, beside.max(axis=1))
+        tolerance = np.maximum(OVERLAP * largest[gap], ROUNDING * H * away.max(axis=1))
+        enough = lower_bound(value) >= -tolerance
+        enough |= edge & (lower_bound(phi) >= 0.0)
+        negative = (value < -tolerance[:, None]) & ~enough[:, None]
+        wide = x.max(axis=1) - x.min(axis=1)
+        for j in np.flatnonzero(negative.any(axis=1)):
+            bad += [
+                (int(gap[j]) - 1, float(x[j, m]), float(value[j, m]), float(wide[j]))
+                for m in np.flatnonzero(negative[j])
+            ]
+        open_ = ~enough & ~negative.any(axis=1)
+        if not open_.any() or depth == DEEPEST - 1:
+            break
+        middle = 0.5 * (lo + hi)[open_]
+        panel, edge = (
+            np.tile(panel[open_], 2),
+            np.concatenate((edge[open_], np.zeros(len(middle), dtype=bool))),
+        )
+        lo, hi = np.concatenate((lo[open_], middle)), np.concatenate((middle, hi[open_]))
+    return _gathered(bad, largest)
+
+
+def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:
+    """Neighbouring places of overlap as one; each place comes with the width of the part that it is on."""
+    found: list[Overlap] = []
+    before = 0.0
+    for gap, x, value, wide in sorted(bad):
+        if found and found[-1].gap == gap and x - found[-1].hi <= 2.0 * max(wide, before):
+            last = found[-1]
+            deeper = -value > last.depth
+            worst = (x, -value) if deeper else (last.x, last.depth)
+            found[-1] = Overlap(gap, last.lo, x, *worst, last.largest)
+        else:
+            found.append(Overlap(gap, x, x, x, -value, float(largest[gap + 1])))
+        before = wide
+    return tuple(found)
+
+
+def sides(o: Operator, panels: GapPanels) -> Side:
+    reference, _, T, D = gap_values(o, panels)
+    sign = np.where(panels.right, -1.0, 1.0)
+    phi = sign[:, None] * T * D / (np.pi * panels.root)
+    n = phi.shape[1]
+    half = 0.5 * (panels.hi - panels.lo)
+    _, _, derivative = distance_of(_nodes(panels), panels.width[:, None])
+    integrand = half[:, None] * phi * panels.root * derivative
+    c = integrand @ legendre(n)
+    primitive = np.asarray(np.polynomial.legendre.legint(c, lbnd=-1, axis=1), dtype=float)
+    whole = primitive.sum(axis=1)
+    first = panels.lo == 0.0
+    run = np.cumsum(first) - 1
+    total = np.cumsum(whole) - whole
+    start = total - total[np.flatnonzero(first)][run]
+    return Side(panels, sign, phi @ legendre(n), primitive, start, reference)
+
+
+def _nodes(panels: GapPanels) -> Array:
+    g, _ = chebyshev.gauss_legendre(panels.dx.shape[1])
+    return np.asarray(panels.lo[:, None] + (panels.hi - panels.lo)[:, None] * g)
+
+
+def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Array, Array]:
+    """(g, x, sign g'/root where the reference follows H) at parameters t (m, n) on panels (m,)."""
+    k, pieces = side.panels, o.pieces
+    s = (2.0 * t - (k.lo + k.hi)[panel, None]) / (k.hi - k.lo)[panel, None]
+    distance, root, _ = distance_of(t, k.width[panel, None])
+    anchor = np.broadcast_to(k.points.anchor[panel], distance.shape)
+    sign = side.sign[panel, None]
+    x = anchor + sign * distance
+    phi = _series(side.phi, panel, s)
+    bent = side.start[panel, None] + _series(side.primitive, panel, s)
+    # ∫ (H - reference) from the edge
+    lower, upper = np.minimum(anchor, x), np.maximum(anchor, x)
+    shape = x.shape
+    rise = pieces.rises(lower.ravel(), upper.ravel()).reshape(shape)
+    rise -= _referenced(o, k, panel, distance, sign)
+    here = pieces.value(pieces.locate(x), x, 0.0)
+    follows = k.follows[panel, None]
+    edge_value = pieces.value(k.piece[panel], k.points.anchor[panel, 0], 0.0)[:, None]
+    continued = pieces.value(k.piece[panel][:, None], anchor, sign * distance)
+    difference = np.where(follows, here - continued, here - edge_value)
+    same = follows & (pieces.locate(x) == k.piece[panel][:, None])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = phi + np.where(same, 0.0, sign * difference / root)
+    return sign * rise * 1.0 + bent, x, slope
+
+
+def _referenced(o: Operator, k: GapPanels, panel: Index, distance: Array, sign: Array) -> Array:
+    """∫ of the reference between the edge and a distance from it, upwards in x."""
+    pieces = o.pieces
+    edge = k.points.anchor[panel]
+    piece = k.piece[panel][:, None]
+    value = pieces.value(piece, edge, 0.0)
+    # up to where the piece is continued: the end of the first panel of the run
+    first = np.flatnonzero(k.lo == 0.0)[np.cumsum(k.lo == 0.0) - 1][panel]
+    limit, _, _ = distance_of(k.hi[first], k.width[first])
+    near = np.minimum(distance, limit[:, None])
+    risen = pieces.rise(piece, (edge, 0.0), (edge, sign * near))
+    return np.asarray(sign * risen + value * (distance - near))
+
+
+def _series(c: Array, panel: Index, s: Array) -> Array:
+    """Σ c_n P_n(s) of the panels, by the three-term recurrence."""
+    before, now = np.ones_like(s), s
+    total = c[panel, 0][:, None] + c[panel, 1][:, None] * s
+    for n in range(2, c.shape[1]):
+        before, now = now, ((2 * n - 1) * s * now - (n - 1) * before) / n
+        total = total + c[panel, n][:, None] * now
+    return np.asarray(total)
+
+
+def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray[np.bool_]]:
+    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge); of voids nothing."""
+    pieces = o.pieces
+    edge = panels.points.anchor[:, 0]
+    sign = np.where(panels.right, -1.0, 1.0)
+    near, far = (edge + sign * distance_of(v, panels.width)[0] for v in (panels.lo, panels.hi))
+    low, high = np.minimum(near, far), np.maximum(near, far)
+    start, stop = np.searchsorted(pieces.cuts, low, "right"), np.searchsorted(pieces.cuts, high)
+    count = np.maximum(stop - start, 0)
+    panel = np.repeat(np.arange(len(low)), count)
+    which = start[panel] + np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    cut = panels.parameter(panel, np.abs(pieces.cuts[which] - edge[panel]))
+    every = np.concatenate((panel, np.arange(len(low)), np.arange(len(low))))
+    place = np.concatenate((np.clip(cut, panels.lo[panel], panels.hi[panel]), panels.lo, panels.hi))
+    order = np.lexsort((place, every))
+    every, place = every[order], place[order]
+    same = (every[1:] == every[:-1]) & (place[1:] > place[:-1])
+    panel, lo, hi = every[:-1][same], place[:-1][same], place[1:][same]
+    middle = edge[panel] + sign[panel] * distance_of(0.5 * (lo + hi), panels.width[panel])[0]
+    solid = ~pieces.void[pieces.locate(middle)]
+    return panel[solid], lo[solid], hi[solid], (lo == 0.0)[solid]

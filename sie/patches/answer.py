@@ -1,0 +1,122 @@
+"""Contact in several patches as the answer to a scene: edges, pressure, gap, certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie import arguments
+from sie.contact.edges import Edges
+from sie.errors import ContactError, LoadError
+from sie.numerics.interval import Interval
+from sie.problem.scene import Scene
+from sie.profiles.base import Derived, Profile
+from sie.profiles.row import Row
+from sie.profiles.slope import Slope
+
+from .certificate import PatchCertificate, certificate
+from .density import PatchPressure
+from .full import FullContact, full_contact
+from .of_scene import problem_of
+from .opening import gap
+from .solver import Found, Problem, contact
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SeveralPatches:
+    """The found patches, with the outermost edges, loads and tilt as of one contact.
+
+    edges      of the outermost two edges, and load, moment and tilt of all patches
+    pressure   on all of them
+    """
+
+    edges: Edges
+    pressure: PatchPressure = field(compare=False, repr=False)
+    problem: Problem = field(compare=False, repr=False)
+    found: Found = field(compare=False, repr=False)
+    symmetric: bool = False
+
+    def slope(self, profile: Profile) -> Slope:
+        return profile.pieces.tilted(self.edges.tilt)
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        return self.pressure.patches
+
+    def gap(self, x: Array) -> Array:
+        return gap(self.found.operator, x)
+
+    def certificate(self, tol: float) -> PatchCertificate:
+        return certificate(self.found, self.pressure, self.problem.given, tol)
+
+
+def asks_for_patches(profile: Profile) -> bool:
+    """Whether a profile is a row or periodic, or made of rows: one patch is then not looked for."""
+    parts = profile.placed if isinstance(profile, Derived) else ()
+    return (
+        profile.period < np.inf
+        or isinstance(profile, Row)
+        or any(isinstance(part.profile, Row) for part in parts)
+    )
+
+
+def several_patches(scene: Scene) -> SeveralPatches | FullContact:
+    """Raises ContactError where no patches are certified, or the scene asks for what is not covered."""
+    _refuse_uncovered(scene)
+    try:
+        with np.errstate(all="ignore"):  # what that leaves is no certified contact
+            problem = problem_of(scene)
+            return whole(problem, scene) or answered(problem, contact(problem), scene)
+    except (ArithmeticError, np.linalg.LinAlgError):
+        raise LoadError(
+            f"the search for the patches left the range of doubles: {arguments.REMEDY}"
+        ) from None
+
+
+def whole(problem: Problem, scene: Scene) -> FullContact | None:
+    """Full contact of a periodic profile, if that is the answer."""
+    if not problem.chord.periodic:
+        return None
+    G, start, period = 0.5 * scene.Estar, problem.domain[0], problem.chord.period
+    return full_contact(
+        problem.pieces((start, start + period)), start, period, G, G * problem.given.load
+    )
+
+
+def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
+    assert scene.normal_load is not None
+    state, P, G = found.state, found.state.patches, 0.5 * scene.Estar
+    pressure = PatchPressure(found.operator, G, state.tilt, G * problem.given.load)
+    singular = (-float(state.charge[0]), float(state.charge[-1]))
+    moment = scene.moment if scene.moment is not None else pressure.moment
+    edges = Edges(
+        Interval(float(P.a[0]), float(P.b[-1])),
+        scene.normal_load,
+        moment,
+        state.tilt,
+        (bool(state.sharp[0]), bool(state.sharp[-1])),
+        G * singular[0],
+        G * singular[1],
+        0.0,
+        found.steps,
+    )
+    return SeveralPatches(edges, pressure, problem, found)
+
+
+def _refuse_uncovered(scene: Scene) -> None:
+    if scene.normal_load is None:
+        raise ContactError(
+            f"half_width = {scene.half_width:g} of contact in several patches is not covered: "
+            "give normal_load"
+        )
+    if scene.epsilon or scene.bonded:
+        what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"
+        raise ContactError(
+            f"{what} on several patches of contact are not covered: set friction = 0, or dundurs = 0"
+        )
+    if scene.profile.period < np.inf and (scene.moment is not None or scene.tilt != 0.0):
+        raise ContactError("a periodic profile keeps level: leave out tilt and moment")

@@ -1,0 +1,72 @@
+"""The chord between two places, and the anchored points that keep its digits.
+
+    d(x, y) = x - y  on the line,        d(x, y) = (λ/π) sin(π(x - y)/λ)  per period λ
+
+With it the formulas of a row of patches that is repeated for ever are those of the line. A point is
+an anchor, an edge of a patch, and its offset from that: the difference of two points is that of
+their anchors plus that of their offsets, so that a point 1e-15 beside an edge is as good as any.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Points:
+    """Places anchor + offset; the offset may be complex, a point of the plane."""
+
+    anchor: Any
+    offset: Any
+
+    @property
+    def x(self) -> Any:
+        return self.anchor + self.offset
+
+    def __getitem__(self, k: Any) -> Points:
+        return Points(self.anchor[k], self.offset[k])
+
+
+@dataclass(frozen=True)
+class Chord:
+    """Differences and chords of places; `period` is inf on the line."""
+
+    period: float = np.inf
+
+    @property
+    def periodic(self) -> bool:
+        return self.period < np.inf
+
+    def apart(self, step: Any, offset: Any = 0.0) -> Any:
+        """d for a difference of anchors and one of offsets. Whole periods go into the sign."""
+        if not self.periodic:
+            return step + offset
+        turns = np.rint(step / self.period)
+        angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
+        sign = 1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))
+        return (self.period / np.pi) * sign * np.sin(angle)
+
+    def cosine(self, step: Any, offset: Any = 0.0) -> Any:
+        """cos(π(x - y)/λ); 1 on the line."""
+        if not self.periodic:
+            return np.ones_like(step + offset)
+        turns = np.rint(step / self.period)
+        angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
+        return (1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))) * np.cos(angle)
+
+    def difference(self, step: Any, offset: Any = 0.0) -> Any:
+        """x - y, less whole periods of the anchors' difference."""
+        if not self.periodic:
+            return step + offset
+        return (step - self.period * np.rint(step / self.period)) + offset
+
+    def distance(self, x: Any, lo: float, hi: float) -> Any:
+        """How far x is from [lo, hi], or from the nearest repetition of it."""
+        middle = 0.5 * (lo + hi)
+        return np.abs(self.difference(x - middle)) - 0.5 * (hi - lo)
+
+    def of(self, x: Points, y: Points) -> Any:
+        return self.apart(x.anchor - y.anchor, x.offset - y.offset)

@@ -1,0 +1,288 @@
+"""The pressure on several patches: values, loads, potential.
+
+    p(x) = (E*/2π) |T_i(x)| D_i(x) on patch i,       F(z) = (E*/2) (H(z) + θ - T_i(z) D_i(z)/π) anywhere
+
+with H continued from the nearest piece, or any constant: F does not depend on it. Per period F is
+1/λ ∫ p(t) cot(π(z - t)/λ) dt, the sum over all repetitions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
+
+from .admissible import intensities, on_patches
+from .chord import Points
+from .operator import Operator, Targets
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Index = NDArray[np.int64]
+
+AROUND = 16  # points of a circle that give a derivative ...
+NARROW = 0.125  # ... of this part of the distance to the nearest traction
+
+
+@dataclass(frozen=True, eq=False)
+class PatchPressure(Density):
+    """The pressure of an operator whose edges are found.
+
+    half_modulus    E*/2
+    tilt            what is added to H
+    load            ∫p dx over all patches, per period
+    """
+
+    operator: Operator
+    half_modulus: float
+    tilt: float
+    load: float
+
+    @property
+    def period(self) -> float:
+        return self.operator.patches.chord.period
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        P = self.operator.patches
+        return float(P.a[0]), float(P.b[-1])
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        P = self.operator.patches
+        return tuple(zip(P.a.tolist(), P.b.tolist(), strict=True))
+
+    @property
+    def resultant(self) -> float:  # type: ignore[override]
+        return self.load
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        return float((self.measured[1]).sum())
+
+    @property
+    def loads(self) -> tuple[float, ...]:
+        """∫p over each patch."""
+        return tuple(self.measured[0].tolist())
+
+    @cached_property
+    def measured(self) -> tuple[Array, Array]:
+        """∫p dx and ∫p x dx over each patch, from the pressure on the nodes."""
+        o = self.operator
+        k, P = o.panels, o.patches
+        panel = np.arange(len(k.lo))
+        angle = 2.0 * np.arcsin(np.sqrt(np.abs(k.points.offset) / (2.0 * P.r[k.patch, None])))
+        D, x = intensities(o, panel, angle)
+        inward = np.abs(k.points.offset)
+        square = P.chord.apart(0.0, inward) * P.chord.apart(2.0 * P.r[k.patch, None], -inward)
+        # p dx = (G/π) W S D  W dν S
+        force = (self.half_modulus / np.pi) * D * square * o.weight**2 / (o.omega * 1.0)
+        total = np.bincount(k.patch, force.sum(axis=1), P.number)
+        moments = np.bincount(k.patch, (force * x).sum(axis=1), P.number)
+        return np.asarray(total, dtype=float), np.asarray(moments, dtype=float)
+
+    @cached_property
+    def breaks(self) -> tuple[float, ...]:
+        o = self.operator
+        P = o.patches
+        inner = [o.pieces.ends[(o.pieces.ends > a) & (o.pieces.ends < b)] for a, b in self.patches]
+        return tuple(np.unique(np.concatenate((P.edges, *inner))).tolist())
+
+    @property
+    def hilbert_at_edges(self) -> tuple[float, float]:
+        left, right = self.hilbert(np.array(self.interval)).tolist()
+        return left, right
+
+    # -- on the line -------------------------------------------------------------------------------
+
+    def placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:
+        """x by the nearest edge of a patch; the patch that it is nearest to, and whether it is on that."""
+        P = self.operator.patches
+        if P.chord.periodic:
+            cut = P.a[0] - 0.5 * P.gaps[-1]
+            x = x - P.chord.period * np.floor((x - cut) / P.chord.period)
+        k = np.clip(np.searchsorted(P.a, x, side="right") - 1, 0, P.number - 1)
+        following = np.minimum(k + 1, P.number - 1)
+        inside = (x >= P.a[k]) & (x <= P.b[k])
+        nearer = ~inside & (np.abs(P.a[following] - x) < np.abs(x - P.b[k]))
+        k = np.where(nearer, following, k)
+        anchor = np.where(x - P.a[k] < P.b[k] - x, P.a[k], P.b[k])
+        return Points(anchor, x - anchor), k, inside
+
+    def __call__(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        flat = x.ravel()
+        out = zero_or_nan(flat)
+        finite = np.isfinite(flat)
+        points, _, inside = self.placed(np.where(finite, flat, 0.0))
+        inside &= finite
+        if inside.any():
+            out[inside] = in_order(self._inside, points.x[inside])
+        return np.asarray(out.reshape(x.shape))
+
+    def _inside(self, x: Array) -> Array:
+        o = self.operator
+        points, k, _ = self.placed(x)
+        piece = o.pieces.locate(points.x)
+        at_end = points.x == o.patches.b[k]
+        piece = np.where(at_end, o.pieces.locate(points.x, "left"), piece)
+        T, _ = o.root(k, points)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            p = (self.half_modulus / np.pi) * np.abs(T) * on_patches(o, k, points, piece)
+        edges = points.offset == 0.0
+        if edges.any():
+            at = 2 * k[edges] + (points.anchor[edges] == o.patches.b[k[edges]])
+            p[edges] = np.where(o.Y[at] != 0.0, np.inf, 0.0)
+        return np.asarray(p)
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        flat = x.ravel()
+        out = zero_or_nan(flat)
+        finite = np.isfinite(flat)
+        points, k, inside = self.placed(np.where(finite, flat, 0.0))
+        inside, beside = inside & finite, ~inside & finite
+        o = self.operator
+        if inside.any():
+            at = points.x[inside]
+            one, other = (
+                o.pieces.value(o.pieces.locate(at, s), at, 0.0) for s in ("left", "right")
+            )
+            mean = np.where(
+                points.offset[inside] == 0.0,
+                self._edge_slope(points[inside], k[inside]),
+                0.5 * (one + other),
+            )
+            out[inside] = self.half_modulus * (mean + self.tilt)
+        if beside.any():
+            out[beside] = in_order(self._beside, points.x[beside])
+        return np.asarray(out.reshape(x.shape))
+
+    def _edge_slope(self, points: Points, k: Index) -> Array:
+        o = self.operator
+        right = points.anchor == o.patches.b[k]
+        piece = np.where(
+            right, o.pieces.locate(points.anchor, "left"), o.pieces.locate(points.anchor)
+        )
+        return np.asarray(o.pieces.value(piece, points.anchor, 0.0))
+
+    def _beside(self, x: Array) -> Array:
+        points, k, _ = self.placed(x)
+        return np.asarray(self._potential(points, k))
+
+    # -- in the plane ------------------------------------------------------------------------------
+
+    def _potential(self, z: Points, k: Index) -> Any:
+        """F at points off the patches, k the nearest patch."""
+        o = self.operator
+        P, pieces = o.patches, o.pieces
+        real = np.clip(np.real(z.x), P.a[k], P.b[k])
+        piece = np.where(real == P.b[k], pieces.locate(real, "left"), pieces.locate(real))
+        away = np.abs(z.x - real)
+        edge = pieces.ends[piece], pieces.ends[piece + 1]
+        own = np.minimum(real - edge[0], edge[1] - real)
+        follows = away <= pieces.reach[piece] + np.where(
+            np.abs(np.imag(z.offset)) > 0.0, 0.0, np.maximum(own, 0.0)
+        )
+        reference = np.where(
+            follows, pieces.value(piece, z.anchor, z.offset), pieces.value(piece, real, 0.0)
+        )
+        T, S = o.root(k, z)
+        D = np.empty(z.offset.shape, dtype=np.result_type(T, reference))
+        followed = np.where(follows, piece, -1)
+        order = np.argsort(k, kind="stable")
+        for some in np.split(order, np.flatnonzero(np.diff(k[order])) + 1):
+            i = int(k[some[0]])
+            runs = some[np.argsort(np.real(z.x[some]), kind="stable")]
+            for part in np.array_split(runs, max(len(runs) // 128, 1)):
+                x = np.real(z.x[part])
+                group = o.group(i, float(x.min()), float(x.max()))
+                D[part] = group.D(
+                    Targets(z[part], reference[part], followed[part], S[part], k[part])
+                )
+        return self.half_modulus * (reference + self.tilt - T * D / np.pi)
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
+        z = arguments.complexes("z", z)
+        return np.asarray(
+            self._everywhere(lambda v: self._cauchy(v, side), z.ravel(), self._of_force).reshape(
+                z.shape
+            )
+        )
+
+    def _cauchy(self, z: Complex, side: int) -> Complex:
+        out = np.empty(z.shape, dtype=complex)
+        real = z.imag == 0.0
+        if real.any():
+            x = z.real[real]
+            out[real] = on_surface(self.hilbert(x), self(x), side)
+        if not real.all():
+            out[~real] = reflected(self._off_axis, z[~real])
+        return out
+
+    def _off_axis(self, z: Complex) -> Complex:
+        points, k, _ = self.placed(z.real)
+        return np.asarray(self._potential(Points(points.anchor, points.offset + 1j * z.imag), k))
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
+        z = arguments.complexes("z", z)
+        tail = self._steepness_of_force
+        return np.asarray(
+            self._everywhere(lambda v: self._derivative(v, side), z.ravel(), tail).reshape(z.shape)
+        )
+
+    def _derivative(self, z: Complex, side: int) -> Complex:
+        """By Cauchy's formula on a circle that touches no traction; in contact from the values of p beside it."""
+        points, k, inside = self.placed(z.real)
+        P = self.operator.patches
+        off = np.maximum(np.maximum(P.a[k] - points.x, points.x - P.b[k]), 0.0)
+        radius = NARROW * np.hypot(off, z.imag)
+        on = inside & (z.imag == 0.0)
+        out = np.empty(z.shape, dtype=complex)
+        if (~on).any():
+            turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
+            circle = z[~on, None] + radius[~on, None] * turn
+            F = self._cauchy(circle.ravel(), 1).reshape(circle.shape)
+            out[~on] = (F * turn.conj()).mean(axis=1) / radius[~on]
+        if on.any():
+            out[on] = self._derivative_inside(z.real[on], side)
+        return out
+
+    def _derivative_inside(self, x: Array, side: int) -> Complex:
+        points, _, _ = self.placed(x)
+        o = self.operator
+        piece = o.pieces.locate(points.x)
+        steep = self.half_modulus * o.pieces.curvature(piece, points.x)
+        room = np.minimum(
+            np.abs(points.offset),
+            np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x),
+        )
+        room = np.maximum(
+            np.where(room > 0.0, room, np.abs(points.offset)), np.spacing(np.abs(points.x))
+        )
+        step = 0.05 * room
+        weights = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+        places = points.x[:, None] + step[:, None] * np.array([-2.0, -1.0, 1.0, 2.0])
+        slope = (self(places) @ weights) / step
+        out = np.empty(x.shape, dtype=complex)
+        out.real, out.imag = steep, -side * slope
+        edges = points.offset == 0.0
+        out[edges] = complex(np.inf, np.inf)
+        return out
+
+    def _of_force(self, z: Any) -> Any:
+        if self.period < np.inf:
+            return -1j * np.sign(np.imag(z)) * self.load / self.period + 0.0 * z
+        return super()._of_force(z)
+
+    @cached_property
+    def horizon(self) -> float:
+        return np.inf if self.period < np.inf else super().horizon

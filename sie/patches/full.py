@@ -1,0 +1,296 @@
+"""Full contact of a periodic profile: no edges, every harmonic A cos(kx + φ) of h gives the pressure -E*/2 k A cos(kx + φ).
+
+    p(x) = P/λ + (E*/2λ) ∫_λ (H(t) - H(x)) cot(π(t - x)/λ) dt,    F(z) = (E*/2) [H + i/λ ∫ (H(t) - H) cot(π(z - t)/λ) dt] - i P/λ
+
+for Im z > 0, with any H taken out. It is the answer if p >= 0, which is verified by bounds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+from sie.contact.edges import Edges
+from sie.numerics import chebyshev
+from sie.numerics.interval import Interval
+from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
+
+from .admissible import DEEPEST, NODES, TENSION, lower_bound
+from .certificate import GRADING, LEAST, PatchCertificate
+from .density import AROUND, NARROW
+from .operator import NEAR
+from .pieces import Pieces
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+GAUSS = 16  # nodes on a panel
+FEWEST = 8  # panels
+LEVELS = 12  # how often the panels of the certificate are graded towards breaks
+CHUNK = 1 << 18
+
+
+@dataclass(frozen=True, eq=False)
+class FullPressure(Density):
+    """The pressure of full contact on [start, start + period], repeated; load per period; half_modulus E*/2."""
+
+    pieces: Pieces
+    start: float
+    period: float
+    half_modulus: float
+    load: float
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return self.start, self.start + self.period
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        return (self.interval,)
+
+    @property
+    def loads(self) -> tuple[float, ...]:
+        return (self.load,)
+
+    @property
+    def resultant(self) -> float:  # type: ignore[override]
+        return self.load
+
+    @cached_property
+    def moment(self) -> float:  # type: ignore[override]
+        x, w = self.rule(LEVELS)
+        return float((w * self(x)) @ x)
+
+    @cached_property
+    def panels(self) -> tuple[Array, Array, NDArray[np.int64]]:
+        """Ends of the panels (p,), (p,) and their pieces of H."""
+        cuts = self.pieces.cuts
+        even = np.linspace(self.start, self.start + self.period, FEWEST + 1)
+        ends = np.union1d(even, cuts[(cuts > self.start) & (cuts < self.start + self.period)])
+        return ends[:-1], ends[1:], self.pieces.locate(0.5 * (ends[1:] + ends[:-1]))
+
+    @cached_property
+    def _sources(self) -> tuple[Array, Array, Array]:
+        """Nodes (p, n), weights and H there."""
+        lo, hi, piece = self.panels
+        g, w = chebyshev.gauss_legendre(GAUSS)
+        t = lo[:, None] + (hi - lo)[:, None] * g
+        return t, (hi - lo)[:, None] * w, self.pieces.value(piece[:, None], t, 0.0)
+
+    @cached_property
+    def breaks(self) -> tuple[float, ...]:
+        return (*self.panels[0].tolist(), self.start + self.period)
+
+    def rule(self, levels: int) -> tuple[Array, Array]:
+        """Places and weights of a composite rule, graded towards the ends of the panels."""
+        lo, hi, _ = self.panels
+        graded = GRADING ** np.arange(1.0, levels + 1.0)
+        part = np.unique(np.concatenate(([0.0, 0.5, 1.0], graded, 1.0 - graded)))
+        start = (lo[:, None] + (hi - lo)[:, None] * part[:-1]).ravel()
+        length = ((hi - lo)[:, None] * np.diff(part)).ravel()
+        g, w = chebyshev.gauss_legendre(GAUSS - 4)
+        return (start[:, None] + length[:, None] * g).ravel(), (length[:, None] * w).ravel()
+
+    def within(self, x: Array) -> Array:
+        return x - self.period * np.floor((x - self.start) / self.period)
+
+    def _excess(self, z: Any, reference: Any, piece: Any) -> Any:
+        """(1/λ) ∫ (H(t) - reference) cot(π(t - z)/λ) dt at z (m,) of this period."""
+        size = max(CHUNK // self._sources[0].size, 1)
+        out = np.empty(z.shape, dtype=np.result_type(z, reference))
+        for start in range(0, len(z), size):
+            some = slice(start, start + size)
+            out[some] = self._part(z[some], reference[some], piece[some])
+        return out / self.period
+
+    def _part(self, z: Any, reference: Any, piece: Any) -> Any:
+        t, w, H = self._sources
+        lo, hi, own = self.panels
+        k = np.pi / self.period
+        away = z[:, None] - 0.5 * (lo + hi)
+        turn = self.period * np.rint(np.real(away) / self.period)
+        rows, panels = np.nonzero(np.abs(away - turn) < NEAR * 0.5 * (hi - lo))
+        shifted = z[rows] - turn[rows, panels]  # the repetition of z that is near the panel
+        step = t - z[:, None, None]
+        step[rows, panels] = t[panels] - shifted[:, None]
+        zero = step == 0.0
+        cot = 1.0 / np.tan(k * np.where(zero, 1.0, step))
+        value = w * cot * (H - reference[:, None, None])
+        sums = value.sum(axis=2)
+        near = step[rows, panels]
+        same = (own[panels] == piece[rows]) & (turn[rows, panels] == 0.0)
+        exact = self.pieces.divided(own[panels][:, None], (t[panels], 0.0), (shifted[:, None], 0.0))
+        smooth = np.where(zero[rows, panels], 1.0 / k, near * cot[rows, panels])
+        own_sum = (w[panels] * exact * smooth).sum(axis=1)
+        residue = self.pieces.value(own[panels], shifted, 0.0) - reference[rows]
+        real = np.real(shifted)
+        e = self.pieces.ends
+        beyond = np.maximum(
+            np.maximum(e[own[panels]] - real, real - e[own[panels] + 1]), np.abs(np.imag(shifted))
+        )
+        residue = np.where(beyond <= self.pieces.reach[own[panels]], residue, 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.sin(k * (hi[panels] - shifted)) / np.sin(k * (lo[panels] - shifted))
+            pole = np.log(np.abs(ratio) if not np.iscomplexobj(ratio) else ratio) / k
+        gauss = (w[panels] * cot[rows, panels]).sum(axis=1)
+        pole = np.where(np.isfinite(pole), pole, gauss)
+        other = sums[rows, panels] + residue * (pole - gauss)
+        sums[rows, panels] = np.where(same, own_sum, other)
+        return sums.sum(axis=1)
+
+    def __call__(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        flat = x.ravel()
+        out = zero_or_nan(flat)
+        finite = np.isfinite(flat)
+        at = self.within(flat[finite])
+        piece = self.pieces.locate(at)
+        H = self.pieces.value(piece, at, 0.0)
+        out[finite] = self.load / self.period + self.half_modulus * self._excess(at, H, piece)
+        return np.asarray(out.reshape(x.shape))
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        at = self.within(np.where(np.isfinite(x), x, self.start))
+        one, other = (
+            self.pieces.value(self.pieces.locate(at, s), at, 0.0) for s in ("left", "right")
+        )
+        return np.asarray(
+            np.where(np.isfinite(x), 0.5 * self.half_modulus * (one + other), zero_or_nan(x))
+        )
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        refuse_side(side)
+        z = arguments.complexes("z", z)
+        flat = z.ravel()
+        out = np.empty(flat.shape, dtype=complex)
+        real = flat.imag == 0.0
+        if real.any():
+            out[real] = on_surface(self.hilbert(flat.real[real]), self(flat.real[real]), side)
+        if not real.all():
+            out[~real] = reflected(self._off_axis, flat[~real])
+        return np.asarray(out.reshape(z.shape))
+
+    def _off_axis(self, z: Complex) -> Complex:
+        z = self.within(z.real) + 1j * z.imag
+        piece = self.pieces.locate(z.real)
+        follows = z.imag <= self.pieces.reach[piece]
+        H = np.where(
+            follows, self.pieces.value(piece, z, 0.0), self.pieces.value(piece, z.real, 0.0)
+        )
+        excess = self._excess(z, H, np.where(follows, piece, -1))
+        return np.asarray(self.half_modulus * (H - 1j * excess) - 1j * self.load / self.period)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        """By Cauchy's formula; on the surface from values beside."""
+        refuse_side(side)
+        z = arguments.complexes("z", z)
+        flat = z.ravel()
+        radius = np.where(flat.imag == 0.0, 1e-3 * self.period, NARROW * np.abs(flat.imag))
+        turn = np.exp(2j * np.pi * np.arange(AROUND) / AROUND)
+        out = np.empty(flat.shape, dtype=complex)
+        off = flat.imag != 0.0
+        circle = flat[off, None] + radius[off, None] * turn
+        F = self.cauchy(circle.ravel()).reshape(circle.shape)
+        out[off] = (F * turn.conj()).mean(axis=1) / radius[off]
+        x = flat.real[~off]
+        step = 1e-3 * self.period
+        weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * step)
+        slope = self(x[:, None] + step * np.array([-2.0, -1.0, 1.0, 2.0])) @ weights
+        at = self.within(x)
+        out[~off] = (
+            self.half_modulus * self.pieces.curvature(self.pieces.locate(at), at)
+            - 1j * side * slope
+        )
+        return np.asarray(out.reshape(z.shape))
+
+    @cached_property
+    def lowest(self) -> float:
+        """A lower bound of p over its mean; below 0 where p is negative."""
+        lo, hi, _ = self.panels
+        mean, lowest = self.load / self.period, np.inf
+        g, _ = chebyshev.gauss_legendre(NODES)
+        for _ in range(DEEPEST):
+            p = self((lo[:, None] + (hi - lo)[:, None] * g).ravel()).reshape(len(lo), NODES)
+            if (p < -TENSION * mean).any():
+                return float(p.min()) / mean
+            bound = lower_bound(p)
+            enough = bound >= -TENSION * mean
+            lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
+            if enough.all():
+                break
+            middle = 0.5 * (lo + hi)[~enough]
+            lo, hi = np.concatenate((lo[~enough], middle)), np.concatenate((middle, hi[~enough]))
+        return lowest / mean
+
+
+@dataclass(frozen=True, eq=False)
+class FullContact:
+    """Contact everywhere, as the answer to a scene."""
+
+    edges: Edges
+    pressure: FullPressure
+    symmetric: bool = False
+
+    def slope(self, profile: Any) -> Any:
+        return profile.pieces
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]:
+        return self.pressure.patches
+
+    def gap(self, x: Array) -> Array:
+        """No gap anywhere."""
+        return np.where(np.isnan(x), np.nan, 0.0)
+
+    def certificate(self, tol: float) -> PatchCertificate:
+        """The residual of (1) by a composite rule of its own, and the equilibrium."""
+        pressure = self.pressure
+        x, w = pressure.rule(LEVELS)
+        p = pressure(x)
+        lo, hi, piece = pressure.panels
+        at = (lo + (hi - lo) * 0.45)[:: max(len(lo) // 100, 1)]
+        own = piece[:: max(len(lo) // 100, 1)]
+        values = pressure(at)
+        kernel = (np.pi / pressure.period) / np.tan(np.pi * (at[:, None] - x) / pressure.period)
+        total = ((p - values[:, None]) * kernel) @ w / np.pi
+        residual = np.abs(total - pressure.half_modulus * pressure.pieces.value(own, at, 0.0)).max()
+        return PatchCertificate(
+            residual=float(residual) / float(p.max()),
+            force=abs(float(w @ p) - pressure.load) / pressure.load,
+            moment=0.0,
+            lowest_pressure=min(pressure.lowest, 0.0),
+            patches=1,
+            condition=0.0,
+            measured_to=LEAST,
+            tol=tol,
+        )
+
+
+def full_contact(
+    pieces: Pieces, start: float, period: float, half_modulus: float, load: float
+) -> FullContact | None:
+    """Full contact, if p >= 0 everywhere."""
+    inside = pieces.void & (pieces.ends[:-1] < start + period) & (pieces.ends[1:] > start)
+    if inside.any():
+        return None
+    pressure = FullPressure(pieces, start, period, half_modulus, load)
+    if not pressure.lowest >= -TENSION:
+        return None
+    edges = Edges(
+        Interval(start, start + period),
+        load,
+        pressure.moment,
+        0.0,
+        (False, False),
+        0.0,
+        0.0,
+        0.0,
+        0,
+    )
+    return FullContact(edges, pressure)

@@ -1,0 +1,318 @@
+"""The slope H of a profile on its pieces: values, divided differences and rises that keep their digits.
+
+On a piece H is a polynomial about an origin of its own, plus (where the profile has functions) a
+Chebyshev series. What the integrals ask for beside values are
+
+    H[t, x]      = (H(t) - H(x)) / (t - x)       by Horner's scheme, by the recurrence of T_n[t, x]
+    rise(x, y)   = h(y) - h(x)                   the same of the antiderivative, times y - x
+
+so that neither loses digits where the points come together. Between the indenters of a row there
+are pieces without indenter (`void`): H is 0 there, h infinite, and only the rise across is known.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+from sie.profiles.base import Profile
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows by no more
+COPIES = (
+    -1.0,
+    0.0,
+    1.0,
+    2.0,
+)  # periods: patches are found from one cut to the next, wherever that is
+EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
+WAVES = 6.0  # of these lengths a panel may take in
+CORNER = 1e-9  # of H: a jump down that is no rounding
+ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """H on K pieces.
+
+    ends       (K + 1,), ascending; the outer two may be infinite
+    origin     (K,) and power (K, D): polynomial coefficients about it, low order first
+    series     (K, E): Chebyshev coefficients on [ends[k], ends[k + 1]], E = 0 without functions
+    void       (K,): whether there is no indenter there
+    across     (K,): h at the upper end less h at the lower one, of a void piece
+    """
+
+    ends: Array
+    origin: Array
+    power: Array
+    series: Array
+    void: NDArray[np.bool_]
+    across: Array
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return float(self.ends[0]), float(self.ends[-1])
+
+    @cached_property
+    def _centre(self) -> Array:
+        with np.errstate(invalid="ignore"):
+            return np.asarray(0.5 * (self.ends[:-1] + self.ends[1:]))
+
+    @cached_property
+    def _half(self) -> Array:
+        return np.asarray(0.5 * np.diff(self.ends))
+
+    @cached_property
+    def degree(self) -> int:
+        return max(self.power.shape[1], self.series.shape[1]) - 1
+
+    @cached_property
+    def reach(self) -> Array:
+        """How far beyond its ends each piece may be continued, as a length."""
+        n = max(self.power.shape[1] - 1, 1)
+        length = 2.0 * self._half
+        reach = length * (EASY if n < 4 else 2.0 / n**2)
+        if self.series.shape[1] > 1:
+            rho = chebyshev.reach(self.series, GROWTH)
+            far = self._half * (0.5 * (rho + 1.0 / rho) - 1.0)
+            reach = np.where(self.series[:, 1:].any(axis=1), np.minimum(reach, far), reach)
+        return np.asarray(np.where(self.void, 0.0, reach))
+
+    @cached_property
+    def plain(self) -> Array:
+        """A length over which each piece is as good as a polynomial of low degree."""
+        n = np.full(len(self.origin), self.power.shape[1] - 1)
+        if self.series.shape[1]:
+            order = np.arange(self.series.shape[1])
+            n = np.maximum(n, np.where(self.series != 0.0, order, 0).max(axis=1))
+        with np.errstate(invalid="ignore"):
+            return np.asarray(np.where(n < 4, np.inf, 2.0 * self._half / np.maximum(n, 1)))
+
+    @cached_property
+    def cuts(self) -> Array:
+        """The ends, and between them as many places as the degree of a series asks for."""
+        bounded = np.isfinite(self.plain) & np.isfinite(self._half)
+        parts = np.ones(len(self.origin))
+        parts[bounded] = 2.0 * self._half[bounded] / (WAVES * self.plain[bounded])
+        if not (parts > 1.0).any():
+            return self.ends
+        count = np.maximum(np.ceil(parts), 1.0).astype(int)
+        inner = [
+            np.linspace(a, b, n + 1)[:-1]
+            for a, b, n in zip(self.ends, self.ends[1:], count)
+            if n > 1
+        ]
+        return np.union1d(self.ends, np.concatenate(inner))
+
+    def locate(self, x: Any, side: str = "right") -> Index:
+        """The piece at x; at a break the one on that side of it."""
+        k = np.searchsorted(self.ends, x, side="right" if side == "right" else "left") - 1
+        return np.asarray(np.clip(k, 0, len(self.origin) - 1))
+
+    def value(self, k: Any, anchor: Any, offset: Any) -> Any:
+        """H of the pieces k at anchor + offset, continued where that is outside."""
+        y = (anchor - self.origin[k]) + offset
+        column = self.power.T
+        total = column[-1][k] + 0.0 * y
+        for c in column[-2::-1]:
+            total = total * y + c[k]
+        if self.series.shape[1]:
+            s = ((anchor - self._centre[k]) + offset) / self._half[k]
+            total = total + _clenshaw(self.series.T, k, s)
+        return total
+
+    def divided(self, k: Any, t: tuple[Any, Any], x: tuple[Any, Any]) -> Any:
+        """H[t, x] of the pieces k at two points (anchor, offset)."""
+        return self._divided(self.power.T, self.series.T, k, t, x)
+
+    def rise(self, k: Any, x: tuple[Any, Any], y: tuple[Any, Any]) -> Any:
+        """h(y) - h(x) on the pieces k."""
+        power, series = self._antiderivative
+        return self._divided(power.T, series.T, k, y, x) * ((y[0] - x[0]) + (y[1] - x[1]))
+
+    @cached_property
+    def _antiderivative(self) -> tuple[Array, Array]:
+        K, D = self.power.shape
+        power = np.zeros((K, D + 1))
+        power[:, 1:] = self.power / np.arange(1, D + 1)
+        series = self.series
+        if series.shape[1]:
+            series = chebyshev.antiderivative(series) * self._half[:, None]
+        return power, series
+
+    def _divided(self, power: Array, series: Array, k: Any, t: Any, x: Any) -> Any:
+        yt, yx = (p[0] - self.origin[k] + p[1] for p in (t, x))
+        value = power[-1][k] + 0.0 * yt
+        slope = np.zeros(np.broadcast(yt, yx).shape, dtype=np.result_type(yt, yx))
+        for c in power[-2::-1]:
+            slope = slope * yx + value
+            value = value * yt + c[k]
+        if len(series) > 1:
+            st, sx = (((p[0] - self._centre[k]) + p[1]) / self._half[k] for p in (t, x))
+            slope = slope + _divided_series(series, k, st, sx) / self._half[k]
+        return slope
+
+    def rises(self, x: Array, y: Array) -> Array:
+        """h(y) - h(x) for x <= y, over any number of pieces."""
+        kx, ky = self.locate(x), np.maximum(self.locate(y, "left"), self.locate(x))
+        same = kx == ky
+        upper, lower = np.where(same, y, self.ends[kx + 1]), np.where(same, y, self.ends[ky])
+        total = np.where(self.void[kx] & (y > x), self.across[kx], 0.0)
+        total += np.where(self.void[ky] & ~same, self.across[ky], 0.0)
+        solid = ~self.void[kx]
+        total[solid] += self.rise(kx[solid], (x[solid], 0.0), (upper[solid], 0.0))
+        last = ~same & ~self.void[ky]
+        total[last] += self.rise(ky[last], (lower[last], 0.0), (y[last], 0.0))
+        between = ky - kx > 1
+        if between.any():
+            cuts = np.stack((kx[between] + 1, ky[between]), axis=1).ravel()
+            whole = np.append(self._whole, 0.0)
+            total[between] += np.add.reduceat(whole, cuts)[::2]
+        return total
+
+    @cached_property
+    def _whole(self) -> Array:
+        """h at the upper end less h at the lower one of each piece (0 of an unbounded one)."""
+        k = np.flatnonzero(np.isfinite(self._half) & ~self.void)
+        whole = np.where(self.void, self.across, 0.0)
+        whole[k] = self.rise(k, (self.ends[k], 0.0), (self.ends[k + 1], 0.0))
+        return whole
+
+    def solid_around(self, x: Array) -> tuple[Array, Array]:
+        """The ends of the interval without walls that each x is in."""
+        void = np.flatnonzero(self.void)
+        starts = np.concatenate((self.ends[:1], self.ends[void + 1]))
+        stops = np.concatenate((self.ends[void], self.ends[-1:]))
+        k = np.clip(np.searchsorted(starts, x, side="right") - 1, 0, len(starts) - 1)
+        return starts[k], stops[k]
+
+    @cached_property
+    def never_closed(self) -> Array:
+        """Places that no contact covers: walls, and concave corners, where H jumps down."""
+        k = np.arange(len(self.origin) - 1)
+        x = self.ends[1:-1]
+        with np.errstate(invalid="ignore"):
+            below, above = self.value(k, x, 0.0), self.value(k + 1, x, 0.0)
+        down = below - above > CORNER * np.maximum(np.abs(below), np.abs(above))
+        return np.asarray(x[down | self.void[:-1] | self.void[1:]])
+
+    def curvature(self, k: Any, x: Any) -> Any:
+        """H' of the pieces k at x."""
+        return self.divided(k, (x, 0.0), (x, 0.0))
+
+
+def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pieces:
+    """The slope of a profile with its walls, functions resolved on the window; several copies of a periodic one."""
+    slope = profile.pieces
+    pieces = _with_walls(from_slope(slope, window, tol), profile.walls, profile)
+    if profile.period == np.inf:
+        return pieces
+    parts = []
+    for turn in COPIES:
+        shift = turn * profile.period
+        parts.append(replace(pieces, ends=pieces.ends + shift, origin=pieces.origin + shift))
+    return Pieces(
+        np.concatenate([parts[0].ends[:1], *(p.ends[1:] for p in parts)]),
+        *(
+            np.concatenate([getattr(p, name) for p in parts])
+            for name in ("origin", "power", "series", "void", "across")
+        ),
+    )
+
+
+def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile: Profile) -> Pieces:
+    for lo, hi in walls:
+        if hi > pieces.ends[-1]:  # the rest of a period
+            pieces = _inserted(pieces, len(pieces.origin), hi)
+            first, last = len(pieces.origin) - 1, 0
+        elif lo == hi:
+            k = int(np.searchsorted(pieces.ends, lo))
+            at_end = k == len(pieces.ends) - 1
+            pieces = _inserted(pieces, k, lo)
+            first, last = k, 0 if at_end else k + 1
+        else:
+            first = int(np.searchsorted(pieces.ends, lo, "right")) - 1
+            last = int(np.searchsorted(pieces.ends, hi))
+            if first == last:
+                continue
+            pieces.void[first:last] = True
+        pieces.across[first] = _height_after(pieces, last, profile) - _height_before(
+            pieces, first, profile
+        )
+    return pieces
+
+
+def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
+    """A void piece before piece k, up to `end`."""
+    return Pieces(
+        np.insert(pieces.ends, k + 1, end) if k < len(pieces.ends) else np.append(pieces.ends, end),
+        np.insert(pieces.origin, k, end),
+        np.insert(pieces.power, k, 0.0, axis=0),
+        np.insert(pieces.series, k, 0.0, axis=0),
+        np.insert(pieces.void, k, True),
+        np.insert(pieces.across, k, 0.0),
+    )
+
+
+def _height_after(pieces: Pieces, k: int, profile: Profile) -> float:
+    """h at the lower end of piece k, from inside."""
+    x = float(pieces.ends[k])
+    inner = x + min(float(pieces._half[k]), 1.0)
+    return float(profile.height(inner)) - float(pieces.rise(k, (x, 0.0), (inner, 0.0)))
+
+
+def _height_before(pieces: Pieces, k: int, profile: Profile) -> float:
+    """h at the upper end of the piece before k, from inside."""
+    x = float(pieces.ends[k])
+    inner = x - min(float(pieces._half[k - 1]), 1.0)
+    return float(profile.height(inner)) + float(pieces.rise(k - 1, (inner, 0.0), (x, 0.0)))
+
+
+def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
+    """The pieces of a slope; its functions are resolved on the window."""
+    resolved = refined(slope, *window, tol)
+    K = len(resolved.origins)
+    series = np.zeros((K, 0))
+    if resolved.functions:
+        lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
+        n = int(resolved.degrees.max()) + 1
+        u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
+        only = replace(resolved, coefficients=np.zeros((K, 1)))
+        series = chebyshev.transform(only.local(np.arange(K), lo, np.zeros(K), u))
+        series[np.abs(series) < ROUNDING * np.abs(series).max()] = 0.0
+    none = np.zeros(K, dtype=bool)
+    return Pieces(
+        resolved.breaks, resolved.origins, resolved.coefficients, series, none, np.zeros(K)
+    )
+
+
+def _clenshaw(c: Array, k: Any, s: Any) -> Any:
+    if len(c) == 1:
+        return c[0][k] + 0.0 * s
+    high, higher = c[-1][k] + 0.0 * s, 0.0
+    for row in c[-2:0:-1]:
+        high, higher = row[k] + 2.0 * s * high - higher, high
+    return c[0][k] + s * high - higher
+
+
+def _divided_series(c: Array, k: Any, t: Any, x: Any) -> Any:
+    """Σ c_n T_n[t, x] by T_{n+1}[t, x] = 2t T_n[t, x] + 2T_n(x) - T_{n-1}[t, x]."""
+    before: Any = 0.0
+    now: Any = np.ones(np.broadcast(t, x).shape, dtype=np.result_type(t, x))
+    T_before: Any = 1.0
+    T_now: Any = x
+    total = c[1][k] * now
+    for row in c[2:]:
+        before, now = now, 2.0 * t * now + 2.0 * T_now - before
+        T_before, T_now = T_now, 2.0 * x * T_now - T_before
+        total = total + row[k] * now
+    return total

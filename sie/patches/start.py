@@ -1,0 +1,175 @@
+"""Where contact is, about: conjugate gradients on a grid, each product by two FFTs, from coarse grids to fine ones.
+
+The pressure minimises ½∫p u + ∫p h under p >= 0 and ∫p = P (Polonsky & Keer 1999), with u = -1/(πG) ∫p ln|x - t| on the line
+and the harmonics p_k/(G|k|) per period. Edges are where p², linear next to a smooth edge, reaches zero; a patch of a few cells
+is a parabola with its load, P = πGκr²/2, where the slope is that which the other patches leave.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+COARSEST = 256  # cells
+ITERATIONS = 400  # on one grid
+ENOUGH = 1e-3  # relative change of the pressure, summed over ITERATIONS, below which a grid is done
+
+
+class Grid(NamedTuple):
+    """Cells of length dx from lo; p the pressure over E*/2 on each, and whether the grid is a period."""
+
+    lo: float
+    dx: float
+    p: Array
+    periodic: bool
+
+    @property
+    def x(self) -> Array:
+        return np.asarray(self.lo + self.dx * (np.arange(len(self.p)) + 0.5), dtype=float)
+
+
+def grid_pressure(
+    height: Callable[[Array], Array],
+    window: tuple[float, float],
+    cells: int,
+    load: float,
+    periodic: bool,
+) -> Grid:
+    """The pressure over E*/2 on a grid of the window; heights may be infinite where there is no indenter."""
+    lo, hi = window
+    n = min(COARSEST, cells)
+    p = np.ones(0)
+    while True:
+        dx = (hi - lo) / n
+        h = height(np.asarray(lo + dx * (np.arange(n) + 0.5), dtype=float))
+        p = np.repeat(p, n // len(p)) if p.size else np.isfinite(h).astype(float)
+        p = np.where(np.isfinite(h), p, 0.0)
+        if not p.any():
+            p = np.isfinite(h).astype(float)
+        p *= load / (p.sum() * dx)
+        p = _relaxed(h, p, dx, load, periodic)
+        if n >= cells:
+            return Grid(lo, dx, p, periodic)
+        n *= 4
+
+
+def _influence(n: int, dx: float, periodic: bool) -> Array:
+    """The transform of the displacement under a load on one cell."""
+    if periodic:
+        k = 2.0 * np.pi * np.arange(n // 2 + 1) / (n * dx)
+        with np.errstate(divide="ignore"):
+            # over the mean of a cell: sinc
+            return np.where(k > 0.0, np.sinc(0.5 * k * dx / np.pi) / k, 0.0)
+    offset = np.arange(n + 1) + 0.5
+    primitive = offset * (np.log(offset) - 1.0)
+    kernel = np.empty(n + 1)
+    kernel[1:] = np.diff(primitive)
+    kernel[0] = 2.0 * primitive[0]
+    kernel = -(dx / np.pi) * (kernel + np.log(dx) * 1.0)
+    return np.fft.rfft(np.concatenate((kernel, kernel[-2:0:-1]))).real
+
+
+def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Array:
+    n = len(h)
+    K = _influence(n, dx, periodic)
+    size = n if periodic else 2 * n
+    solid = np.isfinite(h)
+    h = np.where(solid, h, 0.0)
+
+    def displaced(q: Array) -> Array:
+        return np.fft.irfft(np.fft.rfft(q, size) * K, size)[:n]
+
+    t, before, conjugate = np.zeros(n), 1.0, 0.0
+    for _ in range(ITERATIONS):
+        contact = p > 0.0
+        if not contact.any() or not np.isfinite(p).all():
+            raise FloatingPointError("no pressure on the grid")
+        gap = displaced(p) + h
+        gap -= gap[contact].mean()
+        now = float((gap[contact] ** 2).sum())
+        if now == 0.0:
+            break
+        t = np.where(contact, gap + conjugate * (now / before) * t, 0.0)
+        before = now
+        r = displaced(t)
+        r -= r[contact].mean()
+        step = float(gap[contact] @ t[contact]) / float(r[contact] @ t[contact])
+        old = p
+        p = np.maximum(p - step * t, 0.0)
+        overlap = (p == 0.0) & (gap < 0.0) & solid
+        conjugate = 0.0 if overlap.any() else 1.0
+        p[overlap] -= step * gap[overlap]
+        p = np.maximum(p, 0.0)
+        p *= load / (p.sum() * dx)
+        if np.abs(p - old).sum() <= ENOUGH * p.sum() / 20.0 and not overlap.any():
+            break
+    return p
+
+
+BEYOND = 0.9  # of a cell: an edge is no farther from the middle of the outer cell
+FEW = 5  # cells: a patch of fewer is taken as a parabola
+
+
+class Patch(NamedTuple):
+    """What a grid tells of a patch: edges, about, its load and how many cells it has."""
+
+    a: float
+    b: float
+    load: float
+    centre: float
+    cells: int
+
+
+def patches_on(grid: Grid) -> list[Patch]:
+    """The patches on a grid; per period the cells are turned so that the widest gap is at the end."""
+    p, n = grid.p, len(grid.p)
+    turn = 0
+    if grid.periodic:
+        empty = np.flatnonzero(p == 0.0)
+        if not empty.size:  # the gap is narrower than a cell
+            empty = np.array([int(np.argmin(p))])
+            p = p.copy()
+            p[empty] = 0.0
+        runs = np.split(empty, np.flatnonzero(np.diff(empty) > 1) + 1)
+        if len(runs) > 1 and runs[0][0] == 0 and runs[-1][-1] == n - 1:
+            runs = [*runs[1:-1], np.concatenate((runs[-1], runs[0] + n))]
+        widest = max(runs, key=len)
+        turn = int(widest[len(widest) // 2]) % n
+        p = np.roll(p, -turn)
+    x = grid.lo + grid.dx * (np.arange(n) + 0.5 + turn)
+    contact = np.concatenate(([False], p > 0.0, [False]))
+    starts, stops = (
+        np.flatnonzero(contact[1:] & ~contact[:-1]),
+        np.flatnonzero(contact[:-1] & ~contact[1:]),
+    )
+    found = []
+    for i, j in zip(starts.tolist(), stops.tolist(), strict=True):
+        q = p[i:j]
+        load = float(q.sum() * grid.dx)
+        centre = float(q @ x[i:j]) * grid.dx / load
+        a, b = (
+            (_zero(q[:2], x[i], -grid.dx), _zero(q[:-3:-1], x[j - 1], grid.dx))
+            if j - i > 1
+            else (x[i], x[i])
+        )
+        found.append(
+            Patch(
+                max(a, x[i] - BEYOND * grid.dx),
+                min(b, x[j - 1] + BEYOND * grid.dx),
+                load,
+                centre,
+                j - i,
+            )
+        )
+    return found
+
+
+def _zero(q: Array, x: float, outward: float) -> float:
+    """Where p², linear through the two outer cells, is zero: up to a cell beyond the outer one."""
+    rise = q[1] ** 2 - q[0] ** 2
+    return x + outward * (min(q[0] ** 2 / rise, 1.0) if rise > 0.0 else 0.5)

@@ -1,0 +1,426 @@
+"""Indenters on one rigid holder, and indenters that repeat themselves.
+
+Row        h(x) is the least of the heights of several profiles, infinite beyond all of them
+Periodic   h is that of one profile on one period, repeated for ever
+
+The slope of a row is that of the profile that is lowest there. Where two of them cross the row has
+a concave corner, which contact never reaches; where one ends below another h jumps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sie import arguments
+
+from .base import Profile, joined, of_any_x
+from .slope import FunctionTerm, Slope, recentred
+
+Array = NDArray[np.float64]
+INF = float("inf")
+
+SAMPLES = 33  # points between two breaks at which the heights of functions are compared
+FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
+BISECTIONS = 200
+WHOLE = 1e-12  # of a period: by so much a profile may be longer, by rounding
+LEVEL = 1e-9  # of the heights: by so much the ends of a period may differ, by rounding
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class Row(Profile):
+    """Several indenters on one rigid holder: h(x) is the least of theirs.
+
+    Parameters
+    ----------
+    profiles : sequence of Profile
+        The indenters, each where it stands: `shifted(dx)` moves one along the surface, `raised(dz)`
+        away from it. At least one; none of them periodic.
+
+    Raises
+    ------
+    ValueError
+        If there is no profile, or one is not a profile or is periodic.
+
+    Examples
+    --------
+    >>> from sie import Flat
+    >>> row = Row([Flat(0.4).shifted(-0.6), Flat(0.5).shifted(0.8).raised(0.001)])
+    >>> row.height([-0.5, 0.0, 0.5])
+    array([0.   ,   inf, 0.001])
+    """
+
+    profiles: tuple[Profile, ...]
+
+    def __init__(self, profiles: Iterable[Profile]) -> None:
+        given = tuple(profiles) if isinstance(profiles, Iterable) else (profiles,)
+        if not given:
+            raise ValueError("a row without profiles: give at least one")
+        for k, profile in enumerate(given):
+            if not isinstance(profile, Profile):
+                raise ValueError(
+                    f"profiles[{k}] = {profile!r} is not a profile: give sie.Parabola(...) or another"
+                )
+            if profile.period < INF:
+                raise ValueError(
+                    f"profiles[{k}] is periodic: make a row of what is in one period and repeat that"
+                )
+        object.__setattr__(self, "profiles", given)
+
+    def __repr__(self) -> str:
+        return f"Row([{', '.join(map(repr, self.profiles))}])"
+
+    @cached_property
+    def lowest(self) -> tuple[tuple[float, float, int], ...]:
+        """(lo, hi, which profile is the lowest there), ascending; -1 where there is none."""
+        runs: list[tuple[float, float, int]] = []
+        for lo, hi, k in _compared(self.profiles):
+            if runs and runs[-1][2] == k:
+                runs[-1] = runs[-1][0], hi, k
+            else:
+                runs.append((lo, hi, k))
+        return tuple(runs)
+
+    @cached_property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        found = [(lo, hi) for lo, hi, k in self.lowest if k < 0]
+        for (_, x, one), (_, _, other) in pairwise(self.lowest):
+            if (
+                one >= 0
+                and other >= 0
+                and x in (*_ends(self.profiles[one]), *_ends(self.profiles[other]))
+            ):
+                found.append((x, x))
+        for lo, hi, k in self.lowest:
+            found += [
+                wall for wall in self.profiles[max(k, 0)].walls if lo < wall[0] and wall[1] < hi
+            ]
+        return joined(tuple(found))
+
+    @cached_property
+    def pieces(self) -> Slope:
+        """The slope of whichever profile is lowest; 0 where there is none."""
+        if any(self.profiles[k].pieces.functions for _, _, k in self.lowest if k >= 0):
+            return self._of_functions
+        parts = []
+        for lo, hi, k in self.lowest:
+            if k < 0:
+                flat = Slope(np.array([lo, hi]), np.array([lo]), np.zeros((1, 1)), np.zeros(1, int))
+                parts.append(flat)
+            else:
+                parts.append(_cut(self.profiles[k].pieces, lo, hi))
+        width = max(part.coefficients.shape[1] for part in parts)
+        c = [np.pad(s.coefficients, ((0, 0), (0, width - s.coefficients.shape[1]))) for s in parts]
+        return Slope(
+            np.concatenate([parts[0].breaks[:1], *(part.breaks[1:] for part in parts)]),
+            np.concatenate([part.origins for part in parts]),
+            np.concatenate(c),
+            np.concatenate([part.degrees for part in parts]),
+        )
+
+    @cached_property
+    def _of_functions(self) -> Slope:
+        inner = [b for p in self.profiles for b in p.breaks]
+        ends = {x for lo, hi, _ in self.lowest for x in (lo, hi)}
+        lo, hi = self.lowest[0][0], self.lowest[-1][1]
+        breaks = np.array(sorted(ends | {b for b in inner if lo < b < hi}))
+        zeros = np.zeros(len(breaks) - 1)
+        origins = np.where(np.isfinite(breaks[:-1]), breaks[:-1], 0.0)
+        term = FunctionTerm(LowestSlope(self))
+        return Slope(breaks, origins, zeros[:, None], zeros.astype(np.int64), (term,))
+
+    @of_any_x
+    def height(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        return np.asarray(np.minimum.reduce([profile.height(x) for profile in self.profiles]))
+
+    @cached_property
+    def ends_are_corners(self) -> tuple[bool, bool]:
+        """Those of the profiles that reach farthest."""
+        lo, hi = self.domain
+        left = [p.ends_are_corners[0] for p in self.profiles if p.domain[0] == lo]
+        right = [p.ends_are_corners[1] for p in self.profiles if p.domain[1] == hi]
+        return all(left), all(right)
+
+
+@dataclass(frozen=True)
+class LowestSlope:
+    """The slope of a row as a function, where one of its profiles is one."""
+
+    row: Row
+
+    def __call__(self, x: Array) -> Array:
+        x = np.asarray(x, dtype=float)
+        ends = np.array([hi for _, hi, _ in self.row.lowest[:-1]])
+        which = np.array([k for _, _, k in self.row.lowest])[np.searchsorted(ends, x, side="right")]
+        values = np.zeros(x.shape)
+        for k, profile in enumerate(self.row.profiles):
+            here = which == k
+            if here.any():
+                values[here] = profile.pieces(x[here])
+        return values
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class Periodic(Profile):
+    """A profile that is repeated with a period: loads are then per period.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter on one period: on its domain where that is bounded (and no longer than the
+        period); otherwise on one period about its axis, or about x = 0 if it has none, with its
+        neighbours where they are lower. Where it is shorter than the period there is no indenter
+        between.
+    period : float
+        The length after which it is repeated.
+
+    Raises
+    ------
+    ValueError
+        If the period is not positive or the profile is longer, or is periodic already.
+
+    Examples
+    --------
+    >>> from sie import Parabola
+    >>> wave = Periodic(Parabola(1.0), period=2.0)
+    >>> wave.height([0.5, 2.5])
+    array([0.125, 0.125])
+    """
+
+    profile: Profile
+    repeats: float
+
+    def __init__(self, profile: Profile, period: float) -> None:
+        if not isinstance(profile, Profile):
+            raise ValueError(
+                f"profile = {profile!r} is not a profile: give sie.Parabola(...) or another"
+            )
+        if profile.period < INF:
+            raise ValueError("the profile is periodic already: give the one that is repeated")
+        period = arguments.positive("period", period)
+        lo, hi = profile.domain
+        if abs(lo) < INF and abs(hi) < INF and hi - lo > period * (1.0 + WHOLE):
+            raise ValueError(
+                f"the profile is {hi - lo:g} long, more than its period {period:g}: "
+                "give a longer period, or the part that is repeated"
+            )
+        object.__setattr__(self, "profile", profile)
+        object.__setattr__(self, "repeats", period)
+
+    def __repr__(self) -> str:
+        return f"Periodic({self.profile!r}, period={self.repeats!r})"
+
+    @property
+    def period(self) -> float:
+        return self.repeats
+
+    @cached_property
+    def start(self) -> float:
+        """Where the period of `profile` begins that is repeated."""
+        lo, hi = self.profile.domain
+        if abs(lo) < INF:
+            return lo
+        if abs(hi) < INF:
+            return hi - self.repeats
+        return (self.profile.axis or 0.0) - 0.5 * self.repeats
+
+    @cached_property
+    def repeated(self) -> Profile:
+        """What is repeated: the profile, or the lowest of its neighbours where the ends of an unbounded one do not meet."""
+        if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
+            return self.profile
+        return Row([self.profile.shifted(turn * self.repeats) for turn in (-1, 0, 1)])
+
+    def _level(self, profile: Profile) -> bool:
+        """Whether both ends of a period are equally high."""
+        x = self.start + self.repeats * np.linspace(0.0, 1.0, SAMPLES + 5)
+        heights = profile.height(x)
+        size = np.abs(heights[np.isfinite(heights)]).max(initial=0.0)
+        return bool(abs(heights[-1] - heights[0]) <= LEVEL * size)
+
+    @cached_property
+    def pieces(self) -> Slope:
+        """H on one period, from `start`; shorter where the indenter is."""
+        slope = self.repeated.pieces
+        return _cut(slope, self.start, min(self.start + self.repeats, slope.domain[1]))
+
+    @cached_property
+    def walls(self) -> tuple[tuple[float, float], ...]:
+        """Those in the period that begins at `start`; the last one may reach up to its end."""
+        lo, hi = self.pieces.domain
+        end = self.start + self.repeats
+        found = [(a, b) for a, b in self.repeated.walls if lo < a and b < hi]
+        if end - hi > WHOLE * self.repeats:
+            found.append((hi, end))
+        elif not self._level(self.repeated):
+            found.append((hi, hi))
+        return tuple(found)
+
+    def within(self, x: Array) -> Array:
+        """The same places in the period that begins at `start`."""
+        return x - self.repeats * np.floor((x - self.start) / self.repeats)
+
+    def slope(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        finite = np.isfinite(x)
+        inner = self.within(np.where(finite, x, self.start))
+        beyond = inner > self.pieces.domain[1]
+        values = np.where(beyond, INF, self.pieces(np.minimum(inner, self.pieces.domain[1])))
+        return np.where(finite, values, np.nan)[()]
+
+    def height(self, x: ArrayLike) -> Array:
+        x = arguments.reals("x", x)
+        finite = np.isfinite(x)
+        values = self.repeated.height(self.within(np.where(finite, x, self.start)))
+        return np.where(finite, values, np.nan)[()]
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Those in the period that begins at `start`."""
+        return tuple(float(b) for b in self.pieces.breaks[1:-1])
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return -INF, INF
+
+    @property
+    def axis(self) -> float | None:
+        return self.profile.axis
+
+    def tilted(self, slope: float) -> Profile:
+        if arguments.measure("tilted", slope) != 0.0:
+            raise ValueError(
+                f"tilted({slope:g}) of a periodic profile is not periodic: leave it level"
+            )
+        return self
+
+    def shifted(self, dx: float) -> Profile:
+        return Periodic(self.profile.shifted(dx), self.repeats)
+
+    def mirrored(self) -> Profile:
+        return Periodic(self.profile.mirrored(), self.repeats)
+
+    def raised(self, dz: float) -> Profile:
+        return Periodic(self.profile.raised(dz), self.repeats)
+
+
+# -- which profile is the lowest -------------------------------------------------------------------
+
+
+def _ends(profile: Profile) -> tuple[float, ...]:
+    ends = (*profile.domain, *(x for wall in profile.walls for x in wall))
+    return tuple(x for x in ends if abs(x) < INF)
+
+
+def _cut(slope: Slope, lo: float, hi: float) -> Slope:
+    """The slope on [lo, hi], which may reach to infinity with it."""
+    split = slope
+    for x in (lo, hi):
+        split = split.split_at(x) if abs(x) < INF else split
+    kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
+    breaks = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
+    return Slope(
+        breaks, split.origins[kept], split.coefficients[kept], split.degrees[kept], split.functions
+    )
+
+
+Runs = list[tuple[float, float, int]]
+
+
+def _compared(profiles: tuple[Profile, ...]) -> Runs:
+    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there is none."""
+    slopes = [profile.pieces for profile in profiles]
+    ends = np.unique(np.concatenate([s.breaks for s in slopes] + [_ends(p) for p in profiles]))
+    found: Runs = []
+    for lo, hi in pairwise(ends.tolist()):
+        inner = _inner(lo, hi)
+        active = [k for k, p in enumerate(profiles) if float(p.height(inner)) < INF]
+        runs: list[Runs] = [[(lo, hi, k)] for k in active]
+        while len(runs) > 1:  # in pairs, so that few heights are compared
+            pairs = zip(runs[::2], runs[1::2], strict=False)
+            merged = [_lower(profiles, slopes, one, other) for one, other in pairs]
+            runs = merged + runs[2 * len(merged) :]
+        found += runs[0] if runs else [(lo, hi, -1)]
+    return found
+
+
+def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other: Runs) -> Runs:
+    """The lower of two envelopes of the same interval, all heights smooth there."""
+    found: Runs = []
+    ends = sorted({x for lo, hi, _ in one + other for x in (lo, hi)})
+    for lo, hi in pairwise(ends):
+        i, j = (next(k for a, b, k in runs if a <= lo and hi <= b) for runs in (one, other))
+        cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
+        for a, b in pairwise(cuts):
+            inner = _inner(a, b)
+            k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
+            if found and found[-1][2] == k:
+                found[-1] = found[-1][0], b, k
+            else:
+                found.append((a, b, k))
+    return found
+
+
+def _inner(lo: float, hi: float) -> float:
+    if abs(lo) < INF and abs(hi) < INF:
+        return 0.5 * (lo + hi)
+    if abs(lo) < INF:
+        return lo + max(1.0, abs(lo))
+    return hi - max(1.0, abs(hi)) if abs(hi) < INF else 0.0
+
+
+def _crossings(
+    profiles: tuple[Profile, ...], slopes: list[Slope], pair: tuple[int, int], lo: float, hi: float
+) -> list[float]:
+    """Where the heights of two profiles are equal between lo and hi."""
+    one, other = pair
+    inner = _inner(lo, hi)
+    if slopes[one].functions or slopes[other].functions:
+        return _sampled_crossings(profiles[one], profiles[other], lo, hi)
+    rows = []
+    for k in (one, other):
+        piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
+        width = slopes[k].coefficients.shape[1]
+        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0]
+        rows.append(
+            np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
+        )
+    n = max(map(len, rows))
+    difference = np.pad(rows[0], (0, n - len(rows[0]))) - np.pad(rows[1], (0, n - len(rows[1])))
+    half = 0.5 * (hi - lo)
+    if half < INF and abs(difference[0]) > np.abs(difference[1:]) @ half ** np.arange(1.0, n):
+        return []
+    if not difference.any():
+        return []
+    roots = np.roots(np.trim_zeros(difference[::-1], "f"))
+    real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
+    return [float(x) for x in real if lo < x < hi]
+
+
+def _sampled_crossings(one: Profile, other: Profile, lo: float, hi: float) -> list[float]:
+    from scipy.optimize import brentq  # noqa: PLC0415
+
+    def difference(x: Any) -> Any:
+        return one.height(x) - other.height(x)
+
+    centre = _inner(lo, hi)
+    left, right = (x if abs(x) < INF else centre + side * FAR for x, side in ((lo, -1), (hi, 1)))
+    if abs(lo) < INF and abs(hi) < INF:
+        x = left + (right - left) * 0.5 * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, SAMPLES)))
+    else:
+        spread = np.geomspace(1e-3, FAR, 4 * SAMPLES)
+        x = np.concatenate((centre - spread[::-1], [centre], centre + spread))
+        x = x[(x >= left) & (x <= right)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = difference(x)
+    change = np.flatnonzero(
+        np.isfinite(values[:-1] * values[1:]) & (values[:-1] * values[1:] < 0.0)
+    )
+    return [float(brentq(difference, x[k], x[k + 1], xtol=1e-300, rtol=8.9e-16)) for k in change]

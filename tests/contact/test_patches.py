@@ -1,0 +1,354 @@
+"""Contact in several patches: edges, loads and pressures against values of thirty digits, and closed forms."""
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strategies import between, log_between
+
+import sie
+from analytic import flat_row, two_parabolas, wavy
+from sie.patches.of_scene import problem_of
+from sie.patches.solver import contact
+
+TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+ROUNDED = sie.Row(
+    [sie.RoundedFlat(0.4, 1.0).shifted(-1.2), sie.RoundedFlat(0.25, 2.0).shifted(1.0).raised(0.01)]
+)
+FLATS = sie.Row([sie.Flat(0.4).shifted(-0.6), sie.Flat(0.55).shifted(0.85)])
+
+
+def waved(x):
+    return x - 0.6 * np.sin(12.0 * x + 0.7)
+
+
+def harmonics(x):
+    return 0.8 * np.sin(x) + 1.05 * np.sin(3.0 * x + 0.5) + 0.84 * np.sin(7.0 * x + 1.1)
+
+
+# Edges by Newton's method on the integral equation in 30 digits, by two different routes.
+REFERENCES = {
+    "two parabolas": (
+        {"profile": TWO, "normal_load": 0.4},
+        (-1.58325986638602757, -0.53524903797441766, 0.603485211237481694, 1.269847059573996219),
+    ),
+    "two parabolas under a moment": (
+        {"profile": TWO, "normal_load": 0.4, "moment": 0.05},
+        (-1.45864941190000681, -0.54334310800098487, 0.587826018451422709, 1.345480218825823384),
+    ),
+    "wavy punch": (
+        {"profile": sie.FromFunction(waved, domain=(-2.0, 2.0)), "normal_load": 0.228},
+        (
+            -0.43237913911396203,
+            -0.12219005194204682,
+            0.001890506233437465,
+            0.352657113232932,
+            0.6302796532851106,
+            0.6890729844189019,
+        ),
+    ),
+    "two rounded flats": (
+        {"profile": ROUNDED, "normal_load": 0.6},
+        (-2.20774455378010643, -0.43224940895161958, 0.215084495070883301, 2.198435239858398718),
+    ),
+    "three harmonics": (
+        {"profile": sie.Periodic(sie.FromFunction(harmonics), 2.0 * np.pi), "normal_load": 3.0},
+        (
+            -2.787302433508856,
+            -1.7014107978420885,
+            -1.221104816631071,
+            0.9822849637598969,
+            1.312094138295231,
+            2.4838367704880184,
+        ),
+    ),
+}
+
+
+def found(**asked):
+    return contact(problem_of(sie.Scene(modulus=1.0, **asked)))
+
+
+@pytest.mark.parametrize("name", REFERENCES)
+def test_the_edges_of_all_patches(name):
+    asked, expected = REFERENCES[name]
+    edges = found(**asked).state.patches.edges
+    period = asked["profile"].period
+    if period < np.inf:
+        edges = np.sort(edges - period * np.round((edges - np.mean(expected)) / period))
+    narrowest = np.diff(expected)[::2].min()
+    np.testing.assert_allclose(edges, expected, rtol=0.0, atol=2e-13 * narrowest)
+
+
+def test_the_tilt_under_a_moment():
+    tilt = found(**REFERENCES["two parabolas under a moment"][0]).state.tilt
+    assert abs(tilt / -0.07597308212919692 - 1.0) < 1e-13
+
+
+# -- the solution of a scene -------------------------------------------------------------------------
+
+
+def solved(**asked):
+    return sie.solve(sie.Scene(modulus=1.0, poisson=0.3, **asked))
+
+
+@pytest.mark.parametrize("name", REFERENCES)
+def test_every_reference_is_certified(name):
+    assert solved(**REFERENCES[name][0]).check().ok
+
+
+def test_patch_loads_of_two_parabolas():
+    loads = solved(profile=TWO, normal_load=0.4).patch_loads
+    assert loads == pytest.approx((0.222276321277639299, 0.177723678722360700), rel=1e-14)
+
+
+def test_patch_loads_of_level_flats():
+    solution = solved(profile=FLATS, normal_load=1.0)
+    assert solution.patch_loads[0] == pytest.approx(0.458724602705791840, rel=1e-14)
+    x, zero = np.array([-0.9, -0.3, 0.5, 1.2]), 0.0465571332180433652833
+    root = np.sqrt(np.abs((x + 1.0) * (x + 0.2) * (x - 0.3) * (x - 1.4)))
+    assert solution.pressure(x) == pytest.approx(np.abs(x - zero) / (np.pi * root), rel=1e-13)
+
+
+def test_the_pressure_of_two_rounded_flats():
+    p = solved(profile=ROUNDED, normal_load=0.6).pressure
+    assert float(p(-1.16)) == pytest.approx(0.143035588269716213, rel=1e-14)
+
+
+def test_the_outermost_edges_are_the_edges():
+    solution = solved(profile=TWO, normal_load=0.4)
+    assert solution.edges == (solution.patches[0][0], solution.patches[-1][1])
+
+
+def test_a_row_of_one_convex_profile_is_that_profile():
+    one = solved(profile=sie.Parabola(1.0), normal_load=0.4)
+    row = solved(profile=sie.Row([sie.Parabola(1.0)]), normal_load=0.4)
+    x = np.linspace(-0.7, 0.7, 29)
+    assert row.edges == pytest.approx(one.edges, rel=1e-14)
+    assert row.pressure(x) == pytest.approx(one.pressure(x), rel=1e-13)
+    assert row.gap(2.0 * x) == pytest.approx(one.gap(2.0 * x), rel=1e-11, abs=1e-15)
+    z = np.linspace(-1.0, 1.0, 9) + 0.2j
+    assert row.pressure.cauchy(z) == pytest.approx(one.pressure.cauchy(z), rel=1e-13)
+    assert row.stress(x, 0.3).mises == pytest.approx(one.stress(x, 0.3).mises, rel=1e-11)
+
+
+def test_two_patches_solve_their_integral_equation_by_a_quadrature_of_thirty_digits():
+    mp = mpmath.mp.clone()
+    mp.dps = 20
+    solution = solved(profile=TWO, normal_load=0.4)
+    (a, b), other = solution.patches
+    x = a + 0.3 * (b - a)
+    p = lambda t: mp.mpf(float(solution.pressure(float(t))))  # noqa: E731
+    px = p(x)
+
+    def over(lo, hi, f):
+        middle, half = mp.mpf(lo + hi) / 2, mp.mpf(hi - lo) / 2
+        g = lambda s: f(middle - half * mp.cos(s)) * half * mp.sin(s)  # noqa: E731
+        return mp.quad(g, mp.linspace(0, mp.pi, 9), maxdegree=4)
+
+    own = over(a, b, lambda t: (p(t) - px) / (x - t)) + px * mp.log((x - a) / (b - x))
+    total = own + over(*other, lambda t: p(t) / (x - t))
+    assert abs(total / mp.pi - 0.5 * float(TWO.slope(x))) < 1e-12
+
+
+# -- laws --------------------------------------------------------------------------------------------
+
+SCENES = {
+    "row": {"profile": TWO, "normal_load": 0.4},
+    "flats": {"profile": FLATS, "normal_load": 1.0},
+    "wave": {"profile": sie.Periodic(sie.FromFunction(harmonics), 2.0 * np.pi), "normal_load": 3.0},
+    "trace": {
+        "profile": sie.Sampled(np.linspace(-2, 2, 201), 0.1 * np.cos(9 * np.linspace(-2, 2, 201)))
+        + sie.Parabola(4.0),
+        "normal_load": 0.2,
+    },
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_patch_loads_add_up_to_the_load(name):
+    solution = solved(**SCENES[name])
+    assert sum(solution.patch_loads) == pytest.approx(solution.normal_load, rel=1e-8)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_mirror_image_has_mirrored_patches(name):
+    asked = SCENES[name]
+    one = solved(**asked)
+    other = solved(**(asked | {"profile": asked["profile"].mirrored()}))
+    ends = np.sort(-np.array(other.patches).ravel())
+    period = asked["profile"].period
+    start = np.array(one.patches).ravel()
+    if period < np.inf:
+        ends = np.sort(np.mod(ends - start[0] + 1e-6, period)) + start[0] - 1e-6
+    np.testing.assert_allclose(ends, start, rtol=0.0, atol=1e-12 * np.abs(start).max())
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_pressure_and_load_scale_with_the_modulus(name):
+    one = solved(**SCENES[name])
+    stiff = sie.Scene(modulus=1e6, **(SCENES[name] | {"normal_load": 1e6 * one.normal_load}))
+    np.testing.assert_allclose(sie.solve(stiff).patches, one.patches, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_boundary_value_of_the_potential_is_slope_and_pressure(name):
+    solution = solved(**SCENES[name])
+    lo, hi = solution.patches[0]
+    x = lo + (hi - lo) * np.array([0.21, 0.5, 0.83])
+    F = solution.pressure.cauchy(x + 1e-9j * (hi - lo))
+    assert F.imag == pytest.approx(-solution.pressure(x), rel=1e-6)
+    assert F.real == pytest.approx(0.5 * solution.scene.profile.slope(x), abs=1e-7)
+
+
+@pytest.mark.parametrize("name", ["row", "wave", "trace"])
+def test_the_gap_opens_as_the_potential_says(name):
+    solution = solved(**SCENES[name])
+    lo, hi = solution.patches[0][1], solution.patches[1][0]
+    x = lo + (hi - lo) * np.linspace(0.2, 0.8, 7)
+    step = 1e-5 * (hi - lo)
+    opened = (solution.gap(x + step) - solution.gap(x - step)) / (2.0 * step)
+    H = solution.scene.profile.slope(x) - 2.0 * solution.pressure.hilbert(x)
+    finite = np.isfinite(opened) & np.isfinite(H)
+    assert opened[finite] == pytest.approx(H[finite], abs=1e-6)
+
+
+def test_a_shift_by_a_period_changes_nothing():
+    solution = solved(**SCENES["wave"])
+    x = np.linspace(-3.0, 3.0, 13)
+    there = x + 40.0 * np.pi
+    assert solution.pressure(there) == pytest.approx(solution.pressure(x), rel=1e-11, abs=1e-12)
+    assert solution.gap(there) == pytest.approx(solution.gap(x), rel=1e-9, abs=1e-12)
+
+
+# -- closed forms ------------------------------------------------------------------------------------
+
+
+@given(log_between(0.05, 5.0), log_between(0.03, 30.0))
+@settings(max_examples=25, deadline=None)
+def test_two_equal_parabolas(inner, width):
+    outer = inner * (1.0 + width)
+    shape = {"radius": 2.0, "modulus": 1.0}
+    load = two_parabolas.load(inner=inner, outer=outer, **shape)
+    distance = two_parabolas.distance(inner=inner, outer=outer)
+    row = sie.Row([sie.Parabola(2.0).shifted(s * float(distance)) for s in (-1.0, 1.0)])
+    solution = solved(profile=row, normal_load=float(load))
+    (a, b) = solution.patches[1]
+    assert (a, b) == pytest.approx((inner, outer), abs=2e-13 * (outer - inner))
+    x = inner + (outer - inner) * np.array([0.02, 0.3, 0.6, 0.97])
+    exact = two_parabolas.pressure(x, inner=inner, outer=outer, **shape)
+    assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
+
+
+@given(between(0.02, 0.98))
+@settings(max_examples=25, deadline=None)
+def test_a_wave_from_first_touch_to_nearly_full_contact(part):
+    shape = {"wavelength": 1.0, "amplitude": 0.5, "modulus": 1.0}
+    half = 0.5 * part
+    load = float(wavy.mean_pressure(half_width=half, **shape))
+    profile = sie.FromFunction(lambda x: np.pi * np.sin(2.0 * np.pi * x))
+    solution = solved(profile=sie.Periodic(profile, 1.0), normal_load=load)
+    assert solution.half_width == pytest.approx(half, rel=1e-12)
+    x = half * np.array([0.0, 0.4, 0.9])
+    exact = wavy.pressure(x, half_width=half, **shape)
+    assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
+    z = np.array([0.1 + 0.2j, 0.4 + 0.01j, 0.3 + 1.0j])
+    exact = wavy.potential(z, half_width=half, **shape)
+    assert solution.pressure.cauchy(z) == pytest.approx(exact, rel=1e-11)
+
+
+@given(between(0.02, 0.98))
+@settings(max_examples=15, deadline=None)
+def test_a_row_of_flats(part):
+    half = 0.5 * part
+    solution = solved(profile=sie.Periodic(sie.Flat(half), 1.0), normal_load=2.0)
+    x = half * np.array([0.0, 0.4, 0.99])
+    exact = flat_row.pressure(x, half_width=half, period=1.0, mean_pressure=2.0)
+    assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
+
+
+def test_the_wave_in_full_contact():
+    profile = sie.FromFunction(lambda x: np.pi * np.sin(2.0 * np.pi * x))
+    solution = solved(profile=sie.Periodic(profile, 1.0), normal_load=2.0)
+    x = np.linspace(-0.5, 0.5, 11)
+    exact = 2.0 + 0.5 * np.pi * np.cos(2.0 * np.pi * x)
+    assert solution.pressure(x) == pytest.approx(exact, rel=1e-13)
+    assert solution.check().ok
+    assert not solution.gap(x).any()
+
+
+# -- friction ----------------------------------------------------------------------------------------
+
+
+def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
+    loads = {"normal_load": 0.4, "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.05}
+    one = solved(profile=sie.Parabola(1.0), **loads)
+    row = solved(profile=sie.Row([sie.Parabola(1.0)]), **loads)
+    x = np.linspace(-0.7, 0.7, 15)
+    assert row.stick[0] == pytest.approx(one.stick[0], rel=1e-12)
+    assert row.shear(x) == pytest.approx(one.shear(x), abs=1e-13)
+    assert row.slip(x) == pytest.approx(one.slip(x), abs=1e-12)
+    assert row.energy_lost == pytest.approx(one.energy_lost, rel=1e-9)
+    assert row.shift == pytest.approx(one.shift, rel=1e-8)
+
+
+@pytest.mark.parametrize("Q", [0.03, -0.15, 0.199])
+def test_stick_zones_lie_in_patches_and_slip_goes_one_way(Q):
+    solution = solved(profile=TWO, normal_load=0.4, friction=0.5, tangential_load=Q)
+    for lo, hi in solution.stick:
+        assert any(a < lo < hi < b for a, b in solution.patches)
+    x = np.concatenate([np.linspace(a, b, 40)[1:-1] for a, b in solution.patches])
+    assert (np.sign(Q) * solution.slip(x) >= 0.0).all()
+    assert (np.abs(solution.shear(x)) <= 0.5 * solution.pressure(x) * (1.0 + 1e-12)).all()
+    assert solution.shear.resultant == pytest.approx(Q, rel=1e-12)
+
+
+# -- what has no answer ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"profile": TWO, "half_width": 1.0}, "give normal_load"),
+        ({**SCENES["wave"], "moment": 0.1}, "leave out tilt and moment"),
+        (
+            {"profile": sie.Sampled([-1, 0, 1, 2], [1, 0, 0.5, 0]), "normal_load": 0.5},
+            "end of the trace",
+        ),
+        (
+            {**SCENES["wave"], "friction": 0.5, "tangential_load": 0.1, "bulk_stress": 0.1},
+            "no periodic answer",
+        ),
+        ({**SCENES["row"], "friction": 0.5, "bulk_stress": 0.1}, "slip both ways"),
+        ({**SCENES["row"], "friction": float("inf")}, "full stick"),
+    ],
+)
+def test_what_is_not_covered_is_refused_with_the_reason(asked, words):
+    solution = solved(**asked)
+    with pytest.raises(sie.ContactError, match=words):
+        _ = solution.check(), solution.stick
+
+
+def test_a_load_path_on_several_patches_is_refused():
+    scene = sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, friction=0.5)
+    path = sie.Path([(0.4, 0.0), (0.4, 0.1), (0.4, -0.1)])
+    with pytest.raises(sie.ContactError, match="2 patches"):
+        _ = sie.follow(scene, path)[-1].stick
+
+
+@given(st.integers(0, 10**9))
+@settings(max_examples=20, deadline=None)
+def test_a_random_row_is_certified_or_refused(seed):
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 9))
+    profiles = [
+        sie.Parabola(float(10.0 ** rng.uniform(-0.7, 0.7))).shifted(float(x)).raised(float(z))
+        for x, z in zip(rng.uniform(0.0, n, n), rng.uniform(0.0, 0.1, n), strict=True)
+    ]
+    solution = solved(profile=sie.Row(profiles), normal_load=float(10.0 ** rng.uniform(-4.0, 0.0)))
+    try:
+        certificate = solution.check()
+    except sie.ContactError:
+        return
+    assert certificate.ok or certificate.tension  # a concave corner closed to rounding is named
