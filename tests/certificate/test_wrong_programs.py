@@ -232,7 +232,7 @@ def test_the_closed_form_that_cancels_is_caught():
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_a_resultant_or_a_moment_that_lies_is_caught(size):
+def test_a_wrong_resultant_or_moment_is_caught(size):
     solution = sie.solve(SKEW)
     P, M = solution.normal_load, solution.moment
     assert_caught(SKEW, resultant=P * (1 + size))

@@ -126,7 +126,7 @@ def test_the_counter_counts():
     assert len(solves) == 2
 
 
-def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
+def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
     patterns, found = (
         pytestconfig.getini("python_files"),
         [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
@@ -155,7 +155,7 @@ def places_for_a_certificate(turns):
     return sum(places)
 
 
-def test_the_certificate_of_a_remembered_path_is_linear_in_its_turning_points():
+def test_the_certificate_of_a_long_path_is_linear_in_its_turning_points():
     assert places_for_a_certificate(80) <= 3 * places_for_a_certificate(40)
 
 

@@ -37,7 +37,9 @@ NEAR_FLAT = between(-12.0, -0.3).map(lambda e: 10.0**e)
 @given(NEAR_FLAT, log_between(1e-3, 1e3), log_between(1e-3, 1e3))
 @example(delta=1e-12, radius=1.0, modulus=1.0)
 @example(delta=1e-8, radius=1.0, modulus=1.0)
-def test_a_nearly_flat_punch_keeps_rim_and_pressure_given_the_load(delta, radius, modulus):
+def test_a_nearly_flat_punch_keeps_its_rounded_edge_and_pressure_given_the_load(
+    delta, radius, modulus
+):
     width = delta  # of the rim, beside a flat of half-width 1
     P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=modulus, rim=width))
     solution = sie.solve(
