@@ -105,7 +105,7 @@ class KernelSums:
         return total, steep, *self._pairs(*near)
 
     def _branches(self, z: Any, start: tuple[Index, Index]) -> Iterator[_Branch]:
-        """The targets that each level serves, from the root down, and the pairs for the next level."""
+        """The targets of each level from the root down, and the pairs for the next level."""
         node, target = start
         for level in range(len(self.levels) - 1, -1, -1):
             centre, half, A = self.levels[level]

@@ -1,9 +1,9 @@
-"""Ciavarella, Hills & Monno, "The influence of rounded edges on indentation by a flat punch"
-(1998), computed anew.
+"""Ciavarella, Hills & Monno (1998), "The influence of rounded edges ...", computed anew.
 
-Figs 2 to 8 come from the general solver, which knows nothing of rounded punches but their slope; on
-top stand points of the closed forms, which share no code with it. Then what the paper says in
-words, with numbers. Refuted is what the numbers contradict: the errata.
+Figs 2 to 8 come from the general solver, which uses only the slope of the rounded punch. Points on
+top are those of the closed forms, which share no code with it. Numbers for the statements in the
+paper's text follow. A statement that the numbers contradict is refuted, and listed among the
+errata.
 """
 
 from __future__ import annotations
@@ -321,7 +321,7 @@ def closed_tension(ratio: float, c: Any) -> Any:
     return np.array([at(float(v)) for v in np.atleast_1d(c)])
 
 
-# -- what it says in words ------------------------------------------------------------------------
+# -- statements in the text -----------------------------------------------------------------------
 
 
 def statements() -> Iterator[Claim]:

@@ -1,5 +1,4 @@
-"""One number of a contact taken to its extremes: error against the truth, and what the certificate
-says of it.
+"""One number of a contact taken to its extremes: the true error, and the certificate's estimate.
 
 Each sweep is a function value -> Outcome. Truths are closed forms in 50 digits (of many pieces, a
 sum of as many in doubles), evaluated at the very doubles that the solver was given.
@@ -39,9 +38,7 @@ class Outcome:
     refused: str = ""
 
     def state(self, bar: float) -> str:
-        """full accuracy; known (refused, or the certificate owns up to a third of the error); or
-        lost, with nothing said.
-        """
+        """full; known (refused, or the certificate states a third of the error); or lost."""
         if self.refused:
             return "known"
         if self.error <= bar:
