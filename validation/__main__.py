@@ -28,7 +28,7 @@ TOPICS = (
     "stability", "kinks", "certificate", "economy", "mutation",
 )  # fmt: skip
 NOT_WRITTEN = 2
-INTERRUPTED = 130  # the exit status by which shells know it
+INTERRUPTED = 130  # the exit status of shells for it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

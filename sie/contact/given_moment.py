@@ -109,7 +109,7 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
             break
         m = place
     if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
-        return None  # nothing but rounding carries the load, or tells the centre
+        return None  # nothing but rounding carries the load, or determines the centre
     tilt = -k.I0 / math.pi
     k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
     return replace(search.finished(Found(contact, moments=k), None, tilt), moment=moment)

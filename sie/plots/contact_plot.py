@@ -46,7 +46,7 @@ ARROW = {
     "shrinkB": 0,
     "mutation_scale": 6,
 }
-# From one turning point to the next; a power of two, so that steps to and fro meet the same loads.
+# From one turning point to the next; a power of two, so that steps up and down have the same loads.
 LOOP_POINTS = 16
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 

@@ -89,7 +89,7 @@ class Slope:
     coefficients    (N, D), low order first
     degrees         (N,)
 
-    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree
+    `degrees` is the Chebyshev degree that resolves each piece; it equals the polynomial's degree
     where there is no function.
     """
 

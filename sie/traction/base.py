@@ -222,8 +222,8 @@ class Density(ABC):
             If `x` is not made of real numbers.
         """
 
-    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares
-    # overflow. There F is that of a force.
+    # The evaluation within a form: on 1-d arrays of places that are not so far away that their
+    # squares overflow. There F is that of a force.
 
     def _on_line(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
         x = arguments.reals("x", x)

@@ -272,7 +272,7 @@ class Panels:
 
     @cached_property
     def _rules(self) -> list[tuple[Array, Array]]:
-        """The rule of every piece, of as many nodes as its reach asks for."""
+        """The rule of every piece, of as many nodes as its reach needs."""
         orders = _order_beyond(self.reach_in_s).tolist()
         rules = {n: self.geometry.charges(n) for n in set(orders)}
         return [(rules[n][0][k], rules[n][1][k]) for k, n in enumerate(orders)]

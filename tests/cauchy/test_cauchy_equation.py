@@ -400,7 +400,7 @@ def test_a_short_series_costs_few_nodes():
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
 def test_a_kernel_that_is_rough_in_t_only_is_detected(a):
-    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves
+    """The residual at the same nodes does not show it: k does not depend on x, so that any n solves
     its own equation exactly.
     """
     equation = sie.CauchyEquation(

@@ -442,7 +442,7 @@ def test_next_to_an_exponent_of_minus_one_a_density_is_as_accurate_as_it_states(
 
 @pytest.mark.parametrize("gap", [0.4, 1e-3, 1e-6])
 def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
-    """On graded intervals: in the gap, above it, at its rim, and far away."""
+    """On graded intervals: in the gap, above it, at its ends, and far away."""
     manufactured = [
         Manufactured(-1.0, 0.0, -0.5, -0.5, (1.0, -0.5)),
         Manufactured(gap, 2.0, -0.5, -0.5, (0.3, 1.0, 0.2)),

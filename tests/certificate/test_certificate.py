@@ -124,7 +124,7 @@ def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_i
 
 
 def test_a_rounded_edge_between_two_doubles_is_not_certified():
-    """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any
+    """The rounded edge of width 1e-50 lies between two doubles: rounding of x would explain any
     defect.
     """
     found = sie.solve(

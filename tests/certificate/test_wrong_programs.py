@@ -115,7 +115,7 @@ def test_a_centre_off_by_a_little_is_caught(size):
 
 @pytest.mark.parametrize("size", SIZES)
 def test_a_solution_of_the_homogeneous_equation_is_caught(size):
-    """C/w: the integral equation itself is blind to it, equilibrium is not."""
+    """C/w: the residual of the integral equation does not show it, equilibrium does."""
     p = right(PUNCH)
     assert_caught(PUNCH, lambda x: p(x) + size * 0.15 / root(x))
 

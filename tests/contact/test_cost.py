@@ -141,7 +141,7 @@ def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
 
 
 def places_for_a_certificate(turns):
-    """At how many points the certificate after so many turning points asks for tractions."""
+    """The number of points where the certificate after so many turning points needs tractions."""
     path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])
     solved = sie.follow(scene(PUNCH, friction=0.5), path)[-1]
     _, value, places = solved.shear, SlopeDensity.__call__, []

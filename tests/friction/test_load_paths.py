@@ -1,5 +1,6 @@
-"""Loads to and fro: Masing's memory, P and Q together, what a cycle costs; and a mesh that knows
-nothing of superposition.
+"""Load paths: Masing's memory, P and Q together, the cost of a cycle, and a mesh solver.
+
+The mesh solver does not use superposition.
 """
 
 from dataclasses import replace

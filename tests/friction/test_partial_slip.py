@@ -144,7 +144,7 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
         q = F * (rounded_pressure(a, b, x) - rounded_pressure(a, c, x))
         assert abs(float(solution.shear(x)) - q) < 1e-13 * peak
     x = solution.edges[1]
-    if (b - c) > 1e-6 * (b - a) and x > c:  # of what one ulp of x tells
+    if (b - c) > 1e-6 * (b - a) and x > c:  # of the effect of one ulp of x
         assert abs(
             float(solution.slip(x)) / (F * rounded_gap(a, c, mp.mpf(x))) - 1
         ) < 1e-12 + 4 * math.ulp(x) / (b - c)
@@ -517,9 +517,7 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
 def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirrored_zone(
     tilt, strain
 ):
-    """With Q = 0 no side is told apart by its load, and pressure that leans to one side tells them
-    apart.
-    """
+    """With Q = 0 the sides differ by a lopsided pressure only, not by their load."""
     here, there = (
         sheared(sie.RoundedFlat(1.0, 1.0 / 6.0), 0.0, tilt=sign * tilt, bulk_stress=strain * P)
         for sign in (1.0, -1.0)

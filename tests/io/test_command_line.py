@@ -35,7 +35,7 @@ def scene(tmp_path, monkeypatch):
 
 @pytest.fixture
 def solved(monkeypatch):
-    """The solutions that the command line asks for."""
+    """The solutions that the command line makes."""
     asked = []
 
     def solve(*args, **kwargs):

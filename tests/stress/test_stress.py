@@ -422,7 +422,7 @@ def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
 
 
 class Watched(Density):
-    """A density that tells what it was asked for."""
+    """A density that records its evaluations."""
 
     def __init__(self, density):
         self.density, self.asked = density, []

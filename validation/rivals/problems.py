@@ -188,7 +188,7 @@ class Sliding:
         return total
 
     def _weighted(self, f: Callable[[Any], Any], u: Any) -> Any:
-        """f(tanh u) sech(u) exp(-2εu); every pressure asks for the same u."""
+        """f(tanh u) sech(u) exp(-2εu); every pressure uses the same u."""
         if u not in self._kept:
             self._kept[u] = mp.tanh(u), mp.sech(u) * mp.exp(-2 * self.epsilon * u)
         s, weight = self._kept[u]

@@ -131,7 +131,7 @@ def _logarithm(s: Setting, side: str) -> Any:
 
 
 def _rational(s: Setting) -> Any:
-    """(29) for the right rim: ξ1 = ξ0, ξ2 = 1."""
+    """(29) for the right rounded edge: ξ1 = ξ0, ξ2 = 1."""
     xi, one = s.xi[0], s.xi[1]
     return (
         (1 + xi**2)
@@ -141,7 +141,7 @@ def _rational(s: Setting) -> Any:
 
 
 def _substituted(s: Setting, kernel: Callable[[Any, Any], Any]) -> Any:
-    """∫ kernel(τ, ξ) dτ over the right rim, a principal value."""
+    """∫ kernel(τ, ξ) dτ over the right rounded edge, a principal value."""
     xi, start = s.xi
     return principal_value(mp, lambda t: kernel(t, xi), xi, start, mp.one)
 
@@ -189,7 +189,7 @@ def _split(s: Setting) -> Any:
 
 
 def _misprinted_root(s: Setting) -> Any:
-    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits tell that
+    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits show that
     it is another number.
     """
     b, x = few.mpf(s.b), few.mpf(s.x)

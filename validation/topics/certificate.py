@@ -247,8 +247,8 @@ def judged(rng: np.random.Generator, wrong: bool) -> Judged:
 
 
 def peak_of(solution: sie.Solution) -> float:
-    """The largest pressure, in rims however thin, to within 1e-6 r of the breaks, where it may be
-    infinite.
+    """The largest pressure, in rounded edges however thin, to within 1e-6 r of the breaks, where it
+    may be infinite.
     """
     m, r = solution.centre, solution.half_width
     (x1, x2), breaks = solution.edges, np.array(solution.scene.profile.breaks)

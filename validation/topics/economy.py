@@ -2,7 +2,7 @@
 
 The page lists what is skipped, the reason, the time saved, and the difference of the answers.
 
-"run" and "skip" are what `sie.plan` says before anything is computed; the stages that were filled
+"run" and "skip" are those of `sie.plan` before anything is computed; the stages that were filled
 afterwards are those it names. Times are medians in turns; `sie.solve(scene, economy=())` switches
 all skips off, and then one of them at a time.
 """

@@ -32,7 +32,7 @@ SAME, PLACE = (
 )  # of limits, and of their places, where a gradient vanishes: known to half the digits
 FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
 PRINTED_CROSSING = 0.55
-CROSSING = 0.540206764905  # where the strength is Hertz's again, as this project says
+CROSSING = 0.540206764905  # where the strength is Hertz's again, by this project
 
 
 def compute(quick: bool) -> Iterator[Record]:

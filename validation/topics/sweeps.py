@@ -90,8 +90,10 @@ def _outcome(
 
 
 def flatness(share: float, given: str) -> Outcome:
-    """share in (-1, 1): a/b = share if positive, else 1 - |share|; pressure at places of the flat
-    and the rim, load or rim.
+    """share in (-1, 1): a/b = share if positive, else 1 - |share|.
+
+    The errors are those of the pressure on the flat and its rounded edge, and of the load or the
+    width of that edge.
     """
     thin = share < 0
     a, rim = (1.0, -share / (1.0 + share)) if thin else (share, 1.0 - share)
