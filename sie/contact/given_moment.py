@@ -77,7 +77,7 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
         return None
 
     def at(m: Place) -> tuple[float, float, Interval, Moments]:
-        """Of M/(G r): how much it exceeds what is given, and its derivative."""
+        """The excess of M/(G r) over its given value, and its derivative."""
         contact = interval_about(m[0], r).moved(m[1], m[1])
         k, centre = search.moments(contact), contact.m
         excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale

@@ -116,7 +116,7 @@ class _View:
 
     @cached_property
     def cut(self) -> list[float]:
-        """Where the pressure rises above it."""
+        """The points where the pressure rises above it."""
         return [s.x for s in summits(self.solution) if s.p > self.shown * (1.0 + 1e-9)]
 
     @cached_property
@@ -134,7 +134,7 @@ class _View:
 
     @property
     def factor(self) -> float:
-        """From the scene's unit of length to that of the axis."""
+        """The factor from the scene's unit of length to that of the axis."""
         return style.scaled(self.solution.half_width, self.units.length)[0]
 
     @property

@@ -159,7 +159,7 @@ class Slope:
 
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
-        """Which pieces are flat and need no work."""
+        """Whether each piece is flat and needs no work."""
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))

@@ -314,7 +314,7 @@ class Density(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where p or its derivatives are not smooth: the edges and places between, ascending."""
+        """The places where p or its derivatives are not smooth, ascending, with the edges."""
         return self.interval
 
     @property

@@ -66,7 +66,7 @@ class Contact(NamedTuple):
 
 
 def random_contact(rng: np.random.Generator) -> Contact:
-    """Of a random kind, with half-width b or under a load."""
+    """A contact of a random kind, with half-width b or under a load."""
     kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     b, E, R = (float(10.0 ** rng.uniform(-3, 3)) for _ in range(3))
     return MAKERS[kind](kind, rng, (b, E, R))

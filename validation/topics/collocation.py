@@ -249,7 +249,7 @@ def claims(found: list[Row]) -> Iterator[Claim]:
 
 
 def _agreement(found: list[Row]) -> Claim:
-    """Of the two ways through the same matrix, one of them with a right-hand side that is off."""
+    """Both solutions of one matrix agree; the control has a wrong right-hand side."""
     system = System(thin_layer().problem, (QUICK_SIZES[0],))
     right, wrong = (
         system.by_lapack(),

@@ -132,7 +132,7 @@ def one_by_one(quick: bool) -> Iterator[Record]:
 
 
 def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
-    """Of (time with, time without) the least quotient; exchanged, for the control."""
+    """The least quotient of the times without and with; exchanged, for the control."""
     pairs = list(times)
     return checked(
         lambda pairs: smallest(without / with_ for with_, without in pairs), pairs,

@@ -102,7 +102,7 @@ MEASURED = {
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:
-    """Of growth over the last three sizes."""
+    """The exponent of growth over the last three sizes."""
     return float(np.polyfit(np.log(sizes[-3:]), np.log(values[-3:]), 1)[0])
 
 

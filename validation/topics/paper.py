@@ -174,7 +174,7 @@ class Weakest(NamedTuple):
 
 
 def closed_weakest(ratio: float, f: float) -> Weakest:
-    """From the closed forms: a scan, then a simplex from its best, inside and on the surface."""
+    """The weakest point by the closed forms: a scan and a simplex, inside and on the surface."""
     x, y = np.linspace(-1.2, 1.2, 97), np.linspace(0.02, 1.2, 60)[:, None]
     inside = root_j2(ratio, f, x, y)
     i, j = np.unravel_index(int(inside.argmax()), inside.shape)
@@ -205,7 +205,7 @@ def limit(ratio: float, f: float = 0.0) -> float:
 
 
 def weakest(ratio: float, f: float) -> Weakest:
-    """By the package."""
+    """The weakest point by the package."""
     found = charts.punch(ratio, f).elastic_limit()
     return Weakest(found.ratio, *found.places[-1])
 

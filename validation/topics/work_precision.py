@@ -149,7 +149,7 @@ OURS_AND_TEXTBOOKS = (
 
 
 def methods() -> tuple[Method, ...]:
-    """Those of this package and of textbooks, and the codes of others that are installed."""
+    """The methods of this package and of textbooks, and the installed codes of others."""
     others = (
         Method(name, (32, 128, 512, 2048), _elements(solver), lambda problem: bool(problem.period))
         for name, (module, solver) in solvers.INSTALLABLE.items()
