@@ -313,7 +313,7 @@ class Polish:
     # -- rounding ----------------------------------------------------------------------------------
 
     def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
-        """Of F1 and F2."""
+        """The rounding of F1 and F2."""
         r = contact.r
         least = ROUNDINGS * target + (
             math.pi * self.noise(contact) * r if self.slope.functions else 0.0

@@ -95,7 +95,7 @@ def strict_json(value: Any) -> str:
 
 
 def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[str, Any]:
-    """What `json_text` writes, with infinities as floats."""
+    """The content of `json_text`, with infinities as floats."""
     units, scene = file.units, solution.scene
     out: dict[str, Any] = {
         "sie": __version__,
@@ -191,7 +191,7 @@ def energy_of(solution: Solution) -> dict[str, float]:
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
-    """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
+    """The zones that slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)
     if solution.scene.coupled:

@@ -179,11 +179,11 @@ def logarithmic_root(
         open_ended = low == 0.0 or not math.isfinite(high)
         new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
         if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton
-            # creeps
+            # steep where the contact is small, flat where it is large: without a bracket Newton is
+            # slow
             new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
         if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
-            new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
+            new = _between(low, high, u)  # Newton diverges, or oscillates across a kink
         steps.append(abs(math.log(new / u)))
         u = new
     if best >= target * (1.0 - rough):

@@ -153,7 +153,7 @@ class Profile(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where h or a derivative of it jumps, inside the domain; ascending lengths."""
+        """The places inside the domain where h or a derivative of it jumps; ascending lengths."""
         return tuple(float(b) for b in self.pieces.breaks[1:-1])
 
     @property

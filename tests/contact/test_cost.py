@@ -126,7 +126,7 @@ def test_the_counter_counts():
     assert len(solves) == 2
 
 
-def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
+def test_pytest_finds_the_benchmarks_only_by_their_path(pytestconfig):
     patterns, found = (
         pytestconfig.getini("python_files"),
         [*(pytestconfig.rootpath / "benchmarks").glob("*.py")],
@@ -141,7 +141,7 @@ def test_the_benchmarks_are_found_where_they_are_asked_for(pytestconfig):
 
 
 def places_for_a_certificate(turns):
-    """At how many points the certificate after so many turning points asks for tractions."""
+    """The number of points where the certificate after so many turning points needs tractions."""
     path = sie.Path([(0.3, 0.14 * (1.0 - k / turns) * (-1.0) ** k) for k in range(turns)])
     solved = sie.follow(scene(PUNCH, friction=0.5), path)[-1]
     _, value, places = solved.shear, SlopeDensity.__call__, []
@@ -155,7 +155,7 @@ def places_for_a_certificate(turns):
     return sum(places)
 
 
-def test_the_certificate_of_a_remembered_path_is_linear_in_its_turning_points():
+def test_the_certificate_of_a_long_path_is_linear_in_its_turning_points():
     assert places_for_a_certificate(80) <= 3 * places_for_a_certificate(40)
 
 

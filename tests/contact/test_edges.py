@@ -42,7 +42,7 @@ def test_a_cylinder_follows_hertz():
     assert solution.pressure(0.0) == pytest.approx(np.sqrt(P * E / (np.pi * R)), rel=PROMISE)
 
 
-def test_a_tilted_wedge_touches_where_its_two_flanks_say():
+def test_a_tilted_wedge_has_the_contact_of_its_two_flanks():
     """Flanks -α and β: I0 = 0 gives sin φ0 = (α - β)/(α + β) · π/2 of the tip, P = E*/2 r (α + β)
     cos φ0.
     """
