@@ -130,6 +130,8 @@ def increasing_root(function: Callable[[float], float], guess: float, limit: flo
 
 # The logarithmic search ends at this relative error of the value, after one more step.
 ROUGH = 1e-2
+# This step is not worth another evaluation: Newton's next one from u reaches rounding.
+SHORT_STEP = 1e-9
 # Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of
 # range.
 MAX_LOG_STEP = 20.0
@@ -168,7 +170,7 @@ def logarithmic_root(
             raise OverflowError("the ratio is no double")
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
-            return min(u * math.exp(step), limit)
+            return min(u * math.exp(step), limit) if abs(step) > SHORT_STEP else u
         if f < target and (rising or (f == 0.0 and slope >= 0.0)):  # zero: it underflows
             low = u
         else:

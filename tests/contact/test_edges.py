@@ -7,6 +7,9 @@ from hypothesis import given
 
 import sie
 from oracles.normal_contact import mp
+from sie.contact.edges import Search
+from sie.numerics.interval import EPS
+from sie.profiles.resolution import refined
 from validation.cases import CASES, SHARP_CASES, Case, exact, solved
 
 PROMISE = 1e-13
@@ -121,3 +124,11 @@ def test_a_sharp_edge_is_square_root_singular_with_the_strength_that_the_load_le
         x = edge + inwards * d
         assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=1e-12)
         assert solution.pressure(edge) == np.inf
+
+
+def test_a_contact_of_given_half_width_ends_at_numbers_where_the_slope_falls_at_an_edge():
+    profile = sie.FromFunction(lambda x: x + 0.3 * np.sin(30.0 * x))
+    slope = refined(profile.pieces, -1.05, 1.05, EPS)
+    for r in np.linspace(0.3, 1.0, 36):
+        contact = Search(slope, 0.5).of_half_width(float(r)).contact
+        assert contact.r == pytest.approx(r, rel=1e-12)

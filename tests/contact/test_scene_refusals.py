@@ -252,6 +252,34 @@ def test_the_refusal_of_a_contact_that_lifts_off_names_the_place():
     assert "x" in caught.value.reached
 
 
+def wave(height, number, shift=0.0):
+    """A parabola with a wave on it, as a function that is not known to be symmetric."""
+    return sie.Parabola(1.0).shifted(shift) + sie.FromFunction(
+        lambda x: height * np.sin(number * (x - shift)), breaks=()
+    )
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
+@pytest.mark.parametrize(("height", "number", "load"), [(0.8, 8, 0.5), (0.5, 11, 0.2), (1.2, 5, 1)])
+def test_one_patch_that_lifts_off_names_the_place_wherever_the_profile_lies(
+    height, number, load, shift
+):
+    with pytest.raises(sie.InequalityError, match="tension at x = ") as caught:
+        given = scene(profile=wave(height, number, shift), modulus=1.0, normal_load=load)
+        sie.solve(given).one_patch()
+    assert len(caught.value.reached["tension"]) == 2
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
+@pytest.mark.parametrize(
+    ("height", "number", "load"), [(0.8, 8, 1), (0.5, 11, 0.5), (0.3, 30, 0.5)]
+)
+def test_waves_pressed_flat_are_one_contact_wherever_the_profile_lies(height, number, load, shift):
+    solved = sie.solve(sie.Scene(profile=wave(height, number, shift), modulus=1, normal_load=load))
+    assert solved.normal_load == load and solved.centre == pytest.approx(shift, abs=1e-12)
+    assert solved.pressure.resultant == pytest.approx(load, rel=1e-12)
+
+
 def test_the_refusal_of_a_contact_that_overlaps_elsewhere_names_the_place():
     profile = sie.Piecewise(
         (-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0))
