@@ -34,6 +34,7 @@ that of P and of b - a below 1e-15, that of Fp below 2e-14.
 """
 
 import math
+from collections.abc import Callable
 from numbers import Integral
 
 import numpy as np
@@ -51,6 +52,8 @@ SOURCES = (f"{CIAVARELLA}, equations (32) and (35)",)
 HERTZ = math.sqrt(math.pi) / 2
 THIN_RIM = (8 / 3) ** (2 / 3) / 2
 MOST_STEPS = 60
+
+Formulas = tuple[Callable[..., Number], Callable[..., Number]]
 
 
 @documented("the gap h, a length >= 0", *SOURCES)
@@ -183,11 +186,9 @@ def potential(
     >>> complex(potential(0.9, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)).real
     0.2
     """
-    z = point(z, lib)
     contact = unit.contact_of(half_flat, half_width, rim, lib)
     R, E = positives(lib, radius=radius, modulus=modulus)
-    formulas = unit.potential_on_cut, unit.potential_off_cut
-    value = in_plane(lib, on_cut(lib, z, contact.b, contact.low), side, *formulas, z, contact)
+    value = _in_plane(lib, z, side, contact, (unit.potential_on_cut, unit.potential_off_cut))
     return as_result(scaled(E * (contact.b / R) / lib.pi, value, lib))
 
 
@@ -206,12 +207,18 @@ def potential_derivative(
     >>> complex(found).real
     0.5
     """
-    z = point(z, lib)
     contact = unit.contact_of(half_flat, half_width, rim, lib)
+    value = _in_plane(lib, z, side, contact, (unit.derivative_on_cut, unit.derivative_off_cut))
     R, E = positives(lib, radius=radius, modulus=modulus)
-    formulas = unit.derivative_on_cut, unit.derivative_off_cut
-    value = in_plane(lib, on_cut(lib, z, contact.b, contact.low), side, *formulas, z, contact)
     return as_result(scaled(E / R / lib.pi, value, lib))
+
+
+def _in_plane(
+    lib: Library, z: Number, side: int, contact: unit.Contact, formulas: Formulas
+) -> Number:
+    """The first formula on the cut of the contact, the second off it."""
+    z = point(z, lib)
+    return in_plane(lib, on_cut(lib, z, contact.b, contact.low), side, *formulas, z, contact)
 
 
 @documented("the coefficients b_n, stresses, with the index n first", *SOURCES)

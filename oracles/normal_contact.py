@@ -26,6 +26,8 @@ from typing import Any
 
 import mpmath
 
+from oracles.ends import Between
+
 mp = mpmath.mp.clone()
 mp.dps = 40
 NODES = 32
@@ -98,7 +100,7 @@ def smooth(function: Callable[[Number], Number], lo: float = -mp.inf, hi: float 
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Between):
     """The answer for a slope: edges, load, moment (about x = 0), G = E*/2; `sharp` tells whether an
     edge may be singular.
     """
@@ -109,14 +111,6 @@ class Contact:
     x2: Number
     P: Number
     sharp: bool = False
-
-    @cached_property
-    def m(self) -> Number:
-        return (self.x1 + self.x2) / 2
-
-    @cached_property
-    def r(self) -> Number:
-        return (self.x2 - self.x1) / 2
 
     @property
     def M(self) -> Number:

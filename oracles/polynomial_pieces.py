@@ -15,6 +15,8 @@ from typing import Any
 
 import mpmath
 
+from oracles.ends import Between
+
 mp = mpmath.mp.clone()
 mp.dps = 100
 Number = Any
@@ -24,21 +26,13 @@ Rows = tuple[
 
 
 @dataclass(frozen=True)
-class Exact:
+class Exact(Between):
     """A contact [x1, x2] of a piecewise polynomial slope; `breaks` are the inner ones."""
 
     breaks: tuple[Number, ...]
     rows: Rows
     x1: Number
     x2: Number
-
-    @property
-    def m(self) -> Number:
-        return (self.x1 + self.x2) / 2
-
-    @property
-    def r(self) -> Number:
-        return (self.x2 - self.x1) / 2
 
     def angle(self, t: Number) -> Number:
         return mp.atan2(t - self.m, mp.sqrt((t - self.x1) * (self.x2 - t)))

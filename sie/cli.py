@@ -39,6 +39,7 @@ from .errors import ContactError
 from .history import follow
 from .interrupt import INTERRUPTED
 from .io import export, scene_file
+from .io.answers import wanted
 from .io.mesh_comparison import Comparison, compare, read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
@@ -209,7 +210,7 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
         if standard
         else scene_file.read(arguments.scene)
     )
-    return replace(file, want=want or export.wanted(file))
+    return replace(file, want=want or wanted(file))
 
 
 def _standard_input() -> bytes:

@@ -35,7 +35,7 @@ from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation, dissipated
 from .friction.memory import SlippedLayer, direction, turning_points
 from .friction.partial_slip import slip
-from .friction.states import OneSignedSlip, Slip, Step
+from .friction.states import OneSignedSlip, Slip
 from .numerics.interval import EPS, Interval
 from .problem.load_path import Path
 from .problem.request import ECONOMY
@@ -186,21 +186,24 @@ class History(Sequence[Solution]):
             if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
                 Q = math.copysign(f * P, Q)
             near = self._known.setdefault(P, KnownZones())
-            step = Step(
-                plain.scene,
-                plain.as_one_patch,
-                plain.slope_density,
-                Q,
-                sigma * self._tau,
-                self.tol,
-                self.economy,
-                near.guess(depth),
-            )
-            found = slip(step)
+            found = slip(plain.load_step(Q, sigma * self._tau, near.guess(depth)))
             if isinstance(found, OneSignedSlip):
                 near.add(depth, found.found.edges.contact)
             self._first_loadings[key] = found
         return self._first_loadings[key]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """For files: the loads of each point, its stick zones, and the energy dissipated up to
+        it.
+        """
+        names = ("normal_load", "tangential_load", "bulk_stress")
+        rows = []
+        for loads, point in zip(self.path.points, self, strict=True):
+            stick = [list(zone) for zone in point.stick] if loads[0] else []
+            energy = point.energy_lost if loads[0] else 0.0
+            row = dict(zip(names, loads, strict=True))
+            rows.append(row | {"stick": stick, "energy_lost": energy})
+        return rows
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, cast
 
 import numpy as np
@@ -24,7 +24,7 @@ from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
-from .contact.normal import normal_contact
+from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
 from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
@@ -34,6 +34,7 @@ from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
+from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.certificate import PatchCertificate, worst_of
 from .patches.friction import PatchSlip
@@ -259,16 +260,18 @@ class Solution:
         """Zones of stick and slip, and the shear."""
         if self._several is not None:
             return PatchSlip(self.scene, self._several, *self._loads)
-        return slip(
-            Step(
-                self.scene,
-                self.as_one_patch,
-                self.slope_density,
-                *self._loads,
-                self.tol,
-                self.economy,
-            )
+        return slip(self.load_step(*self._loads))
+
+    def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
+        """The load Q and the strain τ on this contact of one patch; `near` is a stick zone that may
+        be close to the one sought: it saves work, and does not change the answer.
+        """
+        scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
+        under = partial(
+            contact_under, scene=scene, tol=tol, economy=economy, near=near, seen=normal.seen
         )
+        on = partial(pressure, scene=scene, tol=tol, economy=economy)
+        return Step(scene, normal, self.slope_density, Q, tau, tol, economy, under, on)
 
     @cached_property
     def dissipated(self) -> float:

@@ -30,8 +30,9 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 
+from .attempt import DECAYED, Attempt
 from .density import JacobiDensity
-from .formulation import DECAYED, Attempt, Problem
+from .formulation import Problem
 from .kernel import Series, series
 from .system import System
 from .transform import by_transform

@@ -18,14 +18,11 @@ from sie.errors import ContactError
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
 
+from .attempt import TAIL, Attempt, Terms, attempted
 from .formulation import (
     PROBES,
-    TAIL,
-    Attempt,
     Kernel,
     Problem,
-    Terms,
-    attempted,
     condition_rows,
     constant_of,
     functionals,

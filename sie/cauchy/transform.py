@@ -17,12 +17,10 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev, jacobi
 from sie.numerics.jacobi import Weight
 
+from .attempt import Attempt, Terms, attempted
 from .formulation import (
     PROBES,
-    Attempt,
     Problem,
-    Terms,
-    attempted,
     condition_rows,
     constant_of,
     functionals,

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
+from sie.numerics.graded_rule import GRADING, NODES, balanced, graded, on_panels
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.power_law import PowerSlope
 from sie.profiles.resolution import refined
@@ -24,16 +24,13 @@ from sie.traction.piece_quadrature import edge_rule
 
 Array = NDArray[np.float64]
 
-NODES = 16  # on a panel whose neighbour may hold a logarithm: 3**-32 is rounding
-GRADING = 0.25
 FEW_BREAKS = 40
 TOWARDS_EDGE = np.array(
     [0.0625, 0.125, 0.1875]
 )  # panels need no grading to an edge, but the residual is wanted near it
-# What NODES leave of |x|^a, or of |x|^a ln|x|, on a panel of length l from x = 0 on is about
-# (l/NODES²)^(a+1). With l = GRADING**LEVELS that is rounding for the logarithm under a corner of
-# the profile, and with fewer levels for the root at the end of a stick zone, and for the x ln|x|
-# under a corner of the slope.
+# What the last panel of a graded rule leaves is rounding with LEVELS for the logarithm under a
+# corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
+# x ln|x| under a corner of the slope.
 LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
 # Of its distance from the next break: a resolution halves its pieces towards a break, and where
 # they are shorter more happens.
@@ -80,7 +77,7 @@ def composite_rule(
     edges, large = (
         _panels_of_many(contact, slope, also) if many else _panels(contact, slope, also, resolution)
     )
-    angle, weight = _on_panels(edges)
+    angle, weight = on_panels(edges)
     if epsilon:
         length = np.diff(edges)
         for k, power, start in ((0, -2.0 * epsilon, edges[0]), (-1, 2.0 * epsilon, edges[-1])):
@@ -106,10 +103,10 @@ def composite_rule(
 
 def edge_graded_rule(contact: Interval) -> Rule:
     """The composite rule for tractions that oscillate towards both edges, as in full stick."""
-    graded = 0.25 * GRADING ** np.arange(27.0, 0.0, -1.0)  # to rounding
+    ends = 0.25 * graded(27)  # to rounding
     middle = np.linspace(0.25, 0.75, 17)
-    cuts = np.pi * np.concatenate(([0.0], graded, middle, 1.0 - graded[::-1], [1.0]))
-    nodes, weight = _on_panels(cuts)
+    cuts = np.pi * np.concatenate(([0.0], ends, middle, 1.0 - ends[::-1], [1.0]))
+    nodes, weight = on_panels(cuts)
     angle = nodes.ravel()
     return Rule(
         position(contact, angle),
@@ -119,13 +116,6 @@ def edge_graded_rule(contact: Interval) -> Rule:
         slice(None),
         contact,
     )
-
-
-def _on_panels(cuts: Array) -> tuple[Array, Array]:
-    """Gauss nodes and weights on the panels between cuts, one panel a row."""
-    g, w = chebyshev.gauss_legendre(NODES)
-    length = np.diff(cuts)[:, None]
-    return cuts[:-1, None] + length * g, length * w
 
 
 def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> tuple[Array, Array]:
@@ -142,15 +132,14 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
     ends = np.concatenate(([0.0], towards, [np.pi]))
     cut = cut[_shorter_than_graded(cut, ends)]
     cuts = [cut]
-    graded = GRADING ** np.arange(levels, 0, -1)
-    graded = graded[graded < 0.25]
+    inwards = graded(levels)[:-1]
     for k, (lo, hi) in enumerate(pairwise(ends)):
-        left = graded if k > 0 else TOWARDS_EDGE
-        right = 1.0 - (graded if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
+        left = inwards if k > 0 else TOWARDS_EDGE
+        right = 1.0 - (inwards if k < len(ends) - 2 else TOWARDS_EDGE)[::-1]
         cuts.append(
             lo + (hi - lo) * np.concatenate(([0.0], left, np.linspace(0.25, 0.75, 9), right))
         )
-    edges = _balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
+    edges = balanced(np.unique(np.concatenate([*cuts, [np.pi]])))
     length = np.diff(edges)
     return edges, edges[1:-1][_largest(edges[1:-1], np.minimum(length[:-1], length[1:]))]
 
@@ -179,13 +168,13 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
     middle = 0.5 * (ends[:-1] + ends[1:])
     chosen = middle[_largest(middle, length)]
     cuts = [within, [np.pi], chosen, length[0] * TOWARDS_EDGE, np.pi - length[-1] * TOWARDS_EDGE]
-    graded = LONGEST * GRADING ** np.arange(1.0, LEVELS)
-    cuts += [c + np.concatenate(([0.0], graded, -graded)) for c in angles(contact, also)]
+    beside = LONGEST * graded(LEVELS - 1)
+    cuts += [c + np.concatenate(([0.0], beside, -beside)) for c in angles(contact, also)]
     for level in range(1, int(levels.max()) + 1):
         at = np.flatnonzero(levels >= level)
         cuts += [cut[at] - GRADING**level * length[at], cut[at] + GRADING**level * length[at + 1]]
     every = np.unique(np.concatenate(cuts))
-    return _balanced(every[(every >= 0.0) & (every <= np.pi)]), chosen
+    return balanced(every[(every >= 0.0) & (every <= np.pi)]), chosen
 
 
 def _levels_of_few(slope: Slope, also: Array) -> int:
@@ -224,18 +213,3 @@ def _largest(x: Array, size: Array) -> list[int]:
     ascending = np.argsort(size)
     large = ascending[size[ascending] >= COMPARABLE * size.max()]
     return sorted(dict(zip(part[large].tolist(), large.tolist(), strict=True)).values())
-
-
-def _balanced(edges: Array) -> Array:
-    """The same with every panel at most 1/GRADING times as long as its neighbours: what is singular
-    next door is then far enough.
-    """
-    while True:
-        length = np.diff(edges)
-        shortest = np.minimum(
-            np.concatenate(([np.inf], length[:-1])), np.concatenate((length[1:], [np.inf]))
-        )
-        long = length > 1.01 * shortest / GRADING
-        if not long.any():
-            return edges
-        edges = np.sort(np.concatenate((edges, 0.5 * (edges[:-1] + edges[1:])[long])))

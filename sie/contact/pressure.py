@@ -22,10 +22,9 @@ from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity, TransformDensity
-from sie.traction.on_panels import PanelDensity, PowerDensity
+from sie.traction.on_panels import PanelDensity, PowerDensity, SlidingDensity
 from sie.traction.panels import CHOP, Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
-from sie.traction.sliding import SlidingDensity
 
 from .edges import Edges
 

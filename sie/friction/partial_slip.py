@@ -36,7 +36,6 @@ import math
 import numpy as np
 
 from sie.contact.edge_integrals import moments
-from sie.contact.normal import contact_under
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.profiles.resolution import refined
@@ -112,9 +111,7 @@ def _one_signed(step: Step, sign: float) -> OneSignedSlip:
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
     tilt = step.normal.edges.tilt + _tilt_of_strain(step, sign)
-    found = contact_under(
-        load, tilt, scene, step.tol, step.economy, near=step.near, seen=step.normal.seen
-    )
+    found = step.contact_under(load, tilt)
     state = OneSignedSlip(step.pressure, step.slope, f, step, sign, found)
     if not (scene.profile.convex and "convexity" in step.economy):
         _ = state.corrective  # verified at once

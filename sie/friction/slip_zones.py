@@ -30,7 +30,7 @@ s2 (dQ - π ρ dτ) >= 0 and s1 (dQ + π ρ dτ) >= 0.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -39,19 +39,15 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
+from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import increasing_root
 from sie.profiles.slope import Slope
 from sie.traction.of_slope import SlopeDensity
-from sie.traction.on_panels import PanelDensity, PowerDensity
-from sie.traction.panels import Panels
-from sie.traction.piece_quadrature import Geometry
 
 Array = NDArray[np.float64]
 
-NODES = 16  # on panels that are a quarter as long as the distance to what is singular
-GRADING = 0.25
-# GRADING**LEVELS is rounding: towards a corner, and towards the end of the zone where q is wanted
+# Towards a corner, and towards the end of the zone where q is wanted: GRADING**LEVELS is rounding.
 LEVELS = 26
 ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
@@ -95,28 +91,10 @@ def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
     width = 2.0 * contact.r
     seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
     return EdgeFrame(
-        moved(density, seen, -edge, -tail),
+        density.moved(seen, -edge, -tail),
         slope.shifted(-edge).shifted(-tail),
         side,
         (-edge, -tail),
-    )
-
-
-def moved(density: SlopeDensity, contact: Interval, dx: float, tail: float) -> SlopeDensity:
-    """The same density with its contact and its resolution of the slope moved by dx + tail."""
-    if isinstance(density, PowerDensity):
-        return density.moved(contact, dx, tail)
-    if not isinstance(density, PanelDensity):
-        return replace(density, contact=contact)
-    old = density.panels
-    slope = old.geometry.slope.shifted(dx).shifted(tail)
-    # A slope that ended with the contact still does: an ulp short of it, all of H would jump there
-    breaks = slope.breaks.copy()
-    breaks[0], breaks[-1] = min(breaks[0], contact.x1), max(breaks[-1], contact.x2)
-    return replace(
-        density,
-        contact=contact,
-        panels=Panels(Geometry(replace(slope, breaks=breaks), contact), old.I0),
     )
 
 
@@ -183,18 +161,16 @@ def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
     inner = frame.breaks[frame.breaks < length]
     at_breaks = 2.0 * np.arctan2(np.sqrt(length - inner), np.sqrt(inner))[::-1]
     marks = np.concatenate(([0.0], at_breaks, [np.pi]))
-    ratios = GRADING ** np.arange(LEVELS, 0, -1)
+    ratios = graded(LEVELS)
     cuts = [marks]
     for k, (lo, hi) in enumerate(pairwise(marks)):
         cuts += [lo + (hi - lo) * ratios, lo + (hi - lo) * np.array([0.5, 0.75])]
         if k < len(marks) - 2:
             cuts.append(hi - (hi - lo) * ratios[:-1])
-    ends = np.unique(np.concatenate(cuts))
-    g, w = chebyshev.gauss_legendre(NODES)
-    step = np.diff(ends)
-    half = 0.5 * (ends[:-1, None] + step[:, None] * g).ravel()
+    angle, step = on_panels(np.unique(np.concatenate(cuts)))
+    half = 0.5 * angle.ravel()
     from_stick, from_edge = length * np.sin(half) ** 2, length * np.cos(half) ** 2
-    weight = (step[:, None] * w).ravel() * length * np.sin(half) * np.cos(half)
+    weight = step.ravel() * length * np.sin(half) * np.cos(half)
     p = frame.pressure(from_edge)
     return SlipZone(
         length, from_stick, from_edge, weight, weight * np.where(np.isfinite(p), p, 0.0)

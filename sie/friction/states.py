@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from sie.contact.edge_integrals import moments
 from sie.contact.gap import gap
 from sie.contact.inequalities import verify_inequalities
-from sie.contact.pressure import Normal, pressure
+from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
 from sie.profiles.lowest_points import lowest_points, raised
@@ -35,7 +35,6 @@ from .slip_zones import (
     SlipZone,
     SlipZones,
     edge_frame,
-    moved,
     slip_zone,
     slip_zones,
 )
@@ -51,8 +50,10 @@ SHORT = 1e-2
 class Step:
     """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
 
-    `near` is a stick zone that may be close to the one sought: it saves work, and does not change
-    the answer.
+    Friction needs the normal problem only as two functions, whoever solves it:
+
+    contact_under    the contact of the same profile under a load and a tilt
+    pressure_on      the pressure on such a contact
     """
 
     scene: Scene
@@ -62,7 +63,8 @@ class Step:
     tau: float
     tol: float
     economy: Collection[str]
-    near: Interval | None = None
+    contact_under: Callable[[float, float], Normal]
+    pressure_on: Callable[[Normal], SlopeDensity]
 
     @property
     def slope(self) -> Slope:
@@ -342,7 +344,7 @@ class OneSignedSlip(Slipping):
         step, found = self.step, self.found
         if self.short is not None:
             found = replace(found, edges=replace(found.edges, contact=self.short.stick))
-        density = pressure(found, step.scene, step.tol, step.economy)
+        density = step.pressure_on(found)
         if not (step.scene.profile.convex and "convexity" in step.economy):
             verify_inequalities(density, self._tilted)
         return density
@@ -387,11 +389,14 @@ class OneSignedSlip(Slipping):
 
 @dataclass(frozen=True, eq=False)
 class TwoSignedSlip(Slipping):
-    """Slip in opposite directions at the two edges: `sign` at the left one."""
+    """Slip in opposite directions at the two edges.
+
+    found     stick zone and slip zones, with the signs of slip
+    formal    the inversion of the profile's slope on the stick zone, which needs the tails of p to
+              vanish at both ends
+    """
 
     found: SlipZones
-    # the inversion of the profile's slope on the stick zone, which needs the tails of p to vanish
-    # at both ends
     formal: SlopeDensity
     kind = "two signs"
 
@@ -474,7 +479,7 @@ def in_frame(
     )  # from the width of the stick zone, which the other length may not resolve
     ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = frame.origin
-    return moved(density, ends, dx, tail), slope.shifted(dx).shifted(tail)
+    return density.moved(ends, dx, tail), slope.shifted(dx).shifted(tail)
 
 
 def _guess(step: Step, sign: float) -> tuple[float, float]:

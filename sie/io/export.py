@@ -9,8 +9,6 @@ JSON always holds
     sie, title, units {length, force, stress, moment}
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
-    patches [[x1, x2], ..], patch_loads [number, ..] where there are several
-
     patches [[x1, x2], ..], patch_loads [number, ..], where there are several
 
 and, where they are wanted,
@@ -45,21 +43,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
-from sie.contact.small_strains import notes
-from sie.errors import ContactError
 from sie.history import PathSolution
-from sie.problem.request import NEED_SHEAR, UNASKED
 from sie.solution import Solution
 
+from .answers import energy_of, notes_of, slip_of, slipping, wanted
 from .sample_points import POINTS, abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
-
-
-def wanted(file: SceneFile) -> tuple[str, ...]:
-    """The quantities that a scene file names; without any, those of the contact."""
-    return file.want or UNASKED
 
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
@@ -122,7 +113,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if isinstance(solution, PathSolution):
-        out["path"] = turning_points(solution)
+        out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):
         out["traces"] = [report.as_dict() for report in reports]
     return out | {
@@ -130,19 +121,6 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         for name, section in sections.items()
         if name in wanted(file)
     }
-
-
-def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
-    """The notes on strains that are not small, and on slip where a wanted quantity depends on it.
-
-    If only the edges are wanted, the pressure is not computed, and its mean stands for it.
-    """
-    if NEED_SHEAR & set(wanted(file)):
-        return solution.notes
-    if set(wanted(file)) != {"edges"} or solution.scene.bonded:
-        return solution.strain_notes
-    slopes = solution.scene.profile.slope(np.linspace(*solution.edges, POINTS)) + solution.tilt
-    return notes(slopes, solution.normal_load / (2.0 * solution.half_width) / solution.scene.Estar)
 
 
 def _pressure(solution: Solution, points: int) -> dict[str, Any]:
@@ -171,39 +149,6 @@ def _gap(solution: Solution, points: int) -> dict[str, Any]:
     return {"x": x.tolist(), "gap": solution.gap(x).tolist()}
 
 
-def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
-    """The slip at x; {} where a path does not determine it.
-
-    It is not determined for points that came into contact while the bodies slipped.
-    """
-    try:
-        return {"slip": solution.slip(x)}
-    except ContactError:
-        return {}
-
-
-def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} for dissimilar bodies in full sliding.
-
-    They slipped in part before, and the energy dissipated then is not known.
-    """
-    return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
-
-
-def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
-    """The zones that slip or have slipped, (lo, hi, sign of q)."""
-    if solution.scene.epsilon:
-        return ((*solution.edges, float(solution.scene.slides)),)
-    if solution.scene.coupled:
-        return solution.coupled[1].slip_zones
-    if not solution.sheared:
-        return ()
-    x1, x2 = solution.edges
-    return tuple(
-        z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
-    )  # not the zones that have left the contact
-
-
 def _shear(solution: Solution, points: int) -> dict[str, Any]:
     x, q = inside(solution, points), solution.shear
     return (
@@ -218,19 +163,6 @@ def _shear(solution: Solution, points: int) -> dict[str, Any]:
         | energy_of(solution)
         | {name: values.tolist() for name, values in slip_of(solution, x).items()}
     )
-
-
-def turning_points(solution: PathSolution) -> list[dict[str, Any]]:
-    """The loads of each point of a path, its stick zones, and the energy dissipated up to it."""
-    names = ("normal_load", "tangential_load", "bulk_stress")
-    points = zip(solution.history.path.points, solution.history, strict=True)
-    rows = []
-    for loads, point in points:
-        stick = [list(zone) for zone in point.stick] if loads[0] else []
-        energy = point.energy_lost if loads[0] else 0.0
-        row = dict(zip(names, loads, strict=True))
-        rows.append(row | {"stick": stick, "energy_lost": energy})
-    return rows
 
 
 def _check(solution: Solution, _points: int) -> dict[str, Any]:

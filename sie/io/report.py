@@ -9,7 +9,7 @@ import numpy as np
 from sie.history import PathSolution
 from sie.solution import Solution
 
-from .export import energy_of, notes_of, slipping, turning_points, wanted
+from .answers import energy_of, notes_of, slipping, wanted
 from .sample_points import SAME_PEAK, ceiling, peak
 from .scene_file import SceneFile, Units
 
@@ -128,7 +128,7 @@ def shear_summary(solution: Solution, units: Units) -> str:
 def _path_table(solution: PathSolution, units: Units) -> str:
     head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
-    for point in turning_points(solution):
+    for point in solution.history.rows():
         lo, hi = point["stick"][0] if point["stick"] else ("-", "-")
         cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], lo, hi)
         shown = "".join(f"{c:>14}" if isinstance(c, str) else f"{_number(c):>14}" for c in cells)

@@ -90,7 +90,11 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
 
 @dataclass(frozen=True)
 class _View:
-    """A solution on the abscissae of the window; lengths and pressures in the scene's units."""
+    """A solution at the sample points of the window.
+
+    solution    what is drawn, lengths and stresses in the scene's units
+    units       their names
+    """
 
     solution: Solution
     units: Units

@@ -240,18 +240,17 @@ class Scene:
     @property
     def Estar(self) -> float:
         """E*, in units of stress."""
-        if self.modulus is not None:
-            return self.modulus
-        assert self.body is not None and self.indenter is not None
-        return pair_modulus(self.body, self.indenter)
+        return pair_modulus(*self._pair) if self.modulus is None else self.modulus
 
     @property
     def beta(self) -> float:
         """Dundurs' second constant β."""
-        if self.dundurs is not None:
-            return self.dundurs
+        return dundurs(*self._pair) if self.dundurs is None else self.dundurs
+
+    @property
+    def _pair(self) -> tuple[Body, Body]:
         assert self.body is not None and self.indenter is not None
-        return dundurs(self.body, self.indenter)
+        return self.body, self.indenter
 
     @property
     def tau(self) -> float:

@@ -37,7 +37,11 @@ class State(Protocol):
 
 @dataclass(frozen=True)
 class Range:
-    """The extremes of a quantity over a cycle, at points: arrays of their shape."""
+    """The extremes of a quantity over a cycle, at points.
+
+    lowest     the smallest value, of the shape of the points
+    highest    the largest value
+    """
 
     lowest: Array
     highest: Array
@@ -136,8 +140,8 @@ class Cycle:
 
         Parameters
         ----------
-        x, y : array_like of float
-            Positions and depths, length, broadcast against each other.
+        x, y
+            As of `history`.
 
         Returns
         -------
@@ -156,8 +160,8 @@ class Cycle:
 
         Parameters
         ----------
-        x, y : array_like of float
-            Positions and depths, length, broadcast against each other.
+        x, y
+            As of `history`.
 
         Returns
         -------
@@ -199,8 +203,8 @@ class Cycle:
 
         Parameters
         ----------
-        x : array_like of float
-            Positions, length.
+        x
+            As of `slip_range`.
 
         Returns
         -------
@@ -215,8 +219,8 @@ class Cycle:
 
         Parameters
         ----------
-        x : array_like of float
-            Positions, length.
+        x
+            As of `slip_range`.
 
         Returns
         -------

@@ -19,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,6 +34,15 @@ Complex = NDArray[np.complex128]
 # Points are taken in parts of this size: temporaries stay in the processor's cache, and few are
 # ever as large as the whole.
 PART = 4096
+
+
+T = TypeVar("T")
+
+
+def _known(value: T | None, refusal: str) -> T:
+    if value is None:
+        raise ValueError(refusal)
+    return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,21 +75,19 @@ class Tractions:
 
     @property
     def known_poisson(self) -> float:
-        if self.poisson is None:
-            raise ValueError(
-                "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
-                "the body by young and poisson"
-            )
-        return self.poisson
+        return _known(
+            self.poisson,
+            "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
+            "the body by young and poisson",
+        )
 
     @property
     def known_body(self) -> Elastic:
-        if self.body is None:
-            raise ValueError(
-                "strains need the elastic constants of the body: give the body by young and "
-                "poisson in place of modulus"
-            )
-        return self.body
+        return _known(
+            self.body,
+            "strains need the elastic constants of the body: give the body by young and "
+            "poisson in place of modulus",
+        )
 
     @cached_property
     def marks(self) -> Array:

@@ -12,9 +12,9 @@ of Elastic Contacts (1993), ch. 2.
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,8 +24,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
 from .base import Density, in_order, on_surface, reflected, refuse_side, shallow, zero_or_nan
-from .panels import FAR_FIELD
-from .potential import outer_series
+from .outer_series import FAR_FIELD, outer_series
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -57,6 +56,10 @@ class SlopeDensity(Density):
     def epsilon(self) -> float:
         """The edges' exponents are 1/2 ± epsilon."""
         return 0.0
+
+    def moved(self, contact: Interval, dx: float, tail: float) -> Self:
+        """The same on `contact`, its own moved by dx + tail, with all that it knows of the slope."""
+        return replace(self, contact=contact)
 
     @property
     @abstractmethod

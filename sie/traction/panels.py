@@ -37,10 +37,7 @@ GROWTH = 64.0
 MANY = 24
 # Chebyshev coefficients below this fraction of the largest slope in the contact are rounding.
 CHOP = 0.5 * EPS
-# Terms of the series far from the contact: beyond FAR_FIELD widths from its centre |ρ| is less than
-# 1/(2 FAR_FIELD + sqrt(4 FAR_FIELD² - 1)) = 0.172, and 0.172^22 is rounding.
-FAR_FIELD = 1.5
-TERMS = 23
+TERMS = 23  # of the series beyond FAR_FIELD (`outer_series`), where |ρ|^22 <= 0.172^22 is rounding
 
 
 class Series(NamedTuple):

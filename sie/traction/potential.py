@@ -32,10 +32,10 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.cauchy_sums import CHUNK, add_pairs, chunks
-from sie.numerics.interval import Interval
 
 from .edge_functions import BreakFunction
-from .panels import FAR_FIELD, Panels
+from .outer_series import FAR_FIELD, outer_series
+from .panels import Panels
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -380,25 +380,3 @@ def far(p: Panels, z: Any, constant: bool = True) -> tuple[Any, Any]:
     less, steep = p.edge.quotient(z)  # less 1
     V = -S * (1.0 + less) - p.I0 * (1.0 + less if constant else less)
     return V, -dS * (1.0 + less) - (S + p.I0) * steep
-
-
-def outer_series(series: Array, contact: Interval, z: Any) -> tuple[Any, Any]:
-    """Σ_{n>0} g_n ρ^n and its derivative, ρ = 1/(s + sqrt(s - 1) sqrt(s + 1)), off the contact.
-
-    That is 1/π∫p/(z - t) dt of p = sqrt(1 - s²) Σ g_{n+1} U_n(s). The other form of ρ,
-    s - sqrt(s² - 1), cancels. As dρ/dz = -ρ/R, the derivative is -Σ n g_n ρ^n / R.
-    """
-    left, right = contact.from_left(z), -contact.from_right(z)
-    on_line, side = not np.iscomplexobj(z), 1.0
-    if on_line:
-        side = np.sign(left)
-        left, right = np.abs(left), np.abs(right)
-    root = side * (np.sqrt(left) * np.sqrt(right))
-    rho = 2.0 * contact.r / (side * (left + right) + 2.0 * root)
-    F, steep = np.zeros_like(rho), np.zeros_like(rho)
-    for n in range(len(series) - 1, 0, -1):
-        F += series[n]
-        F *= rho
-        steep += n * series[n]
-        steep *= rho
-    return F, -steep / root

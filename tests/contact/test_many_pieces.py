@@ -12,9 +12,10 @@ from scipy.interpolate import CubicSpline
 import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
-from sie.certificate.quadrature import NODES, composite_rule
+from sie.certificate.quadrature import composite_rule
 from sie.contact.edge_integrals import moments
 from sie.numerics.cauchy_sums import LEAF, KernelSums
+from sie.numerics.graded_rule import NODES
 from sie.numerics.interval import Interval
 from sie.profiles.slope import Slope
 from sie.traction import panels, potential

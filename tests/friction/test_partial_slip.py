@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 
 import sie
 from sie.contact import normal
-from sie.friction import partial_slip
 
 mp = mpmath.mp.clone()
 mp.dps = 70  # 40 are left where θ - sin θ cos θ of a thin rim cancels
@@ -23,14 +22,14 @@ E, F, P = 2.0, 0.5, 0.375
 FRACTIONS = (1e-14, 1e-9, 1e-4, 0.009, 0.011, 0.6, 1.0 - 1e-6, 1.0 - 1e-14)
 
 
-def sheared(profile, fraction, **more):
+def sheared(profile, fraction, load=P, **more):
     return sie.solve(
         sie.Scene(
             profile=profile,
             modulus=E,
-            normal_load=P,
+            normal_load=load,
             friction=F,
-            tangential_load=fraction * F * P,
+            tangential_load=fraction * F * load,
             **more,
         )
     )
@@ -121,15 +120,7 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
     """
     profile = sie.RoundedFlat(a, 1.0) if a else sie.Parabola(1.0)
     load = float(rounded_load(mp.mpf(a), mp.mpf(1)))
-    solution = sie.solve(
-        sie.Scene(
-            profile=profile,
-            modulus=E,
-            normal_load=load,
-            friction=F,
-            tangential_load=fraction * F * load,
-        )
-    )
+    solution = sheared(profile, fraction, load)
     b, c = (a + rounded_rim(a, P) for P in (mp.mpf(load), left_over(solution)))
     state = solution.tangential
     inner = state.corrective.contact
@@ -199,7 +190,11 @@ def test_next_to_sliding_the_stick_zone_of_a_tilted_profile_is_where_it_touched_
 def test_full_sliding_is_f_times_the_pressure_without_a_second_solve(profile, sign, monkeypatch):
     solution = sheared(profile, sign)
     _ = solution.normal
-    monkeypatch.setattr(partial_slip, "contact_under", None)
+
+    def refused(*_args, **_options):
+        pytest.fail("a second contact was solved")
+
+    monkeypatch.setattr(sie.solution, "contact_under", refused)
     x = np.linspace(-0.9, 0.9, 7) * solution.half_width
     assert (solution.shear(x) == sign * F * solution.pressure(x)).all()
     assert solution.stick == ()

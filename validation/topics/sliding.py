@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -56,6 +57,15 @@ class Slider:
         return sie.solve(sie.Scene(profile=self.profile, modulus=1.0, **sliding, **self.loads))
 
 
+def _closed_forms(module: ModuleType, given: dict[str, Any], moment: str = "moment") -> Any:
+    """Pressure, potential and moment of a module of `analytic`, as a slider has them."""
+    return (
+        lambda x, k, lib: module.pressure(x, **given, coupling=k, lib=lib),
+        lambda z, k: module.potential(z, **given, coupling=k, lib=mp),
+        lambda k: getattr(module, moment)(**given, coupling=k, lib=mp),
+    )
+
+
 HERTZ: dict[str, Any] = {"half_width": 1.0, "radius": 1.0, "modulus": 1.0}
 FLAT: dict[str, Any] = {"half_width": 1.0, "normal_load": 1.0}
 PUNCH = {"normal_load": 0.3, "half_flat": 0.5, "radius": 1.0, "modulus": 1.0}
@@ -64,17 +74,13 @@ SLIDERS = (
         "parabola",
         sie.Parabola(1.0),
         {"half_width": 1.0},
-        lambda x, k, lib: sliding_hertz.pressure(x, **HERTZ, coupling=k, lib=lib),
-        lambda z, k: sliding_hertz.potential(z, **HERTZ, coupling=k, lib=mp),
-        lambda k: sliding_hertz.moment(**HERTZ, coupling=k, lib=mp),
+        *_closed_forms(sliding_hertz, HERTZ),
     ),
     Slider(
         "flat",
         sie.Flat(1.0),
         {"normal_load": 1.0},
-        lambda x, k, lib: sliding_flat.pressure(x, **FLAT, coupling=k, lib=lib),
-        lambda z, k: sliding_flat.potential(z, **FLAT, coupling=k, lib=mp),
-        lambda k: sliding_flat.upright_moment(**FLAT, coupling=k, lib=mp),
+        *_closed_forms(sliding_flat, FLAT, moment="upright_moment"),
     ),
     Slider(
         "rounded flat",
@@ -138,22 +144,9 @@ def _claims(
 ) -> Iterator[Claim]:
     right, by = slider.name, "both packages"
     wrong, named = judged(slider, 0.3, truth=-0.3), "the closed form with β of the other sign"
-    yield Claim(
-        f"sliding {right}: largest error of the pressure / peak",
-        by,
-        largest(f[0] for f in found),
-        wrong[0],
-        named,
-        high=BAR,
-    )
-    yield Claim(
-        f"sliding {right}: largest error of the moment / P r",
-        by,
-        largest(f[1] for f in found),
-        wrong[1],
-        named,
-        high=BAR,
-    )
+    for k, error in enumerate(("the pressure / peak", "the moment / P r")):
+        name = f"sliding {right}: largest error of {error}"
+        yield Claim(name, by, largest(f[k] or 0.0 for f in found), wrong[k] or 0.0, named, high=BAR)
     if found[0][2] is not None:
         spoiled = judged(slider, 0.3, 1.0 + SPOILED)[2] or 0.0
         yield Claim(

@@ -14,11 +14,11 @@ def figures(found: Found) -> Iterator[Figure]:
     saving, bare = found.curves("economy")
     drawing, ax = axes(height=3.0, head=0.4)
     place = np.array(saving.y, dtype=float)
-    ax.barh(place - 0.18, saving.x, height=0.34, label=saving.label)
-    ax.barh(place + 0.18, bare.x, height=0.34, label=bare.label)
     ax.set_yticks(place, saving.about["names"])
     ax.invert_yaxis()
     labelled(ax, "solve, 1001 pressures and shears [ms]", "", log="x")
+    for curve, aside in ((saving, -0.18), (bare, 0.18)):
+        ax.barh(place + aside, curve.x, height=0.34, label=curve.label)
     legend_above(ax, 2)
     yield Figure(
         "economy",
