@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import sie
+from sie.contact.edges import Search
 from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_functions import flat_functions
 from validation.harness.timing import compared
@@ -44,6 +45,40 @@ def test_over_the_closed_form_of_the_rounded_punch(benchmark, name):
     question = scene(PROFILES[name])
     run = lambda: sie.solve(question).pressure(X)  # noqa: E731
     benchmark.extra_info["ratio"] = compared(run, closed_form)[1]
+    benchmark(run)
+
+
+@pytest.mark.parametrize("name", ["parabola", "rounded flat"])
+def test_a_height_over_its_formula(benchmark, name):
+    """What any x, infinite or nan, costs beside the formula at 1001 places: `ratio`."""
+    profile = PROFILES[name]
+    formula = type(profile).height.__wrapped__
+    run = lambda: profile.height(X)  # noqa: E731
+    benchmark.extra_info["ratio"] = compared(run, lambda: formula(profile, X))[1]
+    benchmark(run)
+
+
+@pytest.mark.parametrize("name", ["parabola", "rounded flat", "1000 pieces"])
+def test_1001_gaps_over_solve_and_1001_pressures(benchmark, name):
+    question, x = scene(PROFILES[name]), np.linspace(-2.0, 2.0, 1001)
+    solution = sie.solve(question)
+    run = lambda: solution.gap(x)  # noqa: E731
+    solve = lambda: sie.solve(question).pressure(X)  # noqa: E731
+    benchmark.extra_info["ratio"] = compared(run, solve)[1]
+    benchmark(run)
+
+
+def test_edges_over_those_without_a_closed_form_of_the_first_guess(benchmark, monkeypatch):
+    """What `Search._of_linear_rise` saves: `ratio` without it."""
+    question = scene(PROFILES["rounded flat"])
+    run = lambda: sie.solve(question).edges  # noqa: E731
+
+    def without():
+        with monkeypatch.context() as patch:
+            patch.setattr(Search, "_of_linear_rise", lambda *_: 0.0)
+            run()
+
+    benchmark.extra_info["ratio"] = compared(without, run)[1]
     benchmark(run)
 
 

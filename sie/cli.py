@@ -94,7 +94,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
     if arguments.grid and not arguments.field:
         raise ValueError(
-            "--grid says how many points --field writes: "
+            "--grid is the number of points that --field writes: "
             "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
         )
     file = _scene(arguments)

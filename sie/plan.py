@@ -1,4 +1,4 @@
-"""What will be computed for a scene, what is skipped, and why.
+"""The plan of a scene: the steps that it needs, those that are skipped, and the reasons.
 
 All of it is known before anything is computed.
 """
@@ -98,7 +98,9 @@ class Plan:
 def plan(
     scene: Scene, want: str | Iterable[str] = "pressure", economy: Collection[str] = ECONOMY
 ) -> Plan:
-    """What will be computed for a scene, what is skipped, and why. Nothing is computed here.
+    """The steps that a scene needs, those that are skipped, and the reasons.
+
+    Nothing is computed here.
 
     Parameters
     ----------

@@ -316,7 +316,7 @@ class Solution:
 
     @property
     def edges(self) -> tuple[float, float]:
-        """Where contact begins and ends, (x1, x2), lengths.
+        """The edges of the contact, (x1, x2), lengths.
 
         Returns
         -------
@@ -363,7 +363,7 @@ class Solution:
 
     @property
     def sharp(self) -> tuple[bool, bool]:
-        """Which edges are corners of the indenter, (left, right).
+        """Whether each edge is a corner of the indenter, (left, right).
 
         Returns
         -------
@@ -567,7 +567,7 @@ class Solution:
         return self.stress(x, 0.0)
 
     def elastic_limit(self, criterion: Criterion = "mises") -> YieldPoint:
-        """Where the body yields first, and at which load.
+        """The place where the body yields first, and the load.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What the command prints on standard output and standard error."""
+"""Output of the command on standard output and standard error."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ def sweep(
     chunk: int | None = None,
     progress: bool = True,
 ) -> Any:
-    """What is wanted of every scene of a grid of parameters.
+    """The wanted quantities of every scene of a grid of parameters.
 
     Parameters
     ----------

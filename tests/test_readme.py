@@ -1,6 +1,4 @@
-"""The README tells the truth: its snippets run, its commands are the ones that exist, its picture
-and table are there.
-"""
+"""The README is true: its snippets run, its commands, its picture and its table exist."""
 
 import re
 import tomllib

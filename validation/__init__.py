@@ -1,3 +1,1 @@
-"""What convinces a sceptic: every claim computed anew. `python -m validation` runs all of it; see
-`__main__`.
-"""
+"""Every claim of the project, computed anew by `python -m validation`; see `__main__`."""

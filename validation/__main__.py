@@ -1,5 +1,6 @@
-"""python -m validation [--quick] [--only NAME]: every claim computed anew, one HTML page with
-pictures and one JSON of every number.
+"""python -m validation [--quick] [--only NAME]: compute every claim anew.
+
+The result is one HTML page with pictures, and one JSON file of every number.
 
 The page and the numbers go to build/validation/ (or --out). The exit status is 1 if a claim fails,
 or a check is blind.
@@ -27,7 +28,7 @@ TOPICS = (
     "stability", "kinks", "certificate", "economy", "mutation",
 )  # fmt: skip
 NOT_WRITTEN = 2
-INTERRUPTED = 130  # the exit status by which shells know it
+INTERRUPTED = 130  # the exit status of shells for it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -93,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def writable(out: Path) -> bool:
-    """Whether the report can go there, asked before it is computed; makes the folder."""
+    """Whether the report can be written there, tested before the run; makes the folder."""
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError:
@@ -102,7 +103,7 @@ def writable(out: Path) -> bool:
 
 
 def summary(sections: Sequence[Section], seconds: float, out: Path) -> int:
-    """What failed, if anything, and where the page is."""
+    """The claims that failed, and the place of the page."""
     claims = [(s.name, c) for s in sections for c in s.found.claims]
     failed = [(name, c) for name, c in claims if not c.ok]
     for s in sections:

@@ -1,5 +1,6 @@
-"""The contacts that are compared with the 40-digit reference: a profile of the package and, written
-apart, its slope for the reference.
+"""The contacts that are compared with the 40-digit reference.
+
+Each is a profile of the package and, written separately, its slope for the reference.
 """
 
 from collections.abc import Iterator
@@ -17,8 +18,8 @@ INF = float("inf")
 
 @dataclass(frozen=True)
 class Case:
-    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` as the
-    case is meant to end.
+    """A scene without loads; `load` gives P with E* = 1, `width` the half-width; `sharp` the
+    expected kind of edges.
     """
 
     name: str
@@ -52,7 +53,7 @@ def solved(case: Case) -> sie.Solution:
 
 @cache
 def exact(case: Case) -> normal_contact.Contact:
-    """The answer in 40 digits; the solver's edges are only where Newton starts."""
+    """The answer in 40 digits; the solver's edges are only the start of Newton's method."""
     pieces = case.pieces.tilted(case.tilt) if case.tilt else case.pieces
     if all(case.sharp):
         assert case.load is not None
@@ -176,8 +177,9 @@ def chosen(quick: bool) -> Iterator[Case]:
 
 
 def points(case: Case) -> np.ndarray:
-    """Off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges
-    (nearer, p is rounding of the edge itself).
+    """Points off every grid: across the contact, next to breaks, and to within 1e-3 r of the edges.
+
+    Nearer to an edge p is rounding of the edge itself.
     """
     solution = solved(case)
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre

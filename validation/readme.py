@@ -1,8 +1,7 @@
-"""The README's table of accuracy and speed, written by `python -m validation --readme` from the
-numbers of that run, never by hand.
+"""The README's table of accuracy and speed, written by `python -m validation --readme`.
 
-What it was written from is kept in validation/readme.json, so that a test can tell whether the two
-have parted.
+The numbers are those of that run. They are kept in validation/readme.json, so that a test can
+compare the two.
 """
 
 from __future__ import annotations
@@ -29,8 +28,9 @@ TOPICS = ("pressure", "speed")  # that the table is made of
 
 
 def rows(report: Mapping[str, Any]) -> list[list[Any]]:
-    """From the JSON of a report: the cases that the README shows, the first of each kind; errors
-    and counts, then times.
+    """The README's rows from the JSON of a report: errors and counts, then times.
+
+    They are the first case of each kind.
     """
     errors, times = (
         first_of_each_kind(report, *of)
@@ -73,7 +73,7 @@ def with_table(text: str, table: str) -> str:
 
 
 def files(report: Mapping[str, Any]) -> dict[Path, bytes]:
-    """What is to be written: the README, and what its table is made of."""
+    """The files to be written: the README, and the numbers of its table."""
     found = rows(report)
     kept = (
         json.dumps({"machine": report["machine"], "rows": found}, indent=1, ensure_ascii=False)

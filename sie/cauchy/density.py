@@ -292,7 +292,7 @@ class JacobiDensity(Density):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """From the first end to the last."""
+        """The interval from the first end to the last."""
         return self.parts[0].map.x1, self.parts[-1].map.x2
 
     @property

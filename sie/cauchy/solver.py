@@ -44,7 +44,7 @@ LARGEST_RULE, LARGEST_COMPLEX_RULE = (
     1500,
 )  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
 NEAR_MINUS_ONE = (
-    1e-6  # an exponent within this of -1 has fewer digits left than the tolerance asks for
+    1e-6  # an exponent within this of -1 has fewer digits left than the tolerance needs
 )
 LARGEST_GUESS = 1000  # ... and the first size as estimated from g alone
 IDLE, SETTLED = (
@@ -60,7 +60,7 @@ INCONSISTENT = 1e-9
 
 
 def solve(problem: Problem, tol: float) -> JacobiDensity:
-    """The density with as many nodes as tol asks for.
+    """The density with as many nodes as tol needs.
 
     Raises ContactError with the best `density` if it does not settle.
     """

@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 
 LEAST_OF_FUNCTION = 16.0 * EPS  # ... and a function is resolved to a few ulp of its largest value
 SUMMED = 4.0 * EPS  # rounding of ∫H dφ, of the sum of its terms' sizes
-WELL_POSED = 0.05  # singular values below this fraction are what the points cannot tell
+WELL_POSED = 0.05  # smaller singular values belong to errors that the points do not show
 # error of the pressure near a misplaced edge, over the constant that it leaves in the residual,
 # about
 MISPLACED = 4.0

@@ -153,7 +153,7 @@ def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
 
 
 def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
-    """The same where the slope has many breaks: one panel a piece, graded where a break asks for
+    """The same where the slope has many breaks: one panel a piece, graded where a break needs
     it; and middles of the largest pieces.
     """
     cut = angles(contact, inner(contact, slope.breaks))
@@ -180,7 +180,7 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
 def _levels_of_few(slope: Slope, also: Array) -> int:
     """How often the panels at the breaks are graded where these are few.
 
-    Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which asks for fewer.
+    Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which needs fewer.
     """
     powers = [f.function for f in slope.functions if isinstance(f.function, PowerSlope)]
     if not powers or len(powers) < len(slope.functions) or slope.coefficients.any() or also.size:

@@ -27,7 +27,7 @@ RETREAT = "with Q and σ in proportion the zones of slip would retreat on the wa
 
 @dataclass(frozen=True)
 class Certificate:
-    """What was measured on an answer.
+    """The measures of accuracy of an answer.
 
     Numbers are relative: to the peak pressure (residual, inequalities), to P and P r (equilibrium).
      At a distance d from the nearer edge the pressure is wrong by at most 3 (error + edges
@@ -146,7 +146,7 @@ class Certificate:
 
 @dataclass(frozen=True)
 class ShearCertificate:
-    """What was measured on a shear traction (`shear_check`).
+    """The measures of accuracy of a shear traction (`shear_check`).
 
     Numbers are relative to the largest |q|, to ∫|q| dx, or to f times the peak pressure.
 

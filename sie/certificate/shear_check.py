@@ -131,7 +131,7 @@ def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> flo
 
 
 def _opposing(state: Slip, x: Array) -> float:
-    """Of the slip since the last turning point: smallest in its own direction, over the largest."""
+    """The smallest slip in its own direction since the last turning point, over the largest."""
     slip = state.slip_now(x)
     largest = float(np.abs(slip).max(initial=0.0))
     lowest = min(

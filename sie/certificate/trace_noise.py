@@ -185,7 +185,7 @@ def _gap(placed: PlacedTrace, gap: Gap) -> Gap:
 
 
 class Errors(NamedTuple):
-    """Of p over its peak, everywhere and in the inner part of the contact; of x1 and x2."""
+    """Errors of p over its peak, everywhere and in the inner part of the contact; of x1 and x2."""
 
     pressure: float
     inner: float

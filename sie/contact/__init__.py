@@ -1,1 +1,1 @@
-"""From a load to the edges of the contact and its pressure."""
+"""The edges of the contact and its pressure under a load."""

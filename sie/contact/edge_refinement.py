@@ -225,9 +225,9 @@ class Polish:
             over, rise = r * k.I0, 0.5 * r * (k.JR + k.JL)
             step = self._sideways(contact, over, rise) if rise > 0.0 else math.inf
             missed = abs(over) / sum(self.rounding(contact, k, 0.0))
-            if missed <= 1.0:
-                balanced = contact.moved(step, step) if rise > 0.0 else contact
-                return balanced, k.balanced(contact.r)
+            if missed <= 1.0:  # a slope that does not rise gives no direction, and no step is left
+                rises = math.isfinite(step)
+                return (contact.moved(step, step), k.balanced(contact.r)) if rises else (contact, k)
             bracket.cut(m, above=over < 0.0)
             wanted = two_sum(m[0], step + m[1]) if math.isfinite(step) else (math.inf, 0.0)
             place = bracket.place(wanted, missed > 0.5 * earlier[-2])
@@ -313,7 +313,7 @@ class Polish:
     # -- rounding ----------------------------------------------------------------------------------
 
     def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
-        """Of F1 and F2."""
+        """The rounding of F1 and F2."""
         r = contact.r
         least = ROUNDINGS * target + (
             math.pi * self.noise(contact) * r if self.slope.functions else 0.0

@@ -61,18 +61,19 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
 def gap_slope(x: Array, density: SlopeDensity, slope: Slope) -> Array:
     """gap'(x) at x beside the contact, all on one side."""
     opening: Array = slope(x)
-    near = np.abs(x) <= density.horizon  # beyond, the pressure is a force
-    opening[~near] -= density.hilbert(x[~near]) / density.half_modulus
-    if not near.any():
+    near = np.abs(x) <= density.horizon
+    if not near.all():  # beyond, the pressure is a force
+        opening[~near] -= density.hilbert(x[~near]) / density.half_modulus
+        if near.any():
+            opening[near] = gap_slope(x[near], density, slope)
         return opening
-    G, continued = density.gap_excess(x[near])
-    difference: Array = opening[near] - continued
+    G, continued = density.gap_excess(x)
+    difference: Array = opening - continued
     # On the piece that reaches the edge H is its own continuation; what is left there is rounding,
     # and would hide G next to the edge
     own = np.abs(difference) <= 16.0 * EPS * (np.abs(continued) + density.slope_scale)
     difference[own] = 0.0
-    opening[near] = difference + G
-    return opening
+    return difference + G
 
 
 def _on_one_side(

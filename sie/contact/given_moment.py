@@ -79,7 +79,7 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
         return None
 
     def at(m: Place) -> tuple[float, float, Interval, Moments]:
-        """Of M/(G r): how much it exceeds what is given, and its derivative."""
+        """The excess of M/(G r) over its given value, and its derivative."""
         contact = interval_about(m[0], r).moved(m[1], m[1])
         # Far from x = 0 the slope is nearly constant, which carries nothing
         level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
@@ -114,7 +114,7 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
             break
         m = place
     if not (ROUNDINGS * size < k.I1 and rounding < abs(rise) * r):
-        return None  # nothing but rounding carries the load, or tells the centre
+        return None  # nothing but rounding carries the load, or determines the centre
     tilt = -k.I0 / math.pi
     k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
     return replace(search.finished(Found(contact, moments=k), None, tilt), moment=moment)

@@ -230,7 +230,7 @@ def _of_power_law(law: PowerLaw, scene: Scene) -> Edges:
 
 
 def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | None:
-    """The contact where one series resolves the slope, and no moment asks for the tilt."""
+    """The contact where one series resolves the slope, and no moment is given."""
     if scene.moment is not None or scene.epsilon:
         return None
     slope, G = slope.tilted(scene.tilt), 0.5 * scene.Estar

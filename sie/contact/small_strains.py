@@ -35,7 +35,7 @@ def notes(slopes: Array, pressure: float) -> tuple[str, ...]:
 
 
 def regular_points(density: SlopeDensity, slope: Slope, x: Array) -> NDArray[np.bool_]:
-    """Which x are not next to a sharp edge or a corner, where the pressure is infinite."""
+    """Whether each x is away from sharp edges and corners, where the pressure is infinite."""
     contact = density.contact
     infinite = [
         edge for edge, k in zip(density.interval, (density.k1, density.k2), strict=True) if k

@@ -105,7 +105,7 @@ class _Samples:
         return contact if lo < contact.x1 and contact.x2 < hi else None
 
     def coefficients(self, contact: Interval, enough: float) -> Array | None:
-        """Of as many points as make the last small: `enough` times the largest, or rounding."""
+        """The coefficients, with the last below `enough` times the largest, or rounding."""
         self.taken += 1
         before = math.inf
         while self.size < len(SIZES):
@@ -125,7 +125,7 @@ class _Samples:
         return None
 
     def floor(self, contact: Interval, values: Array, scale: float) -> float:
-        """What a series may miss: `tol`, what ulps of x do, and rounding of the slope's own."""
+        """The allowed error of a series: `tol`, ulps of x, and the slope's own rounding."""
         ulp = EPS * max(abs(contact.x1), abs(contact.x2)) / (2.0 * contact.r)
         rounding = max(ulp * float(values.max() - values.min()), min(self.noise, ROUGHEST * scale))
         return max(self.tol * scale, rounding)

@@ -21,8 +21,10 @@ from sie.profiles.slope import Slope, polynomial_slope
 
 from .edges import Found, Search
 
-NARROWER = 0.8  # each half-width tried is this part of the one before ...
-NARROWEST = 1e-3  # ... down to this part of the widest
+NARROWER = 0.8  # each half-width tried is this part of the one before
+# Parts of the widest. The window of a function is fitted to the contact, which is 0.8 of it: whether
+# that carries more than the load is rounding, so that a wider one is tried first.
+TRIED = (0.95, *(NARROWER**k for k in range(1, 31)))
 LEAST = 1e-6  # of the load: what carries less counts as this much in logarithms
 CLOSE = 1e-4  # of the load: from there Newton's steps for both edges
 MAX_STEPS = 60
@@ -85,18 +87,17 @@ def _bracket(search: Search, load: float) -> tuple[float, float]:
     """Two half-widths, the first from outside between whose loads the load lies."""
     lo, hi = search.slope.domain
     widest = 0.5 * (hi - lo) if math.isfinite(hi - lo) else _wide_enough(search, load)
-    wider, r = 0.0, NARROWER * widest
-    while r > NARROWEST * widest:
+    wider = 0.0
+    for r in [part * widest for part in TRIED]:
         try:
             if _carried(search, r) <= load:
+                if wider:
+                    return r, wider
                 break
             wider = r
         except (LoadError, OverflowError):
             wider = 0.0
-        r *= NARROWER
-    if not wider > r > NARROWEST * widest:
-        raise LoadError("no two half-widths were found with the load between theirs")
-    return r, wider
+    raise LoadError("no two half-widths were found with the load between theirs")
 
 
 def _wide_enough(search: Search, load: float) -> float:

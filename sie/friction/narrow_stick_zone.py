@@ -87,7 +87,7 @@ def _balanced(
 
 
 def _depth(frame: EdgeFrame, force: float) -> float:
-    """How far from an edge the pressure has this resultant."""
+    """The distance from an edge over which the pressure has this resultant."""
     return increasing_root(
         lambda d: float(slip_zone(frame, d).force.sum()) - force, 0.5 * frame.width, frame.width
     )

@@ -7,7 +7,8 @@ After the normal load P, at constant P, the tangential load Q and the bulk stres
     q = ± f p, in the direction of slip, in the slip zones
 
 slip(x) is the tangential displacement of the indenter relative to the body, positive along +x.
-Where it is positive so is q, which acts on the body. Loads and inequalities tell four states apart:
+Where it is positive so is q, which acts on the body. Loads and inequalities distinguish four
+states:
 
     stick               Q = 0 = σ                       no shear
     incipient sliding   |Q| = f P                       q = ± f p, no second solve

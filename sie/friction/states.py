@@ -476,7 +476,7 @@ def in_frame(
     near = lengths[frame.side > 0.0]
     far, rest = two_sum(
         -near, -2.0 * density.contact.r
-    )  # from the width of the stick zone, which the other length may not tell
+    )  # from the width of the stick zone, which the other length may not resolve
     ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = frame.origin
     return density.moved(ends, dx, tail), slope.shifted(dx).shifted(tail)

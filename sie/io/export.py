@@ -9,8 +9,6 @@ JSON always holds
     sie, title, units {length, force, stress, moment}
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
-    patches [[x1, x2], ..], patch_loads [number, ..] where there are several
-
     patches [[x1, x2], ..], patch_loads [number, ..], where there are several
 
 and, where they are wanted,
@@ -88,7 +86,7 @@ def strict_json(value: Any) -> str:
 
 
 def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[str, Any]:
-    """What `json_text` writes, with infinities as floats."""
+    """The content of `json_text`, with infinities as floats."""
     units, scene = file.units, solution.scene
     out: dict[str, Any] = {
         "sie": __version__,

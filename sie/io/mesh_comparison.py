@@ -133,7 +133,7 @@ class Difference:
 
     @property
     def suspicion(self) -> str:
-        """The cause suggested by a factor far from 1, if it explains over half of the difference."""
+        """The cause of a factor far from 1, if it explains over half of the difference."""
         if FACTORS[0] <= self.factor <= FACTORS[1] or self.l2_scaled > abs(self.factor):
             return ""
         return (

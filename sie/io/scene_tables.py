@@ -1,4 +1,4 @@
-"""What each table of a scene file may hold, and the remedy for a key that it may not hold.
+"""The keys of each table of a scene file, and the remedy for a key that it may not hold.
 
 The keys of [profile] are the parameters of the kind of profile: its signature gives their names,
 their types and which of them are optional.
@@ -139,7 +139,7 @@ def remedy(key: str, known: Iterable[str], here: str) -> str:
 
 
 def _elsewhere(key: str) -> str:
-    """Where a key belongs that no table may hold, "" for other keys."""
+    """The place of a key that no table may hold, "" for other keys."""
     if key in ("title", "want"):
         return "it stands at the top of the file, before the first [table]"
     if key in TOP:

@@ -37,9 +37,7 @@ Index = NDArray[np.int64]
 SEPARATED = 2.0  # |s| of a target on the line that a node's series serves
 SEPARATION = SEPARATED + float(np.sqrt(SEPARATED**2 - 1.0))  # the same as |ρ|
 TERMS = 30  # SEPARATION**-TERMS is a tenth of rounding
-SHORTEST = (
-    64.0  # ulp: the half-length of a node whose rows are shorter than the doubles there can tell
-)
+SHORTEST = 64.0  # ulp: the half-length of a node whose rows are shorter than the spacing of doubles
 LEAF = 4  # rows in a leaf
 CHUNK = 1 << 14  # targets taken at a time: what is held then fits into a cache
 
@@ -105,7 +103,7 @@ class KernelSums:
         return total, steep, *self._pairs(*near)
 
     def _branches(self, z: Any, start: tuple[Index, Index]) -> Iterator[_Branch]:
-        """The targets that each level serves, from the root down, and the pairs for the next level."""
+        """The targets of each level from the root down, and the pairs for the next level."""
         node, target = start
         for level in range(len(self.levels) - 1, -1, -1):
             centre, half, A = self.levels[level]

@@ -130,6 +130,8 @@ def increasing_root(function: Callable[[float], float], guess: float, limit: flo
 
 # The logarithmic search ends at this relative error of the value, after one more step.
 ROUGH = 1e-2
+# This step is not worth another evaluation: Newton's next one from u reaches rounding.
+SHORT_STEP = 1e-9
 # Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of
 # range.
 MAX_LOG_STEP = 20.0
@@ -168,7 +170,7 @@ def logarithmic_root(
             raise OverflowError("the ratio is no double")
         step = math.log(target / f) * f / slope if rising else np.inf
         if rising and abs(math.log(f / target)) <= rough:
-            return min(u * math.exp(step), limit)
+            return min(u * math.exp(step), limit) if abs(step) > SHORT_STEP else u
         if f < target and (rising or (f == 0.0 and slope >= 0.0)):  # zero: it underflows
             low = u
         else:
@@ -179,11 +181,11 @@ def logarithmic_root(
         open_ended = low == 0.0 or not math.isfinite(high)
         new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
         if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton
-            # creeps
+            # steep where the contact is small, flat where it is large: without a bracket Newton is
+            # slow
             new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
         if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
-            new = _between(low, high, u)  # Newton runs off, or to and fro across a kink
+            new = _between(low, high, u)  # Newton diverges, or oscillates across a kink
         steps.append(abs(math.log(new / u)))
         u = new
     if best >= target * (1.0 - rough):

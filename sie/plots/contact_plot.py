@@ -46,7 +46,7 @@ ARROW = {
     "shrinkB": 0,
     "mutation_scale": 6,
 }
-# From one turning point to the next; a power of two, so that steps to and fro meet the same loads.
+# From one turning point to the next; a power of two, so that steps up and down have the same loads.
 LOOP_POINTS = 16
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 
@@ -120,7 +120,7 @@ class _View:
 
     @cached_property
     def cut(self) -> list[float]:
-        """Where the pressure rises above it."""
+        """The points where the pressure rises above it."""
         return [s.x for s in summits(self.solution) if s.p > self.shown * (1.0 + 1e-9)]
 
     @cached_property
@@ -138,7 +138,7 @@ class _View:
 
     @property
     def factor(self) -> float:
-        """From the scene's unit of length to that of the axis."""
+        """The factor from the scene's unit of length to that of the axis."""
         return style.scaled(self.solution.half_width, self.units.length)[0]
 
     @property

@@ -1,1 +1,1 @@
-"""What is asked, as values: materials, scenes, load paths."""
+"""The problem as values: materials, scenes, load paths."""

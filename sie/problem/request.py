@@ -1,4 +1,4 @@
-"""What can be asked of a scene, and which work may be skipped in answering it."""
+"""The quantities that can be asked for, and the work that the solver may skip."""
 
 from __future__ import annotations
 

@@ -10,6 +10,7 @@ added. Both are here because they refer to each other: `Profile.tilted` makes a 
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
@@ -38,8 +39,10 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
     @wraps(height)
     def everywhere(profile: Profile, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
-        finite = np.isfinite(x)
         with np.errstate(over="ignore", invalid="ignore"):
+            if _all_finite(x) and _all_finite(h := height(profile, x[()])):
+                return h
+            finite = np.isfinite(x)
             h = height(profile, np.where(finite, x, 0.0)[()])
             h = np.where(np.isnan(h), np.inf, h)  # the difference of two heights beyond all doubles
             if not finite.all():
@@ -48,6 +51,11 @@ def of_any_x(height: Callable[[Any, Array], Array]) -> Callable[[Any, ArrayLike]
         return h[()]
 
     return everywhere
+
+
+def _all_finite(a: Array) -> bool:
+    """Whether the sum of squares is a double, in one call: then every number is."""
+    return math.isfinite(np.vdot(a, a))
 
 
 class Profile(ABC):
@@ -153,7 +161,7 @@ class Profile(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where h or a derivative of it jumps, inside the domain; ascending lengths."""
+        """The places inside the domain where h or a derivative of it jumps; ascending lengths."""
         return tuple(float(b) for b in self.pieces.breaks[1:-1])
 
     @property

@@ -1,4 +1,4 @@
-"""Where a profile touches first: its lowest points.
+"""The lowest points of a profile, where it touches first.
 
 A profile is lowest where its slope changes from negative to positive; a flat base is an interval of
 such points, and the end of an indenter can be one. Of several minima the deepest is taken: contact
@@ -138,7 +138,7 @@ def _left_end(slope: Slope, ends: Array, x: Array, piece: NDArray[np.int64], i: 
 
 
 def _root(slope: Slope, k: int, lo: float, hi: float) -> float:
-    """Where H of piece k changes sign in [lo, hi]; the end, if the sign changes by a jump there."""
+    """The place in [lo, hi] where H of piece k changes sign; the end, if H jumps there."""
     index, origin, zero = np.array([k]), np.array([float(slope.origins[k])]), np.zeros(1)
 
     def H(y: float) -> float:  # from the piece's own origin, so that a root there is met exactly

@@ -181,7 +181,7 @@ class Piecewise(Profile):
 
 
 def _coefficients(name: str, values: Sequence[float], highest: int, what: str) -> tuple[float, ...]:
-    """The coefficients of a polynomial whose degree is at most `highest`; `what` says which."""
+    """The coefficients of a polynomial whose degree is at most `highest`; `what` names them."""
     largest = arguments.LARGEST_COEFFICIENT
     c = tuple(
         arguments.measure(f"{name}[{k}]", v, largest)

@@ -46,7 +46,7 @@ PATIENCE, HALVINGS = 3, 8
 
 
 class Tolerance(NamedTuple):
-    """What a series may miss: relative to the largest |value|, absolute, and next to breaks."""
+    """Allowed errors of a series: relative to the largest |value|, absolute, next to breaks."""
 
     relative: float
     absolute: float

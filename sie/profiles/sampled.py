@@ -220,7 +220,7 @@ class Sampled(Profile):
 
     @property
     def gaps(self) -> tuple[fitting.Gap, ...]:
-        """Where points are missing: (lo, hi, missing) of steps of x much longer than the others.
+        """Gaps without points: (lo, hi, missing) of steps of x much longer than the others.
 
         The spline bridges them.
         """
@@ -382,7 +382,7 @@ class PlacedTrace(NamedTuple):
     tilt: float = 0.0
 
     def x(self, points: Array) -> Array:
-        """Where points of the trace are in the profile."""
+        """The places of the trace's points in the profile."""
         return self.direction * (points - self.origin)
 
 

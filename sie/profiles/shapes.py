@@ -73,7 +73,7 @@ class Parabola(_Convex):
 
     @of_any_x
     def height(self, x: Array) -> Array:
-        return 0.5 * x * (x / self.radius)
+        return x * (x / (2.0 * self.radius))
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class RoundedFlat(_Convex):
     @of_any_x
     def height(self, x: Array) -> Array:
         rim = np.maximum(np.abs(x) - self.half_flat, 0.0)
-        return 0.5 * rim * (rim / self.radius)
+        return rim * (rim / (2.0 * self.radius))
 
 
 @dataclass(frozen=True)

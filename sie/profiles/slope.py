@@ -89,7 +89,7 @@ class Slope:
     coefficients    (N, D), low order first
     degrees         (N,)
 
-    `degrees` says what Chebyshev degree resolves each piece; it equals the polynomial's degree
+    `degrees` is the Chebyshev degree that resolves each piece; it equals the polynomial's degree
     where there is no function.
     """
 
@@ -159,7 +159,7 @@ class Slope:
 
     @cached_property
     def is_zero(self) -> NDArray[np.bool_]:
-        """Which pieces are flat and need no work."""
+        """Whether each piece is flat and needs no work."""
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))

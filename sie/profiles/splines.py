@@ -253,7 +253,7 @@ class _Basis:
 
     @property
     def first_difference(self) -> Any:
-        """From coefficients of f to those of its slope in quadratic B-splines, less two knots."""
+        """Coefficients of the slope of f in quadratic B-splines on two knots fewer."""
         from scipy.sparse import diags  # noqa: PLC0415
 
         t, m = self.knots, len(self.chosen)

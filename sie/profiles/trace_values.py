@@ -20,7 +20,7 @@ SHORTEST, LONGEST = 1e-100, 1e100  # of lengths and heights: beyond, their power
 
 
 class Mended(NamedTuple):
-    """What `mend` did to a trace.
+    """The repairs that `mend` made to a trace.
 
     left_out    points without a value
     averaged    points that were averaged with others of the same x, to rounding

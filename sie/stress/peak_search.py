@@ -49,7 +49,7 @@ NEAR, NEAR_OF_MANY = (
 # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is
 # rounding
 FINEST = 1e-12
-RESOLVED = 1e-8  # half-widths: many marks nearer to each other are not told apart
+RESOLVED = 1e-8  # half-widths: many marks nearer to each other are merged
 MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
 SHALLOW = 0.06  # of s: where a column begins
 OUTSIDE = 1.8  # half-widths: the scan reaches so far beside the contact, and ...

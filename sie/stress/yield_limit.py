@@ -30,7 +30,7 @@ CRITERIA = ("mises", "tresca")
 
 @dataclass(frozen=True)
 class YieldPoint:
-    """Where a body yields first.
+    """The place where a body yields first, and the load.
 
     Parameters
     ----------

@@ -222,8 +222,8 @@ class Density(ABC):
             If `x` is not made of real numbers.
         """
 
-    # How a form asks itself: on 1-d arrays of places that are not so far away that their squares
-    # overflow. There F is that of a force.
+    # The evaluation within a form: on 1-d arrays of places that are not so far away that their
+    # squares overflow. There F is that of a force.
 
     def _on_line(self, function: Callable[[Array], Array], x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
@@ -315,7 +315,7 @@ class Density(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where p or its derivatives are not smooth: the edges and places between, ascending."""
+        """The places where p or its derivatives are not smooth, ascending, with the edges."""
         return self.interval
 
     @property

@@ -150,7 +150,7 @@ class Panels:
 
     @cached_property
     def ends(self) -> list[list[tuple[float, float, float]]]:
-        """Of lo and hi of every piece: e, sqrt((e - x1)/2r), sqrt((x2 - e)/2r)."""
+        """e, sqrt((e - x1)/2r) and sqrt((x2 - e)/2r) for lo and hi of every piece."""
         g = self.geometry
         rows = (g.ends.tolist(), g.root_left.tolist(), g.root_right.tolist())
         return [list(zip(*of_end, strict=True)) for of_end in zip(*rows, strict=True)]
@@ -269,7 +269,7 @@ class Panels:
 
     @cached_property
     def _rules(self) -> list[tuple[Array, Array]]:
-        """The rule of every piece, of as many nodes as its reach asks for."""
+        """The rule of every piece, of as many nodes as its reach needs."""
         orders = _order_beyond(self.reach_in_s).tolist()
         rules = {n: self.geometry.charges(n) for n in set(orders)}
         return [(rules[n][0][k], rules[n][1][k]) for k, n in enumerate(orders)]

@@ -56,7 +56,7 @@ def test_constants_of_one_phase_have_real_exponents():
 
 @pytest.mark.parametrize("first", KINDS)
 @pytest.mark.parametrize("second", KINDS)
-def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(first, second):
+def test_several_intervals_add_their_indices_and_need_as_many_conditions(first, second):
     intervals, index = ((-1.0, 0.0), (1.0, 3.0)), index_of(first) + index_of(second)
     for given in range(3):
         conditions = {"total": 0.0} if given else {}
@@ -75,7 +75,7 @@ def test_several_intervals_add_their_indices_and_ask_for_as_many_conditions(firs
                 sie.CauchyEquation(intervals, 0.0, ends=(first, second), **conditions)
 
 
-def test_a_free_function_asks_for_one_condition_more():
+def test_a_free_function_needs_one_condition_more():
     with pytest.raises(
         ValueError,
         match=r"index 1 and 1 free function\(s\) needs 2 side condition\(s\), but 1 given",
@@ -329,7 +329,7 @@ SMOOTH_KERNELS = [
 
 @pytest.mark.parametrize("k", range(len(SMOOTH_KERNELS)))
 @pytest.mark.parametrize("g", [1.0, lambda x: 1.0 / (x - 1.2)], ids=["short", "long"])
-def test_a_smooth_kernel_is_called_once_whatever_g_asks_for(k, g):
+def test_a_smooth_kernel_is_called_once_for_any_g(k, g):
     assert counted(SMOOTH_KERNELS[k], g=g)[0] == 1
 
 
@@ -399,8 +399,8 @@ def test_a_short_series_costs_few_nodes():
 
 
 @pytest.mark.parametrize("a", [0.0, 0.2j])
-def test_a_kernel_that_is_rough_in_t_only_is_seen(a):
-    """The residual at the same nodes is blind to it: k does not depend on x, so that any n solves
+def test_a_kernel_that_is_rough_in_t_only_is_detected(a):
+    """The residual at the same nodes does not show it: k does not depend on x, so that any n solves
     its own equation exactly.
     """
     equation = sie.CauchyEquation(
@@ -460,7 +460,7 @@ ILL_POSED = [
 
 
 @pytest.mark.parametrize(("change", "sentence"), ILL_POSED, ids=[str(c) for c, _ in ILL_POSED])
-def test_an_ill_posed_question_is_refused_when_it_is_built(change, sentence):
+def test_an_ill_posed_equation_is_refused_when_it_is_built(change, sentence):
     with pytest.raises(ValueError, match=sentence):
         sie.CauchyEquation(**{"interval": (-1.0, 1.0), "g": 1.0, "total": 0.0} | change)
 
@@ -488,7 +488,7 @@ WRONG_FUNCTIONS = [
 @pytest.mark.parametrize(
     ("change", "sentence"), WRONG_FUNCTIONS, ids=[s for _, s in WRONG_FUNCTIONS]
 )
-def test_a_function_that_returns_nonsense_is_refused(change, sentence):
+def test_a_function_that_returns_invalid_values_is_refused(change, sentence):
     equation = sie.CauchyEquation(**{"interval": (-1.0, 1.0), "g": 1.0, "total": 0.0} | change)
     with pytest.raises(ValueError, match=sentence):
         equation.solve()
@@ -537,7 +537,7 @@ def noisy(x):
 
 @pytest.mark.parametrize("k", [None, smooth_kernel])
 @pytest.mark.parametrize(("g", "error"), [(noisy, 1e-7), (np.abs, 1e-2)])
-def test_what_does_not_settle_is_refused_with_the_best_density(g, error, k, monkeypatch):
+def test_a_density_that_does_not_settle_is_refused_with_the_best_one(g, error, k, monkeypatch):
     monkeypatch.setattr(solver, "LARGEST", 400)
     monkeypatch.setattr(solver, "LARGEST_TRANSFORM", 400)
     equation = sie.CauchyEquation((-1.0, 1.0), g, k=k, total=0.0)

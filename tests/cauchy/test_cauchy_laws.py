@@ -291,7 +291,7 @@ FOUR = [
 
 @pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-6])
 @pytest.mark.parametrize("bounded", FOUR)
-def test_the_coefficients_at_a_gap_are_as_good_as_rounding_of_g_lets_them_and_say_so(bounded, gap):
+def test_the_coefficients_at_a_gap_have_the_error_of_rounding_of_g_and_state_it(bounded, gap):
     """Between bounded ends φ is gap times its peak, and g is known to rounding: 70^1.5 roundings
     over the gap, 1e-7 for 1e-6.
     """
@@ -361,7 +361,7 @@ def test_a_narrow_gap_far_from_zero_keeps_10_digits(at, a, ends):
 
 @pytest.mark.parametrize("offset", [1e3, 1e6])
 @pytest.mark.parametrize("k", [None, lambda x, t: 0.1 * np.cos(x - t)])
-def test_far_from_zero_the_density_is_as_good_as_positions_and_says_so(offset, k):
+def test_far_from_zero_the_density_has_the_error_of_its_positions_and_states_it(offset, k):
     """A double at x is x EPS off; of g and k, smooth over a length of 1, as much is unknown."""
 
     def moved(by):
@@ -422,7 +422,7 @@ def test_next_to_a_large_constant_density_and_potential_keep_their_digits(a, end
     assert density.cauchy(z) == pytest.approx(exact(d.cauchy, z), rel=PROMISE)
 
 
-def test_next_to_an_exponent_of_minus_one_a_density_is_as_good_as_it_says():
+def test_next_to_an_exponent_of_minus_one_a_density_is_as_accurate_as_it_states():
     """There all of φ stands at one end, and the exponent's distance from -1 has few digits."""
     for a in (1e6, 1e9, 1e12):
         d = Manufactured(-1.0, 3.0, *exponents(a, 1.0, (False, True)), (1.0, -0.5, 0.25, 0.1))
@@ -442,7 +442,7 @@ def test_next_to_an_exponent_of_minus_one_a_density_is_as_good_as_it_says():
 
 @pytest.mark.parametrize("gap", [0.4, 1e-3, 1e-6])
 def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
-    """On graded intervals: in the gap, above it, at its rim, and far away."""
+    """On graded intervals: in the gap, above it, at its ends, and far away."""
     manufactured = [
         Manufactured(-1.0, 0.0, -0.5, -0.5, (1.0, -0.5)),
         Manufactured(gap, 2.0, -0.5, -0.5, (0.3, 1.0, 0.2)),

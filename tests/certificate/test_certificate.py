@@ -86,7 +86,7 @@ def test_the_error_given_the_load_keeps_the_promise_up_to_the_edges(name):
     assert (errors <= bound(found, distance) * float(max(expected))).all()
 
 
-def test_what_the_edges_leave_in_the_pressure_is_neither_nothing_nor_a_scare():
+def test_the_error_by_the_edges_is_neither_zero_nor_far_too_large():
     """An edge is known to an ulp of the load times its condition: p(x) δ/(2 d) is wrong."""
     found = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(0.3, 2.0), modulus=1.0, normal_load=0.1)
@@ -123,8 +123,8 @@ def test_a_contact_that_is_off_as_a_whole_shows_in_the_error_that_its_residual_i
     assert max(found.residual, found.force, found.moment, found.edges) < error / SHARE
 
 
-def test_a_rim_that_no_double_can_tell_is_not_certified():
-    """The rim of half-width 1e-50 lies between two doubles: rounding of x would explain any
+def test_a_rounded_edge_between_two_doubles_is_not_certified():
+    """The rounded edge of width 1e-50 lies between two doubles: rounding of x would explain any
     defect.
     """
     found = sie.solve(
@@ -155,7 +155,7 @@ UNDECLARED = {
 
 @pytest.mark.parametrize("load", [0.3, 0.2871])
 @pytest.mark.parametrize("name", UNDECLARED)
-def test_what_was_not_declared_is_found_and_resolved(name, load):
+def test_undeclared_features_are_found_and_resolved(name, load):
     slope, breaks = UNDECLARED[name]
     found, declared = pressed(slope, load), pressed(slope, load, breaks=breaks)
     (x1, x2), r = declared.edges, declared.half_width
@@ -179,7 +179,7 @@ def test_the_stick_zone_of_such_a_function_is_right_too(name):
 
 
 @pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
-def test_the_certificate_sees_what_the_solver_did_not(name, monkeypatch):
+def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypatch):
     """The solver without its look between the points: the certificate looks at points of its
     own.
     """
@@ -223,7 +223,7 @@ def test_the_certificate_s_points_are_not_those_of_the_solver():
     ).any()
 
 
-def test_no_gap_between_the_scattered_points_is_wider_than_the_documentation_says():
+def test_no_gap_between_the_scattered_points_is_wider_than_documented():
     contact = sie.solve(
         sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=0.3)
     ).normal.edges.contact
@@ -271,7 +271,7 @@ def test_complex_slopes_are_refused_by_name(slope):
     ],
     ids=["list", "rows", "pair", "none", "attribute", "bool"],
 )
-def test_what_is_not_a_function_of_an_array_is_refused_when_the_profile_is_built(slope):
+def test_a_slope_that_is_no_function_of_an_array_is_refused_when_the_profile_is_built(slope):
     with pytest.raises(ValueError, match=r"^slope (returned|fails)"):
         sie.FromFunction(slope)
 
@@ -363,7 +363,7 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
 @pytest.mark.parametrize("size", [1e-6, 1e-9])
-def test_a_power_s_contact_that_is_too_wide_is_seen(exponent, size):
+def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
     """Of the right load and the law's own shape: the equation and the conditions of the edges
     tell.
     """

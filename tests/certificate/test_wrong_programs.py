@@ -115,7 +115,7 @@ def test_a_centre_off_by_a_little_is_caught(size):
 
 @pytest.mark.parametrize("size", SIZES)
 def test_a_solution_of_the_homogeneous_equation_is_caught(size):
-    """C/w: the integral equation itself is blind to it, equilibrium is not."""
+    """C/w: the residual of the integral equation does not show it, equilibrium does."""
     p = right(PUNCH)
     assert_caught(PUNCH, lambda x: p(x) + size * 0.15 / root(x))
 
@@ -232,7 +232,7 @@ def test_the_closed_form_that_cancels_is_caught():
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_a_resultant_or_a_moment_that_lies_is_caught(size):
+def test_a_wrong_resultant_or_moment_is_caught(size):
     solution = sie.solve(SKEW)
     P, M = solution.normal_load, solution.moment
     assert_caught(SKEW, resultant=P * (1 + size))

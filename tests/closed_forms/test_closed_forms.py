@@ -879,7 +879,7 @@ def value_or_refusal(function: Callable[..., Any], given: dict[str, Any]) -> Any
 
 
 @pytest.mark.parametrize("function", [power.load, power.half_width])
-def test_an_exponent_that_asks_for_endless_steps_is_refused(function: Callable[..., Any]) -> None:
+def test_an_exponent_that_needs_endless_steps_is_refused(function: Callable[..., Any]) -> None:
     given = {"half_width": 1.0} if function is power.load else {"normal_load": 1.0}
     with pytest.raises(
         ValueError, match=r"exponent = 1000000\.0 is not a single number from 1 to 1000"
@@ -894,7 +894,7 @@ def test_lengths_that_may_vanish_are_refused_below_zero(name: str) -> None:
 
 
 @pytest.mark.parametrize("widths", [{}, {"half_width": 1.0, "rim": 0.5}])
-def test_exactly_one_of_half_width_and_rim_is_wanted(widths: dict[str, float]) -> None:
+def test_exactly_one_of_half_width_and_rim_is_required(widths: dict[str, float]) -> None:
     with pytest.raises(ValueError, match="exactly one"):
         rounded_flat.load(half_flat=0.5, **widths, **UNIT)
 

@@ -406,7 +406,7 @@ def test_pressure_is_infinite_at_sharp_corners_only_and_zero_outside() -> None:
     assert (sliding_rounded_flat.pressure(x, **ROUNDED, coupling=0.3) == 0).all()
 
 
-def test_nonsense_is_refused() -> None:
+def test_invalid_arguments_are_refused() -> None:
     with pytest.raises(ValueError, match=r"moment = 3\.0 lifts one corner off; .*upright_moment"):
         sliding_flat.pressure(0.0, **FLAT, coupling=0.3, moment=3.0)
     with pytest.raises(ValueError, match=r"dundurs = 0\.6 .* give"):

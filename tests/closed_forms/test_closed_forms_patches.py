@@ -221,7 +221,7 @@ def test_far_apart_each_of_two_flats_is_one_alone() -> None:
     np.testing.assert_allclose(found, flat.pressure(x, half_width=1.0, normal_load=1.0), rtol=1e-5)
 
 
-def test_a_lightly_loaded_parabola_does_not_feel_its_neighbour() -> None:
+def test_a_lightly_loaded_parabola_is_not_affected_by_its_neighbour() -> None:
     c1, c2 = two_parabolas.edges(normal_load=2e-8, distance=1.0, radius=1.0, modulus=1.0)
     b = hertz.half_width(normal_load=1e-8, radius=1.0, modulus=1.0)
     assert (c2 - c1) / 2 == pytest.approx(b, rel=1e-7)
@@ -326,7 +326,7 @@ def test_a_corner_about_to_lift_carries_nothing() -> None:
 
 
 @pytest.mark.parametrize("lib", [np, mp])
-def test_nonsense_is_refused(lib) -> None:
+def test_invalid_arguments_are_refused(lib) -> None:
     with pytest.raises(ValueError, match=r"\|moment\| = .* exceeds largest_moment = .*lifts off"):
         two_flats.pressure(0.0, **FLATS, moment=9.0, lib=lib)
     for function, rest in (

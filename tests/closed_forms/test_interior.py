@@ -90,7 +90,7 @@ def test_both_number_systems_give_the_same():
             assert float(ours) == pytest.approx(float(theirs), rel=1e-12, abs=1e-16)
 
 
-def test_hertz_yields_on_the_surface_where_the_formula_says():
+def test_hertz_yields_on_the_surface_where_the_formula_predicts():
     f, nu, x = 0.4, 0.3, np.linspace(-1.5, 1.5, 100001)
     j2 = interior.second_invariant(interior.hertz(x, 0.0, friction=f, **HERTZ), poisson=nu)
     P = np.pi / 2

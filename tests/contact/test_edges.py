@@ -7,6 +7,9 @@ from hypothesis import given
 
 import sie
 from oracles.normal_contact import mp
+from sie.contact.edges import Search
+from sie.numerics.interval import EPS
+from sie.profiles.resolution import refined
 from validation.cases import CASES, SHARP_CASES, Case, exact, solved
 
 PROMISE = 1e-13
@@ -42,7 +45,7 @@ def test_a_cylinder_follows_hertz():
     assert solution.pressure(0.0) == pytest.approx(np.sqrt(P * E / (np.pi * R)), rel=PROMISE)
 
 
-def test_a_tilted_wedge_touches_where_its_two_flanks_say():
+def test_a_tilted_wedge_has_the_contact_of_its_two_flanks():
     """Flanks -α and β: I0 = 0 gives sin φ0 = (α - β)/(α + β) · π/2 of the tip, P = E*/2 r (α + β)
     cos φ0.
     """
@@ -121,3 +124,11 @@ def test_a_sharp_edge_is_square_root_singular_with_the_strength_that_the_load_le
         x = edge + inwards * d
         assert float(solution.pressure(x)) == pytest.approx(float(truth.pressure(x)), rel=1e-12)
         assert solution.pressure(edge) == np.inf
+
+
+def test_a_contact_of_given_half_width_ends_at_numbers_where_the_slope_falls_at_an_edge():
+    profile = sie.FromFunction(lambda x: x + 0.3 * np.sin(30.0 * x))
+    slope = refined(profile.pieces, -1.05, 1.05, EPS)
+    for r in np.linspace(0.3, 1.0, 36):
+        contact = Search(slope, 0.5).of_half_width(float(r)).contact
+        assert contact.r == pytest.approx(r, rel=1e-12)

@@ -46,7 +46,7 @@ STEEP = sie.Scene(
 )
 
 
-def test_an_edge_that_leaves_a_flat_base_beside_a_thin_rim_is_found():
+def test_an_edge_that_leaves_a_flat_base_beside_a_thin_rounded_edge_is_found():
     """Newton's steps there shrink by a third only."""
     found = kinks.outcome(Trial(FLAT, THIN_RIM, 1.0, 0.0))
     assert not found.refused
@@ -117,7 +117,7 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
     assert len(evaluations) <= edge_refinement.MAX_POLISHING
 
 
-def test_what_a_residual_is_rounded_by_is_what_it_differs_by_from_exact_integrals():
+def test_the_rounding_of_a_residual_is_its_difference_from_exact_integrals():
     """Two-sided: within the rounding allowed for, and not below a hundredth of it everywhere."""
     shares = []
     for seed in range(40):
@@ -197,7 +197,7 @@ def test_a_profile_that_is_flat_to_rounding_is_answered_or_refused_with_a_reason
         assert sie.solve(scene).moment == pytest.approx(moment, rel=1e-9)
 
 
-def test_corners_of_a_slope_are_what_its_pieces_say():
+def test_corners_of_a_slope_are_those_of_its_pieces():
     slope = UNEQUAL.profile.pieces
     for j, b in enumerate(UNEQUAL.breaks, start=1):
         left, right = UNEQUAL.rows[j - 1][1], UNEQUAL.rows[j][1]
@@ -208,7 +208,7 @@ def test_corners_of_a_slope_are_what_its_pieces_say():
         assert kink == pytest.approx(float(right[1] - left[1]), rel=4 * EPS)
 
 
-def test_the_edges_move_with_the_load_as_their_uncertainty_says():
+def test_the_edges_move_with_the_load_as_their_uncertainty_predicts():
     """Per relative change of the load, without what rounding adds."""
     scene = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=2.0, normal_load=0.2, tilt=0.03)
     light, heavy = (

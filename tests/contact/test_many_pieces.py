@@ -56,7 +56,7 @@ def rows(kind, n, rng):
 @pytest.mark.parametrize("kind", ["even", "graded"])
 @pytest.mark.parametrize("n", [2, 3, 41, 1000])
 @pytest.mark.parametrize("plane", [False, True], ids=["line", "plane"])
-def test_what_is_far_is_the_dense_sum_to_rounding(kind, n, plane):
+def test_far_sums_equal_the_dense_sum_to_rounding(kind, n, plane):
     rng = np.random.default_rng(n)
     lo, length, offset, charge = rows(kind, n, rng)
     z = np.concatenate(
@@ -70,7 +70,7 @@ def test_what_is_far_is_the_dense_sum_to_rounding(kind, n, plane):
         assert abs(far[j] - kernel.sum()) <= 2e-15 * np.abs(kernel).sum()
 
 
-def test_every_pair_is_left_out_once_and_only_those_near():
+def test_each_near_pair_is_left_out_once_and_no_other():
     rng = np.random.default_rng(0)
     lo, length, offset, charge = rows("even", 500, rng)
     z = rng.uniform(-1.2, 1.2, 300)
@@ -84,7 +84,7 @@ def test_every_pair_is_left_out_once_and_only_those_near():
 
 
 @pytest.mark.parametrize("n", [100, 1000, 10_000])
-def test_a_point_meets_few_pieces_however_many_there_are(n):
+def test_a_point_has_few_near_pieces_for_any_number_of_pieces(n):
     rng = np.random.default_rng(0)
     lo, length, offset, charge = rows("even", n, rng)
     _, k, _ = KernelSums(lo, length, offset, charge).far(rng.uniform(-1.0, 1.0, n))
@@ -271,7 +271,7 @@ def test_memory_is_not_the_product_of_pieces_and_points():
     assert peak < 10_000 * 10_000 * 8 / 8
 
 
-def test_the_certificate_of_many_pieces_sees_a_wrong_pressure(monkeypatch):
+def test_the_certificate_of_many_pieces_detects_a_wrong_pressure(monkeypatch):
     x = np.linspace(-2.0, 2.2, 400)
     scene = sie.Scene(
         profile=sie.Sampled(x, x * x / 2 + 0.05 * x**3 + 0.01 * x**4), modulus=1.0, normal_load=1.0
@@ -283,7 +283,7 @@ def test_the_certificate_of_many_pieces_sees_a_wrong_pressure(monkeypatch):
     assert not found.ok and found.error > 1e-11
 
 
-def test_the_certificate_s_rule_integrates_what_corners_of_many_kinds_leave():
+def test_the_certificate_s_rule_integrates_the_logarithms_of_corners_of_many_kinds():
     """∫ (x-e)^(m+1) ln|x-e| over the contact, at a break where the m-th derivative of the slope
     jumps.
     """

@@ -116,7 +116,7 @@ def test_a_moment_about_another_axis_than_the_profiles_is_no_upright_contact():
     assert tilted.moment == pytest.approx(0.0, abs=1e-12)
 
 
-def test_a_load_that_doubles_cannot_answer_is_refused_with_a_reason():
+def test_a_load_beyond_the_range_of_doubles_is_refused_with_a_reason():
     for asked in ({"normal_load": 1e240}, {"normal_load": None, "half_width": 1e-140}):
         with pytest.raises((sie.ContactError, ValueError), match="range"):
             _ = sie.solve(sie.Scene(profile=sie.Power(1.01, 1e-20), modulus=1e-20, **asked)).edges
@@ -174,7 +174,7 @@ def test_a_half_width_and_a_moment_find_the_tilt_of_a_steep_power(m, A, b, M):
 
 
 @pytest.mark.parametrize("m", [*NEAR_ONE, 51.1, 60.0])
-def test_every_exponent_answers_all_of_a_contact(m):
+def test_every_exponent_has_all_answers_of_a_contact(m):
     solution = sie.solve(scene(m, friction=0.4, tangential_load=0.05))
     x = np.linspace(-1.0, 1.0, 41)
     for answer in (
@@ -239,7 +239,7 @@ def test_powers_about_one_axis_add_up(other):
     assert np.abs(both - one - two).max() <= 1e-13 * both.max()
 
 
-def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_seen_at_every_distance():
+def test_a_jump_of_curvature_on_the_axis_of_a_cusp_is_resolved_at_every_distance():
     """p = E*/2 w(x)/π ∫ (H(t) - H(x))/(w(t) (t - x)) dt between the edges that were found."""
     profile = sie.Power(1.3, 0.3) + sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 5.0)))
     solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, normal_load=1.0))

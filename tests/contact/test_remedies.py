@@ -299,7 +299,7 @@ def test_a_path_needs_friction_and_a_finite_one():
     solved(replace(bonded, normal_load=1.0, tangential_load=0.1))
 
 
-def test_slip_is_known_at_the_points_that_the_refusal_says_are_in_contact():
+def test_slip_is_given_at_the_points_that_the_refusal_names_as_in_contact():
     last = sie.follow(SHEARED, sie.Path([(1.0, 0.1), (1.2, 0.35)]))[-1]
     with pytest.raises(sie.ContactError, match="within the contact under P = 1") as refusal:
         last.slip(last.edges[1])

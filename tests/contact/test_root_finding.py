@@ -44,7 +44,7 @@ def test_false_position_halves_its_bracket_down_to_rounding(name):
     assert count.calls <= 2 * (450 if root < 1e-9 else 60)  # two steps for each halving
 
 
-def test_false_position_ends_where_it_is_told_to():
+def test_false_position_ends_at_its_criterion():
     function, root = INCREASING["power"]
     found = false_position(
         function, 0.1, 1.0, (function(0.1), function(1.0)), lambda a, b, f: abs(f) < 1e-6
@@ -70,7 +70,7 @@ def test_an_increasing_function_s_root_is_found_from_any_guess(name, guess):
 
 @pytest.mark.parametrize("power", [0.1, 1.0, 7.0])
 @pytest.mark.parametrize("guess", [1e-30, 1.0, 1e30])
-def test_a_power_law_is_met_in_three_steps(power, guess):
+def test_the_root_of_a_power_law_takes_three_steps(power, guess):
     count = counted(lambda u: (u**power, power * u**power))
     found = logarithmic_root(count, 2.0, guess, math.inf, lambda *_: AssertionError())
     assert found == pytest.approx(2.0 ** (1.0 / power), rel=root_finding.ROUGH**2)
@@ -78,7 +78,7 @@ def test_a_power_law_is_met_in_three_steps(power, guess):
     assert count.calls <= 3 + abs(math.log(guess)) / root_finding.MAX_LOG_STEP
 
 
-def test_a_value_that_is_never_reached_is_an_error_with_the_best_that_was_found():
+def test_a_value_that_is_never_reached_is_an_error_with_the_best_value():
     def hill(u):
         return u / (1.0 + u * u), u * (1.0 - u * u) / (1.0 + u * u) ** 2
 

@@ -60,7 +60,7 @@ FINITE = {
 
 @pytest.mark.parametrize("name", POSITIVE)
 @pytest.mark.parametrize("value", [0.0, -0.0, -3.5, INF, -INF, NAN])
-def test_what_must_be_positive_is_refused_otherwise_with_its_value(name, value):
+def test_a_value_that_is_not_positive_is_refused_and_named(name, value):
     with pytest.raises(ValueError, match=r"(?i)" + str(value).removesuffix(".0").removeprefix("-")):
         POSITIVE[name](value)
 
@@ -69,7 +69,7 @@ FINEST = 2.0 * np.finfo(float).eps
 
 
 @pytest.mark.parametrize("value", [1e-30, 5e-324, np.nextafter(FINEST, 0.0), 1.0, 1e300])
-def test_an_accuracy_that_doubles_cannot_hold_or_that_means_nothing_is_refused(value):
+def test_a_tolerance_below_rounding_or_not_below_one_is_refused(value):
     path = sie.Path([(1.0, 0.0)])
     equation = sie.CauchyEquation((-1.0, 1.0), 1.0, total=0.0)
     for ask in (
@@ -81,13 +81,13 @@ def test_an_accuracy_that_doubles_cannot_hold_or_that_means_nothing_is_refused(v
             ask()
 
 
-def test_the_finest_accuracy_that_doubles_hold_is_taken():
+def test_the_finest_tolerance_of_doubles_is_accepted():
     assert sie.solve(scene(profile=sie.Parabola(1.0)), tol=FINEST).half_width > 0.0
 
 
 @pytest.mark.parametrize("name", FINITE)
 @pytest.mark.parametrize("value", [INF, -INF, NAN])
-def test_what_must_be_finite_is_refused_otherwise_with_its_value(name, value):
+def test_a_value_that_is_not_finite_is_refused_and_named(name, value):
     if (name, value) == ("Scene.friction", INF):
         pytest.skip("infinite friction is full stick")
     with pytest.raises(ValueError, match=r"(?i)nan|inf"):
@@ -98,7 +98,7 @@ def test_what_must_be_finite_is_refused_otherwise_with_its_value(name, value):
 @pytest.mark.parametrize(
     "value", ["7", None, True, [1.0, 2.0], 1 + 2j, object()], ids=lambda value: type(value).__name__
 )
-def test_what_is_no_number_is_refused(name, value):
+def test_a_value_that_is_no_number_is_refused(name, value):
     if value is None and name.startswith("Scene."):
         pytest.skip("None is how a scene spells what is not given")
     with pytest.raises(ValueError, match=r"\S"):
@@ -123,7 +123,7 @@ def test_a_poisson_ratio_that_no_stable_solid_has_is_refused(nu):
 
 
 @pytest.mark.parametrize("nu", [-0.999, 0.0, 0.3, 0.5])
-def test_every_poisson_ratio_of_a_stable_solid_is_taken(nu):
+def test_every_poisson_ratio_of_a_stable_solid_is_accepted(nu):
     assert sie.Elastic(1.0, nu).poisson == nu
 
 
@@ -151,7 +151,7 @@ def test_every_poisson_ratio_of_a_stable_solid_is_taken(nu):
         ({"profile": "punch"}, "punch"),
     ],
 )
-def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, words):
+def test_a_scene_that_makes_no_contact_problem_is_refused_with_a_sentence(changes, words):
     with pytest.raises(ValueError, match=rf"(?s){words}"):
         scene(**changes)
 
@@ -205,7 +205,7 @@ def test_a_scene_that_makes_no_contact_problem_is_refused_in_words(changes, word
         (lambda: sie.Elastic(1.0, 0.3, plane="bent"), "bent"),
     ],
 )
-def test_a_profile_or_body_that_cannot_be_is_refused_in_words(build, words):
+def test_an_impossible_profile_or_body_is_refused_with_a_sentence(build, words):
     with pytest.raises(ValueError, match=rf"(?s){words}"):
         build()
 
@@ -213,12 +213,12 @@ def test_a_profile_or_body_that_cannot_be_is_refused_in_words(build, words):
 @pytest.mark.parametrize(
     "function", [lambda x: np.where(x > 0.7, np.nan, x), lambda x: np.where(x > 0.7, np.inf, x)]
 )
-def test_a_slope_that_is_not_finite_is_refused_where_it_is_met(function):
+def test_a_slope_that_is_not_finite_is_refused_with_its_place(function):
     with pytest.raises(ValueError, match=r"nan|inf"):
         asked(scene(profile=sie.FromFunction(function, domain=(-1.0, 1.0)), normal_load=5.0))
 
 
-def test_solve_and_with_refuse_what_they_do_not_know():
+def test_solve_and_with_refuse_unknown_names():
     solution = sie.solve(scene())
     with pytest.raises(ValueError, match="42"):
         sie.solve(42)
@@ -237,14 +237,14 @@ def test_solve_and_with_refuse_what_they_do_not_know():
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-INF, INF))
 
 
-def test_a_load_that_the_profile_cannot_carry_names_it_and_what_is_reached():
+def test_the_refusal_of_a_load_names_it_and_the_largest_load():
     """The slope of a Gauss bump falls again: P has a largest value in one patch."""
     with pytest.raises(sie.ContactError, match="50") as caught:
         asked(scene(profile=BUMP, normal_load=50.0))
     assert isinstance(caught.value.reached, dict)
 
 
-def test_a_profile_that_lifts_off_names_where():
+def test_the_refusal_of_a_contact_that_lifts_off_names_the_place():
     """Two bumps: one patch would need tension between them."""
     profile = sie.FromFunction("x - 1.2*sin(2*x)")
     with pytest.raises(sie.InequalityError, match="x = ") as caught:
@@ -252,7 +252,35 @@ def test_a_profile_that_lifts_off_names_where():
     assert "x" in caught.value.reached
 
 
-def test_a_profile_that_touches_elsewhere_names_where():
+def wave(height, number, shift=0.0):
+    """A parabola with a wave on it, as a function that is not known to be symmetric."""
+    return sie.Parabola(1.0).shifted(shift) + sie.FromFunction(
+        lambda x: height * np.sin(number * (x - shift)), breaks=()
+    )
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
+@pytest.mark.parametrize(("height", "number", "load"), [(0.8, 8, 0.5), (0.5, 11, 0.2), (1.2, 5, 1)])
+def test_one_patch_that_lifts_off_names_the_place_wherever_the_profile_lies(
+    height, number, load, shift
+):
+    pressed = sie.solve(sie.Scene(profile=wave(height, number, shift), modulus=1, normal_load=load))
+    with pytest.raises(sie.InequalityError, match="tension at x = ") as caught:
+        pressed.one_patch()
+    assert len(caught.value.reached["tension"]) == 2
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.3, -1.7])
+@pytest.mark.parametrize(
+    ("height", "number", "load"), [(0.8, 8, 1), (0.5, 11, 0.5), (0.3, 30, 0.5)]
+)
+def test_waves_pressed_flat_are_one_contact_wherever_the_profile_lies(height, number, load, shift):
+    solved = sie.solve(sie.Scene(profile=wave(height, number, shift), modulus=1, normal_load=load))
+    assert solved.normal_load == load and solved.centre == pytest.approx(shift, abs=1e-12)
+    assert solved.pressure.resultant == pytest.approx(load, rel=1e-12)
+
+
+def test_the_refusal_of_a_contact_that_overlaps_elsewhere_names_the_place():
     profile = sie.Piecewise(
         (-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0))
     )  # h' = 0 again at ±3
@@ -307,14 +335,14 @@ def test_a_contact_error_survives_a_process_pool():
     assert again.reached == caught.value.reached
 
 
-def test_noise_is_told_from_a_profile():
+def test_noise_is_distinguished_from_a_profile():
     rng = np.random.default_rng(0)
     noisy = sie.FromFunction(lambda x: x + 1e-3 * rng.normal(size=np.shape(x)), domain=(-1.0, 1.0))
     with pytest.raises(sie.ResolutionError, match="settle"):
         asked(scene(profile=noisy, normal_load=0.1))
 
 
-def test_nothing_is_computed_before_it_is_asked_for():
+def test_no_stage_is_computed_before_it_is_read():
     """A question without an answer fails when asked, not when put."""
     solution = sie.solve(scene(profile=sie.Flat(1.0), moment=2.0))
     assert "normal" not in vars(solution)
@@ -382,7 +410,7 @@ REFUSED = [(n, v) for n in GIVEN for v in VALUES if n not in MEANINGFUL.get(v, (
 
 
 @pytest.mark.parametrize(("name", "value"), REFUSED)
-def test_what_is_neither_the_list_nor_the_name_asked_for_is_refused_by_its_name(name, value):
+def test_an_argument_of_the_wrong_type_is_refused_by_its_name(name, value):
     ask, named = GIVEN[name]
     with pytest.raises(ValueError, match=named) as refusal:
         ask(VALUES[value])

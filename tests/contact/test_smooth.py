@@ -79,7 +79,7 @@ def test_a_series_is_certified():
         (np.sinh, (-1.0, 0.5)),  # a contact that reaches an end
     ],
 )
-def test_what_is_no_smooth_contact_is_left_to_the_pieces(slope, domain):
+def test_a_contact_that_is_not_smooth_is_left_to_the_pieces(slope, domain):
     solution = sie.solve(
         sie.Scene(profile=sie.FromFunction(slope, domain=domain), modulus=2.0, normal_load=4.0)
     )

@@ -135,7 +135,7 @@ def test_the_rounded_punch_and_hertz_in_partial_slip(a, fraction):
         q = F * (rounded_pressure(a, b, x) - rounded_pressure(a, c, x))
         assert abs(float(solution.shear(x)) - q) < 1e-13 * peak
     x = solution.edges[1]
-    if (b - c) > 1e-6 * (b - a) and x > c:  # of what one ulp of x tells
+    if (b - c) > 1e-6 * (b - a) and x > c:  # of the effect of one ulp of x
         assert abs(
             float(solution.slip(x)) / (F * rounded_gap(a, c, mp.mpf(x))) - 1
         ) < 1e-12 + 4 * math.ulp(x) / (b - c)
@@ -263,7 +263,7 @@ def test_under_the_tip_of_a_wedge_the_shear_is_finite():
     )
 
 
-def test_more_than_friction_carries_is_refused_with_the_numbers():
+def test_a_load_beyond_friction_is_refused_with_the_numbers():
     scene = {"profile": sie.Parabola(1.0), "modulus": 1.0, "friction": 0.6}
     with pytest.raises(
         sie.LoadError, match=r"\|Q\| = 620 exceeds f P = 600: the bodies slide"
@@ -420,7 +420,7 @@ def test_a_stick_zone_at_a_sharp_edge_may_slip_against_the_load():
 
 
 @pytest.mark.parametrize("Q", [0.30000001, 0.3 * (1.0 + 1e-14), 0.41, 2.0 / 3.0])
-def test_a_refused_load_is_told_from_what_friction_carries_and_the_advice_is_enough(Q):
+def test_a_refused_load_names_the_limit_of_friction_and_its_remedy_suffices(Q):
     scene = sie.Scene(profile=sie.Parabola(1.0), modulus=E, normal_load=1.0, friction=0.3)
     with pytest.raises(sie.LoadError) as caught:
         _ = sie.solve(scene).with_(tangential_load=Q).stick
@@ -454,7 +454,7 @@ def reverse_slip_of_hertz(strain):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_bulk_stress_alone_slips_to_both_sides(sign):
+def test_bulk_stress_alone_gives_two_signed_slip(sign):
     solution = sheared(sie.Parabola(1.0), 0.0, bulk_stress=sign * 0.4)
     b, p0 = solution.half_width, 2.0 * P / (np.pi * solution.half_width)
     c = reverse_slip_of_hertz(mp.mpf(0.1) / (F * p0))
@@ -468,7 +468,7 @@ def test_bulk_stress_alone_slips_to_both_sides(sign):
     assert solution.check().ok
 
 
-def test_the_stress_under_slip_to_both_sides_reaches_the_surface():
+def test_the_stress_under_two_signed_slip_is_continuous_to_the_surface():
     """In each slip zone and in the stick zone: the surface is evaluated by formulas of its own."""
     scene = sie.Scene(
         profile=sie.Parabola(1.0), modulus=1.0, poisson=0.3, normal_load=0.3, friction=0.5,
@@ -512,9 +512,7 @@ def test_a_large_bulk_stress_leaves_a_narrow_stick_zone_of_hertz(strain):
 def test_bulk_stress_alone_holds_the_mirror_image_of_a_tilted_punch_by_the_mirrored_zone(
     tilt, strain
 ):
-    """With Q = 0 no side is told apart by its load, and pressure that leans to one side tells them
-    apart.
-    """
+    """With Q = 0 the sides differ by a lopsided pressure only, not by their load."""
     here, there = (
         sheared(sie.RoundedFlat(1.0, 1.0 / 6.0), 0.0, tilt=sign * tilt, bulk_stress=strain * P)
         for sign in (1.0, -1.0)

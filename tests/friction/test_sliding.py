@@ -479,7 +479,7 @@ def test_full_stick_is_for_flat_punches():
         ({"sliding": 1, "friction": math.inf}, "infinite friction"),
     ],
 )
-def test_senseless_sliding_is_refused(given, words):
+def test_contradictory_sliding_is_refused(given, words):
     with pytest.raises(ValueError, match=words):
         sie.Scene(profile=RIM, **SIMILAR, normal_load=0.1, **given)
 

@@ -35,7 +35,7 @@ def scene(tmp_path, monkeypatch):
 
 @pytest.fixture
 def solved(monkeypatch):
-    """The solutions that the command line asks for."""
+    """The solutions that the command line makes."""
     asked = []
 
     def solve(*args, **kwargs):
@@ -104,7 +104,7 @@ def test_the_text_picture_is_the_pressure_column_by_column(scene):
     assert (heights == heights[::-1]).all()
 
 
-def test_sharp_edges_and_infinite_peaks_are_told(tmp_path, capsys):
+def test_sharp_edges_and_infinite_peaks_are_reported(tmp_path, capsys):
     main(["solve", example("flat", tmp_path)])
     out = capsys.readouterr().out
     assert (
@@ -114,7 +114,7 @@ def test_sharp_edges_and_infinite_peaks_are_told(tmp_path, capsys):
     )
 
 
-def test_an_answer_without_a_good_certificate_is_printed_and_told_by_the_exit_code(
+def test_an_answer_without_a_good_certificate_is_printed_with_its_exit_code(
     scene, capsys, monkeypatch
 ):
     monkeypatch.setattr(Certificate, "ok", False)
@@ -128,7 +128,7 @@ def test_an_answer_without_a_good_certificate_is_printed_and_told_by_the_exit_co
 
 
 @pytest.mark.parametrize("want", WANTS)
-def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
+def test_only_wanted_quantities_are_printed(want, scene, capsys):
     main(["solve", scene, "--want", want])
     out = capsys.readouterr().out
     marks = {
@@ -145,7 +145,7 @@ def test_what_is_wanted_is_printed_and_nothing_else(want, scene, capsys):
     [["--want", "edges"], ["--tol", "1e-9", "--want", "edges", "check"], ["--want", "edges,check"]],
 )
 @pytest.mark.parametrize("word", ["solve", "plan"])
-def test_the_scene_may_follow_what_is_wanted(word, before, name, scene, capsys):
+def test_the_scene_may_follow_the_wanted_quantities(word, before, name, scene, capsys):
     if word == "plan":
         before = [option for option in before if option not in ("--tol", "1e-9")]
     Path(scene).rename(name)
@@ -155,7 +155,7 @@ def test_the_scene_may_follow_what_is_wanted(word, before, name, scene, capsys):
     assert capsys.readouterr() == expected
 
 
-def test_a_scene_from_standard_input_may_follow_what_is_wanted():
+def test_a_scene_from_standard_input_may_follow_the_wanted_quantities():
     assert run("solve", "--want", "edges", "-", input=scene_file.example("wedge")).returncode == 0
 
 
@@ -168,7 +168,7 @@ def test_wanting_the_edges_of_a_convex_profile_computes_no_pressure(scene, solve
     assert "pressure" in vars(solved[2]) and "certificate" not in vars(solved[2])
 
 
-def test_a_file_s_own_want_holds_unless_the_command_line_wants_otherwise(scene, tmp_path, capsys):
+def test_a_file_s_want_holds_unless_the_command_line_gives_another(scene, tmp_path, capsys):
     text = (tmp_path / scene).read_text()
     (tmp_path / scene).write_text('want = ["edges"]\n' + text)
     main(["solve", scene])
@@ -203,9 +203,7 @@ def test_json_is_strict_and_equals_the_library_to_the_last_digit(kind, tmp_path,
     )
 
 
-def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv(
-    tmp_path, monkeypatch, capsys
-):
+def test_the_shear_in_sliding_is_in_the_report_the_json_and_the_csv(tmp_path, monkeypatch, capsys):
     """Dissimilar bodies: q = f p with their pressure, though how far they slipped before is not
     known.
     """
@@ -225,7 +223,7 @@ def test_what_drags_the_surface_in_sliding_is_in_the_report_the_json_and_the_csv
     assert shear["resultant"] == solution.shear.resultant and "energy_lost" not in shear
 
 
-def test_the_shear_of_bonded_bodies_is_told(tmp_path):
+def test_the_shear_of_bonded_bodies_is_reported(tmp_path):
     flat = sie.Scene(
         profile=sie.Flat(2.0), modulus=500.0, dundurs=0.3, poisson=0.3, normal_load=20.0,
         friction=np.inf, tangential_load=3.0,
@@ -240,7 +238,7 @@ def test_an_infinite_pressure_is_a_string_that_reads_as_a_number(tmp_path, capsy
     assert p[0] == p[-1] == "Infinity" and float(p[0]) == float("inf")
 
 
-def test_json_holds_only_what_is_wanted(scene, capsys):
+def test_json_holds_only_wanted_quantities(scene, capsys):
     main(["solve", scene, "--want", "check", "--json"])
     found = strict(capsys.readouterr().out)
     assert "check" in found and "pressure" not in found and "gap" not in found
@@ -282,12 +280,12 @@ def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
         ("partial-slip", "# x and gap and slip in mm, p and q in MPa,"),
     ],
 )
-def test_csv_tells_the_unit_of_every_column(kind, says, tmp_path, capsys):
+def test_csv_names_the_unit_of_every_column(kind, says, tmp_path, capsys):
     main(["solve", example(kind, tmp_path), "--csv", "-", "--points", "20"])
     assert says in capsys.readouterr().out
 
 
-def test_csv_points_resolve_a_rim_of_a_thousandth_of_the_contact():
+def test_csv_points_resolve_a_rounded_edge_of_a_thousandth_of_the_contact():
     solution = sie.solve(
         sie.Scene(
             profile=sie.RoundedFlat(0.999, 20.0), body=sie.Elastic(210e3, 0.3), half_width=1.0
@@ -306,7 +304,7 @@ def test_one_output_may_be_standard_output_and_is_then_alone_there(scene, capsys
 # -- shear and load paths -------------------------------------------------------------------------
 
 
-def test_shear_is_told_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
+def test_shear_is_printed_and_written_with_its_zones(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     path = example("partial-slip", tmp_path)
     assert (
@@ -369,7 +367,9 @@ def test_a_plan_says_what_runs_what_is_skipped_and_why(scene, solved, capsys):
     assert all(not {"normal", "pressure"} & set(vars(solution)) for solution in solved)
 
 
-def test_a_plan_of_what_cannot_be_solved_is_refused_like_its_solution(scene, tmp_path, capsys):
+def test_a_plan_of_a_scene_that_is_not_covered_is_refused_like_its_solution(
+    scene, tmp_path, capsys
+):
     (tmp_path / scene).write_text(
         scene_file.example("rounded-flat") + "friction = 0.5\ntangential_load = 1e6\n"
     )
@@ -508,7 +508,7 @@ def test_a_device_is_written_to_and_not_replaced(scene):
     assert Path("/dev/null").is_char_device()
 
 
-def test_exhausted_memory_is_told_in_a_sentence(scene, monkeypatch, capsys):
+def test_exhausted_memory_is_reported_in_a_sentence(scene, monkeypatch, capsys):
     def exhausted(*args, **kwargs):
         raise MemoryError
 
@@ -564,7 +564,7 @@ def test_a_terminal_without_block_elements_gets_a_plainer_picture(scene, monkeyp
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes break otherwise")
-def test_a_reader_that_leaves_early_is_no_error(scene):
+def test_a_pipe_closed_early_is_no_error(scene):
     read, write = os.pipe()
     os.close(read)
     found = subprocess.run(

@@ -138,7 +138,7 @@ def test_the_json_text_holds_the_numbers_of_the_solution(scene, capsys):
         (["--field", "scene.toml"], "suffix"),
     ],
 )
-def test_what_cannot_be_written_is_refused(arguments, words, scene, capsys):
+def test_a_field_that_cannot_be_written_is_refused(arguments, words, scene, capsys):
     assert main(["solve", scene, *arguments]) == 2
     out, err = capsys.readouterr()
     assert out == "" and words in err and err.count("\n") == 1

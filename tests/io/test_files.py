@@ -166,7 +166,7 @@ def odd_file(kind):
     ],
 )
 @pytest.mark.parametrize("role", ["scene", "trace", "topography", "mesh"])
-def test_what_is_no_ordinary_file_is_refused_in_a_sentence(role, kind, said, folder, capsys):
+def test_a_file_that_is_not_regular_is_refused_in_a_sentence(role, kind, said, folder, capsys):
     name = odd_file(kind)
     if role == "topography":
         Path(name).rename("odd.sur")
@@ -185,7 +185,7 @@ def test_a_mesh_with_marks_for_missing_values_is_refused(column, folder, capsys)
     assert "1e+300" in refused(["compare", "scene.toml", "mesh.csv"], capsys)
 
 
-def test_a_header_as_long_as_a_file_is_told_in_short(folder, capsys):
+def test_a_header_as_long_as_a_file_is_shortened_in_the_message(folder, capsys):
     Path("mesh.csv").write_text("x" * 10**6 + ",p\n0,1\n0.1,2\n")
     assert len(refused(["compare", "scene.toml", "mesh.csv"], capsys)) < 500
 
@@ -222,7 +222,7 @@ files.write_files({Path("out.csv"): b"new" * 10**6, Path("out.json"): b"new"})
 @pytest.mark.parametrize(
     "place", ["files, '_write_part'", "os, 'fsync'", "os, 'replace'", "files, '_discard'"]
 )
-def test_what_a_killed_run_leaves_behind_the_next_one_removes(place, folder):
+def test_the_next_run_removes_the_parts_of_a_killed_one(place, folder):
     for name in ("out.csv", "out.json"):
         Path(name).write_bytes(b"old")
     before = set(listing(folder))
@@ -258,7 +258,7 @@ def test_the_part_of_a_run_that_is_still_writing_is_left_alone(folder):
 
 
 @posix
-def test_a_full_device_is_told_and_nothing_else_is_written(folder, capsys):
+def test_a_full_device_is_reported_and_nothing_else_is_written(folder, capsys):
     before = listing(folder)
     assert "No space left on device" in refused(
         ["solve", "scene.toml", "--json", "out.json", "--csv", "/dev/full"], capsys
@@ -267,7 +267,7 @@ def test_a_full_device_is_told_and_nothing_else_is_written(folder, capsys):
 
 
 @posix
-def test_standard_output_that_is_full_or_closed_is_told_and_nothing_is_written(folder):
+def test_standard_output_that_is_full_or_closed_is_reported_and_nothing_is_written(folder):
     before = listing(folder)
     command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv", "out.csv"]
     with open("/dev/full", "wb") as full:
@@ -291,7 +291,7 @@ def test_standard_output_that_is_full_or_closed_is_told_and_nothing_is_written(f
 @pytest.mark.parametrize(
     "argv", [["example"], ["--help"], ["solve", "--help"], ["--version"], ["plan", "scene.toml"]]
 )
-def test_a_reader_who_leaves_early_is_exit_code_141(argv, folder):
+def test_a_pipe_closed_early_is_exit_code_141(argv, folder):
     read, write = os.pipe()
     os.close(read)
     found = subprocess.run(
@@ -303,7 +303,7 @@ def test_a_reader_who_leaves_early_is_exit_code_141(argv, folder):
 
 @posix
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-def test_a_reader_who_leaves_in_the_midst_is_exit_code_141(unbuffered, folder):
+def test_a_pipe_closed_in_the_midst_is_exit_code_141(unbuffered, folder):
     command = [
         sys.executable,
         "-m",
@@ -325,7 +325,7 @@ def test_a_reader_who_leaves_in_the_midst_is_exit_code_141(unbuffered, folder):
 
 
 @posix
-def test_a_reader_who_leaves_early_costs_no_file_and_is_told_of_devices_too(folder):
+def test_a_pipe_closed_early_costs_no_file_and_is_reported_for_devices_too(folder):
     read, write = os.pipe()
     os.close(read)
     command = [sys.executable, "-m", "sie", "solve", "scene.toml", "--csv"]

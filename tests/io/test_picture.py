@@ -44,7 +44,7 @@ def panels(scene, **options):
 
 
 @EVERY
-def test_both_axes_say_what_they_are_and_in_which_unit(scene):
+def test_both_axes_have_a_label_with_its_unit(scene):
     upper, lower = panels(scene)
     assert upper.get_ylabel().startswith("$p$ (") and upper.get_ylabel().endswith("MPa)")
     assert lower.get_xlabel().startswith("$x$ (") and lower.get_xlabel().endswith("m)")
@@ -130,7 +130,7 @@ def test_an_infinite_pressure_is_cut_and_marked_by_arrows(name, arrows):
     assert r"$p \to \infty$" in words(upper)
 
 
-def test_a_spike_is_cut_but_its_value_is_told():
+def test_a_spike_is_cut_but_its_value_is_printed():
     solution = sie.solve(SCENES["thin rim"])
     upper, _ = plot.picture(solution).axes
     largest, _ = plot.peak(solution)

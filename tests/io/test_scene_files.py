@@ -182,7 +182,7 @@ def test_units_are_labels_and_default_to_mm_and_mpa():
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
-def test_what_editors_and_shells_write_is_read(encoding, tmp_path):
+def test_files_of_common_editors_and_shells_are_read(encoding, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('title = "Grüße"\n' + BODY + PARABOLA + LOAD, encoding=encoding)
     assert read(path).title == "Grüße"

@@ -54,7 +54,7 @@ def executor(request):
         yield pool
 
 
-def test_every_point_is_what_a_single_solution_says(executor):
+def test_every_point_equals_a_single_solution(executor):
     found = plain(
         sie.sweep(
             SCENE,
@@ -103,7 +103,7 @@ def test_a_function_may_build_the_scene():
     assert found["peak_tension"].shape == (2, 2)
 
 
-def test_what_has_no_answer_keeps_its_reason(executor):
+def test_a_point_without_an_answer_keeps_its_reason(executor):
     flat = sie.Scene(profile=sie.Flat(1.0), modulus=1.0, normal_load=1.0)
     found = plain(
         sie.sweep(
@@ -363,7 +363,7 @@ def test_a_value_of_another_rank_costs_itself_only(odd, usual):
 @pytest.mark.parametrize(
     "value", [[[1.0], [1.0, 2.0]], 1j, "wide", None, np.datetime64("2020-01-01"), object()]
 )
-def test_a_value_that_is_no_number_is_told_in_a_sentence(value):
+def test_a_value_that_is_no_number_is_reported_in_a_sentence(value):
     found = plain(
         sie.sweep(
             SCENE,
@@ -376,7 +376,7 @@ def test_a_value_that_is_no_number_is_told_in_a_sentence(value):
 
 
 @pytest.mark.parametrize("parallel", [False, True])
-def test_what_a_sweep_does_itself_grows_in_proportion_to_its_points(parallel, monkeypatch):
+def test_the_overhead_of_a_sweep_grows_in_proportion_to_its_points(parallel, monkeypatch):
     class Here(Executor):
         def submit(self, function, /, *args, **kwargs):
             future = Future()
@@ -448,7 +448,7 @@ def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
         ({"over": {"tilt": [0.1]}, "chunk": 0}, "chunk = 0"),
     ],
 )
-def test_a_bad_question_is_refused_before_any_work(arguments, words):
+def test_an_invalid_sweep_is_refused_before_any_work(arguments, words):
     with pytest.raises(ValueError, match=words):
         sie.sweep(SCENE, **arguments)
 

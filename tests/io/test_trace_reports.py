@@ -121,7 +121,7 @@ def test_few_points_no_smoothing_and_a_given_one_have_their_errors_stated_too(
     assert np.median(ratio) <= 10.0
 
 
-def test_what_is_smoothed_away_beyond_cross_validation_counts_as_an_error():
+def test_smoothing_beyond_cross_validation_counts_as_an_error():
     h, shape = PROFILES["rounded"]
     found = solved(sie.Sampled(X, h + 1e-5 * white(0), 0.1))
     true = largest_error(found, solved(shape))
@@ -129,7 +129,7 @@ def test_what_is_smoothed_away_beyond_cross_validation_counts_as_an_error():
     assert true <= found.trace_reports()[0].pressure_error <= 2.0 * true
 
 
-def test_noise_that_is_correlated_is_said_to_be_taken_for_the_shape():
+def test_correlated_noise_is_reported_as_a_part_of_the_shape():
     for seed in range(5):
         correlated = np.convolve(white(seed, 404), np.full(4, 0.5), "valid")
         report = reported(sie.Sampled(X, 0.5 * (X**2 + 1e-4 * correlated), "gcv"))
@@ -139,7 +139,7 @@ def test_noise_that_is_correlated_is_said_to_be_taken_for_the_shape():
 
 
 @pytest.mark.parametrize("smoothing", [0.0, "gcv"])
-def test_a_trace_without_noise_is_told_from_a_noisy_one(smoothing):
+def test_a_trace_without_noise_is_distinguished_from_a_noisy_one(smoothing):
     assert reported(sie.Sampled(X, 0.25 * np.cosh(2.0 * X), smoothing)).pressure_error <= 1e-3
 
 
@@ -244,7 +244,7 @@ def test_uneven_points_are_no_gaps(x):
     assert sie.Sampled(x, x**2).gaps == ()
 
 
-def test_what_was_mended_is_told():
+def test_mended_points_are_reported():
     x = np.concatenate((X[::-1], [0.0, 0.005]))
     h = np.append(0.5 * X[::-1] ** 2, [0.0, 1e-5])
     h[100:180] = np.nan
@@ -266,7 +266,7 @@ def test_lines_of_a_file_without_a_value_count_as_left_out(tmp_path):
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_pad_that_was_not_levelled_says_so_and_one_that_was_does_not(sign):
+def test_the_report_notes_only_a_pad_that_was_not_levelled(sign):
     h = np.maximum(np.abs(X) - 0.4, 0.0) ** 2 / 0.8
     askew = sie.Sampled(X, h + sign * 2e-3 * X)
     report = reported(askew, normal_load=1e-4)

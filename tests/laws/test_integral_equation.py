@@ -278,7 +278,7 @@ def test_the_gap_opens_like_the_distance_to_the_power_three_halves(case: Case):
 
 
 @given(strategies.scenes(), st.integers(0, 2**32 - 1))
-def test_the_slope_of_the_gap_is_what_the_pressure_leaves_of_the_profile(scene, seed):
+def test_the_slope_of_the_gap_is_that_of_the_profile_less_that_of_the_surface(scene, seed):
     """gap' = h' - 2/E* F, by differences of the gap."""
     solution = sie.solve(scene)
     (x1, x2), r = solution.edges, solution.half_width

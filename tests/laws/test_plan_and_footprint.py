@@ -115,7 +115,7 @@ def test_the_footprint_is_the_plan(name, want, economy):
         "peak_tension",
     ],
 )
-def test_what_a_solution_is_asked_for_may_be_wanted_by_the_same_name(want):
+def test_an_attribute_of_a_solution_may_be_wanted_by_its_name(want):
     scene = sie.Scene(
         profile=sie.RoundedFlat(1.0, 2.0), modulus=1.0, poisson=0.3, normal_load=1.0, friction=0.5,
         tangential_load=0.3,
@@ -156,7 +156,7 @@ def test_a_plan_prints_every_step_with_run_or_skip_and_a_reason():
             assert len(line.split(maxsplit=2)) == 3
 
 
-def test_a_plan_says_why_the_shear_is_or_is_not_solved_for():
+def test_a_plan_gives_the_reason_why_the_shear_is_solved_for_or_not():
     said = {name: str(sie.plan(scene, want="shear")) for name, scene in SCENES.items()}
     assert "f = 0: there is no shear traction" in said["convex"]
     assert "Q = 0 and no bulk stress" in said["rough, not sheared"]
@@ -214,7 +214,7 @@ def test_with_keeps_the_stages_that_cannot_have_changed():
         {"profile": sie.Parabola(1.0)},
     ],
 )
-def test_with_drops_what_may_have_changed_and_answers_the_new_question(changes):
+def test_with_drops_the_stages_that_may_have_changed_and_solves_the_new_scene(changes):
     solution = sie.solve(SCENES["convex"])
     solution.check()
     changed = solution.with_(**changes)

@@ -108,7 +108,7 @@ def test_no_distance_is_too_large_or_too_small(query, far_away):
 
 
 @EVERY
-def test_what_is_no_number_is_refused_in_a_sentence(query, far_away):
+def test_an_argument_that_is_no_number_is_refused_in_a_sentence(query, far_away):
     for bad in ("left", [None], {}, np.array(["1.0"]), [10**400]):
         with pytest.raises(ValueError, match=r"is not an array of (real )?numbers: give"):
             query(bad)
@@ -173,7 +173,7 @@ PROFILES = {
 
 
 @pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)
-def test_the_height_and_the_slope_of_nan_are_nan_and_no_height_overflows_aloud(profile):
+def test_the_height_and_the_slope_of_nan_are_nan_and_no_height_warns_of_overflow(profile):
     for query in (profile.height, profile.slope):
         alone, mixed = query(ORDINARY), query(np.insert(ORDINARY, 3, np.nan))
         assert (

@@ -120,7 +120,7 @@ def answered(build):
 
 @pytest.mark.parametrize("value", [*MAGNITUDES, *EXTREME])
 @pytest.mark.parametrize("name", INPUTS)
-def test_every_magnitude_of_every_input_is_refused_in_words_or_answered(name, value):
+def test_every_magnitude_of_every_input_is_answered_or_refused_with_a_sentence(name, value):
     found = answered(lambda: INPUTS[name](value))
     if isinstance(found, str):
         assert ": " in found or ";" in found  # what and how much; what to do

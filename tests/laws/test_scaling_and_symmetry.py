@@ -91,7 +91,7 @@ def test_powers_of_two_change_hardly_a_bit(name):
 
 
 @given(strategies.scenes())
-def test_the_mirrored_question_has_the_mirrored_answer(scene):
+def test_the_mirrored_scene_has_the_mirrored_answer(scene):
     one = sie.solve(scene)
     other = sie.solve(
         sie.Scene(

@@ -24,7 +24,7 @@ def rim(solution):
 
 
 def across(a, width):
-    """Points of the flat and of the rim, in its own measure too."""
+    """Points of the flat and of the rounded edge, on its own scale too."""
     flat = a * np.array([0.0, -0.37, 0.81, 0.999])
     return np.concatenate(
         (flat, a + width * np.array([0.07, 0.5, 0.93]), -a - width * np.array([0.3]))
@@ -38,8 +38,10 @@ NEAR_FLAT = between(-12.0, -0.3).map(lambda e: 10.0**e)
 @given(NEAR_FLAT, log_between(1e-3, 1e3), log_between(1e-3, 1e3))
 @example(delta=1e-12, radius=1.0, modulus=1.0)
 @example(delta=1e-8, radius=1.0, modulus=1.0)
-def test_a_nearly_flat_punch_keeps_rim_and_pressure_given_the_load(delta, radius, modulus):
-    width = delta  # of the rim, beside a flat of half-width 1
+def test_a_nearly_flat_punch_keeps_its_rounded_edge_and_pressure_given_the_load(
+    delta, radius, modulus
+):
+    width = delta  # of the rounded edge, beside a flat of half-width 1
     P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=modulus, rim=width))
     solution = sie.solve(
         sie.Scene(profile=sie.RoundedFlat(1.0, radius), modulus=modulus, normal_load=P)
@@ -47,7 +49,7 @@ def test_a_nearly_flat_punch_keeps_rim_and_pressure_given_the_load(delta, radius
     assert rim(solution) == pytest.approx(width, rel=1e-12)
     x = across(1.0, width)
     expected = rounded_flat.pressure(x, half_flat=1.0, radius=radius, modulus=modulus, rim=width)
-    # x on the rim is a double: what it can say of the distance to the corner is rounding
+    # x on the rounded edge is a double: its distance to the corner has rounding errors
     noise = 4 * np.abs(
         rounded_flat.pressure(
             np.nextafter(x, 0), half_flat=1.0, radius=radius, modulus=modulus, rim=width
@@ -117,7 +119,7 @@ def test_the_pressure_agrees_with_the_closed_form_of_the_rounded_punch(
 
 @pytest.mark.parametrize("delta", [1e-4, 1e-8, 1e-12])
 def test_a_nearly_flat_punch_agrees_with_quadrature_too(delta):
-    """The 40-digit reference knows no closed form; the rim is the double b - 1."""
+    """The 40-digit reference uses no closed form; the rounded edge is the double b - 1."""
     b = 1.0 + delta
     slope = normal_contact.Pieces(
         (-mp.inf, -mp.one, mp.one, mp.inf), (lambda t: t + 1, lambda t: 0 * t, lambda t: t - 1)
@@ -131,8 +133,8 @@ def test_a_nearly_flat_punch_agrees_with_quadrature_too(delta):
 
 @given(NEAR_FLAT, between(-0.3, 0.3))
 def test_a_nearly_flat_punch_keeps_its_moment_under_tilt(delta, share):
-    """A tilt that is a share of the rim's slope, off the axis: equilibrium by the certificate and
-    the moment's inverse.
+    """A tilt that is a fraction of the slope of the rounded edge, off the axis: equilibrium by the
+    certificate and the moment's inverse.
     """
     profile = sie.RoundedFlat(1.0, 1.0)
     solution = sie.solve(

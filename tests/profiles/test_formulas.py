@@ -43,7 +43,7 @@ X = np.array([-2.0, 0.5, 3.0])
         ("x +* 2", "is not a formula"),
     ],
 )
-def test_what_is_no_arithmetic_is_refused_with_what_was_meant(text, said):
+def test_text_that_is_no_formula_is_refused_with_a_suggestion(text, said):
     with pytest.raises(ValueError) as caught:
         Expression(text)
     assert str(caught.value).startswith(f"expression {text!r} ")
@@ -74,7 +74,7 @@ def test_a_tower_of_powers_is_infinite_at_once(text):
     assert np.isinf(Expression(text)(X)).all()
 
 
-def test_a_root_of_a_negative_number_is_no_number_but_refused():
+def test_a_root_of_a_negative_number_is_refused():
     with pytest.raises(ValueError, match="slope is nan at x"):
         sie.FromFunction("(-8)**(1/3)*x")
 

@@ -181,7 +181,7 @@ def test_between_breaks_a_profile_has_no_corner(profile):
 
 
 @given(strategies.profiles(), dyadic(-1, 1), dyadic(-1, 1))
-def test_tilted_shifted_mirrored_and_sums_mean_what_they_say(profile, slope, dx):
+def test_tilted_shifted_mirrored_and_sums_have_the_heights_of_their_formulas(profile, slope, dx):
     x = inside(profile)
     h = profile.height
     assert profile.tilted(slope).height(x) == pytest.approx(h(x) + slope * x, rel=1e-13, abs=1e-13)
@@ -214,7 +214,7 @@ def test_doing_and_undoing_gives_the_same_shape(profile):
     assert profile.tilted(0.0) == profile == profile.shifted(0.0)
 
 
-def test_the_sum_of_profiles_lives_on_the_common_domain():
+def test_the_sum_of_profiles_has_the_common_domain():
     both = sie.Flat(1.0).shifted(0.5) + sie.FromFunction("x", domain=(-1.0, 1.0))
     assert both.domain == (-0.5, 1.0)
     with pytest.raises(ValueError, match="do not overlap"):
@@ -339,7 +339,7 @@ def test_a_profile_known_to_be_convex_is_convex(profile, one, other):
      sie.FromFunction("x - sin(x)")],
     ids=repr,
 )  # fmt: skip
-def test_what_is_not_known_to_be_convex_does_not_say_so(profile):
+def test_a_profile_not_known_to_be_convex_is_not_marked_convex(profile):
     assert not profile.convex
 
 
@@ -352,7 +352,7 @@ def test_heights_are_measured_from_the_nearest_point_to_zero():
 @pytest.mark.parametrize(
     "text", ["sinh(x)", "x**3 + abs(x)*x", "where(x > 0.5, 2*x - 0.5, x)", "x*exp(-x**2/2)"]
 )
-def test_a_text_slope_is_the_same_profile_as_the_function_it_says(text):
+def test_a_text_slope_is_the_same_profile_as_its_function(text):
     profile = sie.FromFunction(text, breaks=(0.0, 0.5), domain=(-1.0, 1.0))
     x = np.linspace(-0.9, 0.9, 7)
     expected = eval(

@@ -106,7 +106,7 @@ def test_known_elastic_limits(a, f):
     assert found.on_surface is on_surface
 
 
-def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_johnson_says():
+def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_in_johnson():
     solution = punch(0.0)
     found = solution.elastic_limit()
     assert float(solution.pressure(0.0)) / found.stress == pytest.approx(
@@ -122,7 +122,7 @@ def test_hertz_yields_below_the_centre_and_in_sliding_on_the_surface_as_johnson_
 
 
 @pytest.mark.parametrize("a", [0.13, 0.15, 0.3, 0.7])
-def test_both_of_two_tied_maxima_are_told(a):
+def test_both_of_two_tied_maxima_are_reported(a):
     (left, depth), (right, other) = punch(a).elastic_limit().places
     assert left == pytest.approx(-right, abs=1e-8) and depth == pytest.approx(other, abs=1e-8)
 
@@ -148,7 +148,7 @@ def test_the_jump_to_the_surface_leaves_the_limit_continuous():
     strategies.between(0.0, 0.6),
     st.sampled_from(["mises", "tresca"]),
 )
-def test_no_point_of_a_fine_scan_is_worse_than_the_maximum_found(scene, friction, criterion):
+def test_no_point_of_a_fine_scan_exceeds_the_maximum(scene, friction, criterion):
     solution = sie.solve(scene)
     solution = solution.with_(
         modulus=scene.Estar,
@@ -213,7 +213,7 @@ def test_no_point_of_the_surface_has_more_tension(scene, friction):
     assert xx.max() <= peak.value + 1e-13 * abs(peak.value)
 
 
-def test_a_sharp_edge_tears_and_yields_at_once():
+def test_a_sharp_edge_has_infinite_tension_and_yields_at_once():
     flat = sie.solve(sie.Scene(profile=sie.Flat(1.0), modulus=1.0, poisson=NU, normal_load=1.0))
     sliding = flat.with_(friction=0.3, tangential_load=0.3)
     assert sliding.peak_tension() == sie.Peak(np.inf, -1.0)
@@ -295,7 +295,7 @@ def test_a_break_next_to_the_weakest_point_is_not_tied_with_it():
     assert len(found.places) == 1 and found.x == pytest.approx(weakest, abs=1e-8)
 
 
-def test_a_compression_that_nothing_relieves_is_the_largest_tension():
+def test_a_compressive_bulk_stress_that_is_exceeded_nowhere_is_the_largest_tension():
     """With Q = 0 slip only adds to it on both sides; it is approached far away."""
     scene = sie.Scene(
         profile=sie.RoundedFlat(0.6, 5.0),

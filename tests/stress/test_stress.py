@@ -295,7 +295,7 @@ def test_a_half_circle_carries_the_load(scene, radius):
 
 
 @EVERY
-def test_far_away_only_the_resultant_tells(scene):
+def test_far_away_the_stress_depends_on_the_resultant_only(scene):
     """Flamant: σ_rr = -2/(πr) (P sin θ + Q cos θ), about the line of action; what differs falls off
     like 1/r³.
     """
@@ -422,7 +422,7 @@ def test_at_the_edges_of_a_bonded_punch_nothing_is_nan():
 
 
 class Watched(Density):
-    """A density that tells what it was asked for."""
+    """A density that records its evaluations."""
 
     def __init__(self, density):
         self.density, self.asked = density, []
@@ -505,7 +505,7 @@ def test_bad_points_are_refused(x, y, words):
         sie.solve(PUNCH).stress(x, y)
 
 
-def test_what_needs_an_elastic_constant_says_so():
+def test_a_quantity_that_needs_an_elastic_constant_is_refused_without_it():
     s = sie.solve(sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, half_width=1.0)).stress(
         0.0, 0.5
     )

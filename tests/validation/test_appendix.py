@@ -38,7 +38,7 @@ def test_a_misprinted_equation_is_wrong_in_the_third_digit(equation, case):
 
 
 @pytest.mark.parametrize("equation", EQUATIONS, ids=lambda e: e.name)
-def test_a_right_hand_side_that_is_off_is_seen(equation):
+def test_a_wrong_right_hand_side_is_detected(equation):
     case = (0.5, 1.25, 0.75, 2.0)
     assert digits(equation.right(Setting(*case, spoiled=WRONG)), equation.left(Setting(*case))) < 25
 

@@ -64,14 +64,14 @@ def test_a_measure_is_one_function_of_the_right_and_of_the_wrong_input():
     assert (made.measured, made.control, made.verdict) == (pytest.approx(0.01), 9.0, "holds")
 
 
-def test_the_worst_of_answers_of_which_one_is_none_is_none():
+def test_the_largest_error_is_nan_if_one_error_is_nan():
     assert math.isnan(largest([1e-16, math.nan, 1e-15]))
     assert math.isnan(smallest([1e-16, math.nan, 1e-15]))
     assert (largest([1.0, 3.0]), smallest([1.0, 3.0])) == (3.0, 1.0)
 
 
 @pytest.mark.parametrize("place", [0, 1, 2])
-def test_no_measure_passes_over_an_answer_that_is_none(place):
+def test_no_measure_ignores_a_nan(place):
     found = [1.0, 2.0, 3.0]
     assert (
         measures.apart(found, [1, 2, 3])
@@ -83,7 +83,7 @@ def test_no_measure_passes_over_an_answer_that_is_none(place):
     assert math.isnan(sweeps._outcome(None, found, [1, 2, 3], 1.0, 0.0).error)
 
 
-def test_a_pressure_that_is_none_fails_the_figures_of_the_paper(monkeypatch):
+def test_a_pressure_of_nan_fails_the_figures_of_the_paper(monkeypatch):
     """In the last of ten contacts, at one of the points only."""
 
     class Holed(sie.Solution):
@@ -158,7 +158,7 @@ def test_a_report_that_cannot_be_written_leaves_the_last_one_whole(monkeypatch, 
     }
 
 
-def test_an_interrupt_ends_the_run_with_a_word(monkeypatch, tmp_path, capsys):
+def test_an_interrupt_ends_the_run_with_a_message(monkeypatch, tmp_path, capsys):
     def interrupted(*given):
         raise KeyboardInterrupt
 
@@ -208,7 +208,7 @@ def test_every_claim_of_a_topic_holds_and_its_control_does_not(name):
         assert figure.element.startswith("<svg")
 
 
-def test_every_topic_says_what_it_is():
+def test_every_topic_has_a_title_and_an_introduction():
     import importlib  # noqa: PLC0415
 
     for name in TOPICS:
@@ -233,7 +233,7 @@ def test_the_economy_measures_a_difference_and_a_footprint():
     assert economy.difference((one, one * (1 + 1e-11))) == pytest.approx(1e-11, rel=1e-4)
 
 
-def test_a_skip_that_costs_time_is_seen():
+def test_a_skip_that_costs_time_is_detected():
     assert economy.saved("", [(1.0, 2.0), (3.0, 4.0)], 1.3).verdict == "holds"
     assert economy.saved("", [(1.0, 2.0), (3.0, 3.0)], 1.3).verdict == "fails"
 
@@ -246,7 +246,7 @@ def test_the_states_of_the_frontier():
     assert Outcome(refused="so").state(1e-13) == "known"
 
 
-def test_a_sweep_sees_an_answer_that_is_off():
+def test_a_sweep_detects_a_wrong_answer():
     sweep = stability.all_sweeps(True)[0]
     outcome = sweep.run(0.5)
     assert outcome.error < 1e-13
@@ -322,7 +322,7 @@ def test_codes_of_others_race_where_they_are_installed_and_are_named_where_not(m
 
 
 @pytest.mark.parametrize("problem", [kinked(0.5), wavy(), sliding()], ids=lambda p: p.name)
-def test_a_race_measures_the_error_it_says(problem):
+def test_a_race_measures_the_error_that_it_states(problem):
     p = problem.solution.pressure(problem.x)
     assert problem.error(p) < 1e-13
     assert problem.error(p * (1 + 1e-9)) == pytest.approx(1e-9, rel=0.1)
@@ -434,7 +434,7 @@ def test_every_number_is_in_the_json():
     assert plain(np.float64(0.1)) == 0.1
 
 
-def test_what_comes_next_is_told_and_not_kept():
+def test_progress_is_shown_and_not_kept():
     told = []
     found = kept(iter([Doing("this"), claim(0.5, 2.0)]), told.append)
     assert (told, len(found)) == (["this"], 1)
@@ -515,7 +515,7 @@ def test_the_bar_moves_while_topics_run_beside_each_other(monkeypatch):
     )
 
 
-def test_an_interrupt_does_not_wait_for_what_is_left(monkeypatch):
+def test_an_interrupt_does_not_wait_for_the_remaining_topics(monkeypatch):
     monkeypatch.setattr("validation.harness.running.os.cpu_count", lambda: 2)
     with pytest.raises(KeyboardInterrupt), workers(2) as pool:  # noqa: PT012
         left = [pool.submit(time.sleep, 60.0) for _ in range(4)]
@@ -554,14 +554,14 @@ def test_the_table_of_the_readme_is_the_one_that_was_measured():
     assert readme.with_table(text, readme.markdown(KEPT["rows"])) == text
 
 
-def test_a_table_that_was_changed_by_hand_is_seen():
+def test_a_table_that_was_changed_by_hand_is_detected():
     text = readme.README.read_text(encoding="utf-8")
     table = readme.markdown(KEPT["rows"])
     assert readme.with_table(text, table.replace("e-16", "e-17", 1)) != text
 
 
 @pytest.mark.parametrize("kept_row", KEPT["rows"], ids=lambda row: row[0])
-def test_what_the_readme_says_is_still_so(kept_row):
+def test_the_numbers_of_the_readme_still_hold(kept_row):
     """Errors within a factor of ten, or both below 1e-15; no more evaluations; times are the
     machine's, and are not compared.
     """

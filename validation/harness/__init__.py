@@ -1,1 +1,1 @@
-"""What the topics share: records, measures, run times, figures, the report and its running."""
+"""Common parts of the topics: records, measures, run times, figures, report and runner."""

@@ -1,5 +1,4 @@
-"""Drawing, apart from computing: Matplotlib figures in one style, and SVG that can stand inside a
-page, several of them together.
+"""Drawing, separate from computing: Matplotlib figures in one style, as SVG inside a page.
 
 Figures are drawn as narrow as a phone, so that their letters stay readable there.
 """
@@ -41,9 +40,7 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing with its caption, which says what is seen, in which units, and where each curve
-    comes from.
-    """
+    """A drawing with its caption: the quantity, the units and the origin of each curve."""
 
     name: str
     drawing: Any
@@ -66,8 +63,9 @@ def drawn(figure: Figure) -> Drawn:
 def axes(
     rows: int = 1, *, height: float = HEIGHT, head: float = HEAD, foot: float = FOOT
 ) -> tuple[Any, Any]:
-    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array);
-    head and foot for each panel.
+    """A Matplotlib figure with `rows` panels one below the other, and its axes (one, or an array).
+
+    `head` and `foot` are the room above and below each panel.
     """
     import matplotlib  # noqa: PLC0415 -- an extra: only the report needs it
     from matplotlib.figure import Figure as Drawing  # noqa: PLC0415
@@ -82,8 +80,9 @@ def axes(
 
 
 def _margins(drawing: Any) -> None:
-    """Room for the labels on both sides, by counting letters: Matplotlib's own layouts take half
-    the time of a figure to measure them.
+    """Room for the labels on both sides, by counting letters.
+
+    Matplotlib's own layouts take half the time of a figure to measure them.
     """
     room = {"left": MARGIN, "right": MARGIN}
     for axis in (ax.yaxis for ax in drawing.axes):
@@ -107,8 +106,9 @@ def labelled(ax: Any, x: str, y: str, title: str = "", log: str = "") -> None:
 
 
 def _decades(ax: Any, name: str, axis: Any) -> None:
-    """A logarithmic axis, ticks as plain text, which costs a hundredth of Matplotlib's formulas:
-    powers of ten, or 1, 2, 5 of a few.
+    """A logarithmic axis with ticks at powers of ten, or at 1, 2, 5 of a few.
+
+    The ticks are plain text, which costs a hundredth of Matplotlib's formulas.
     """
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator  # noqa: PLC0415
 
@@ -135,9 +135,7 @@ def tick(value: float, _: int = 0) -> str:
 def draw(
     ax: Any, curves: Sequence[Curve], *, colour: Any = None, floor: float | None = None
 ) -> None:
-    """Each curve in its style; values below `floor` are drawn on it (a logarithm has no room for
-    zero).
-    """
+    """Draw each curve in its style; values below `floor`, zero included, are drawn on it."""
     for k, curve in enumerate(curves):
         y = np.array(curve.y, dtype=float)
         y = y if floor is None else np.maximum(y, floor)
@@ -156,8 +154,9 @@ def legend(ax: Any, **options: Any) -> None:
 
 
 def legend_above(ax: Any, columns: int) -> None:
-    """Of many curves: outside, where it hides none; as many lines as it has belong to the `head` of
-    the axes.
+    """The legend of many curves, above the axes, where it hides none.
+
+    The `head` of the axes has room for its lines.
     """
     ax.legend(
         fontsize=8,

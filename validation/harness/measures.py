@@ -1,8 +1,7 @@
-"""Distances between answers: doubles held against numbers of many digits, nothing lost in the
-comparison.
+"""Distances between answers: doubles compared with numbers of many digits, without rounding.
 
-Of many numbers the worst is taken by `largest` and `smallest`: Python's max and min pass over a
-nan, and so over an answer that is none.
+`largest` and `smallest` of several numbers are nan if one is nan. Python's max and min ignore a
+nan, and so a missing answer.
 """
 
 from __future__ import annotations

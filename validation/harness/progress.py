@@ -1,5 +1,6 @@
-"""A progress bar on stderr, by the time that topics usually take; a line for each topic where
-stderr is not a terminal.
+"""A progress bar on stderr, by the usual times of the topics.
+
+If stderr is not a terminal, it prints a line for each topic.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ WIDTH = 24
 
 
 class Progress:
-    """`topic` begins one, `beside` several at once, `tell` says what is done, `behind` ends a
-    topic; `done` ends the line.
+    """`topic` begins one, `beside` several at once, `tell` shows the work, `behind` ends a topic.
+
+    `done` ends the line.
     """
 
     def __init__(self, seconds: Mapping[str, float], stream: TextIO | None = None) -> None:
@@ -54,9 +56,7 @@ class Progress:
             self.stream.flush()
 
     def share(self) -> float:
-        """Of the whole: the topics behind, and of those under way what their usual time says, at
-        most nearly all.
-        """
+        """The share of the work that is done, by usual times; less than 1 for topics under way."""
         now = time.perf_counter()
         within = min(now - self.began, 0.98 * self.seconds[self.name]) if self.name else 0.0
         beside = min(self.at_once * (now - self.started), 0.98 * self.together)

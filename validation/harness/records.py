@@ -1,11 +1,12 @@
-"""What a topic finds: claims with a verdict, tables, curves and maps. Values that JSON can hold;
-nothing here computes or draws.
+"""The records of a topic: claims with a verdict, tables, curves and maps.
+
+They are values that JSON can hold; nothing here computes or draws.
 
 A topic is a module of `validation.topics` with
 
     TITLE                         the heading; its docstring is the introduction
     SECONDS                       about how long (quick, whole) takes, for the progress bar
-    compute(quick) -> records     an iterator; a `Doing` says what comes next and is not kept
+    compute(quick) -> records     an iterator; a `Doing` names the next work and is not kept
 
 and may have a module of the same name in `validation.topics.figures` with
 
@@ -27,13 +28,14 @@ Numbers = Sequence[float] | NDArray[Any]
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim, who makes it, the number measured in this run, the bar it is held to, and proof
-    that the measure can fail.
+    """One claim with its source, the number measured in this run, its bar, and a control.
+
+    The control proves that the measure can fail.
 
     low, high   the bar: it holds if low <= measured <= high
     control     the same measure on a wrong input, which `wrong` names: it must miss the bar,
                 by a number: nan proves nothing
-    erratum     what is true instead, for a claim that this project says is mistaken: then the
+    erratum     the correct statement, for a claim that this project refutes: then the
                 measure must miss the bar, and the control, the corrected input, must meet it
     """
 
@@ -51,8 +53,9 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """holds, refuted (an erratum, as listed), fails, or blind: the control passed, so that the
-        measure proves nothing.
+        """holds, refuted (a listed erratum), fails, or blind (the control passed).
+
+        A measure that its control passes proves nothing.
         """
         if math.isnan(self.control) or self.within(self.control) != bool(self.erratum):
             return "blind"
@@ -83,8 +86,9 @@ def checked(
     named: str,
     **bar: Any,
 ) -> Claim:
-    """A claim whose number and whose control are one function of a right and of a wrong input;
-    `named` says what is wrong with it.
+    """A claim whose number and control are one function of a right and of a wrong input.
+
+    `named` describes the wrong input.
     """
     return Claim(what, by, float(measure(right)), float(measure(wrong)), named, **bar)
 
@@ -101,8 +105,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Curve:
-    """Points (x, y) of the figure named `figure`; `style` is "line", "points" (another origin, on
-    top of a line) or "both".
+    """Points (x, y) of the figure named `figure`.
+
+    `style` is "line", "points" (of another origin, on top of a line) or "both".
     """
 
     figure: str
@@ -126,7 +131,7 @@ class Map:
 
 @dataclass(frozen=True)
 class Doing:
-    """What is computed next, for the progress bar."""
+    """The next work, for the progress bar."""
 
     what: str
 
@@ -178,8 +183,8 @@ class Found(list[Record]):
 
 
 def plain(value: Any) -> Any:
-    """Only what JSON knows: arrays become lists, NumPy's numbers Python's, and inf and nan
-    words.
+    """The value in types of JSON: arrays as lists, NumPy's numbers as Python's, inf and nan as
+    text.
     """
     if isinstance(value, dict):
         return {k: plain(v) for k, v in value.items()}
@@ -193,8 +198,9 @@ def plain(value: Any) -> Any:
 
 
 def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
-    """All records but the `Doing`s, which are told; of a topic that breaks off those that it came
-    to, and a claim that fails.
+    """All records but the `Doing`s, which the progress bar shows.
+
+    A topic that raises an error keeps its records so far, and gets a claim that fails.
     """
     found = Found()
     try:
@@ -203,7 +209,7 @@ def kept(records: Iterator[Record], tell: Callable[[str], None]) -> Found:
                 tell(record.what)
             else:
                 found.append(record)
-    except Exception as error:  # the other topics have their say all the same
+    except Exception as error:  # the other topics are reported all the same
         traceback.print_exc()
         found.append(
             Claim(

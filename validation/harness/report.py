@@ -1,5 +1,6 @@
-"""One HTML page that needs nothing else: claims with verdicts, figures as inline SVG, tables;
-readable on a phone and without a network.
+"""One HTML page without other files: claims with verdicts, figures as inline SVG, tables.
+
+It is readable on a phone and without a network.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
 
 
 def machine() -> str:
-    """What the times were measured on."""
+    """The machine on which the times were measured."""
     return (
         f"{time.strftime('%Y-%m-%d')}, Python {platform.python_version()}, NumPy {np.__version__}, "
         f"SciPy {scipy.__version__}, "

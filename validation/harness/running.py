@@ -1,7 +1,7 @@
-"""Topics computed and drawn: those that measure time one after the other while nothing else runs,
-the others beside each other.
+"""Compute and draw the topics.
 
-A ratio of times measured in turns is no such time: what runs beside slows both.
+Topics that measure time run one after the other while nothing else runs, the others in parallel. A
+ratio of times measured in turns may run in parallel, because other work slows both.
 """
 
 from __future__ import annotations
@@ -66,15 +66,13 @@ def run(names: Sequence[str], quick: bool) -> tuple[list[Section], float]:
 def computed(
     name: str, quick: bool, tell: Callable[[str], None] = lambda what: None
 ) -> tuple[Found, float]:
-    """What a topic finds, and the seconds it took."""
+    """The records of a topic, and the seconds it took."""
     start = time.perf_counter()
     return kept(_topic(name).compute(quick), tell), time.perf_counter() - start
 
 
 def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
-    """A topic's figures as SVG, and the seconds they took; none if the topic broke off or has
-    none.
-    """
+    """A topic's figures as SVG, and their seconds; none if the topic broke off or has none."""
     start = time.perf_counter()
     if found.broken or importlib.util.find_spec(f"{FIGURES}.{name}") is None:
         return [], 0.0
@@ -84,9 +82,7 @@ def figures_of(name: str, found: Found) -> tuple[list[Drawn], float]:
 
 @contextmanager
 def workers(topics: int) -> Iterator[Executor]:
-    """A process for each core, each with one thread of its own; this process alone for a single
-    topic or core.
-    """
+    """A process for each core, with one thread each; this process for a single topic or core."""
     cores = os.cpu_count() or 1
     if min(topics, cores) == 1:
         yield Here()
@@ -119,12 +115,12 @@ def workers(topics: int) -> Iterator[Executor]:
 
 
 def awake() -> None:
-    """What most topics import takes a process about a second."""
+    """Import the modules of most topics, which takes a process about a second."""
     _topic("paper")
 
 
 class Here(Executor):
-    """Runs what it is given at once, in this process."""
+    """An executor that runs each task at once, in this process."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         future: Future[Any] = Future()

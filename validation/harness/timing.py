@@ -1,6 +1,4 @@
-"""Run times that a busy machine does not spoil: two programs in turns, medians of their ratio in
-the same run.
-"""
+"""Run times on a busy machine: two programs in turns, and the median of their ratio."""
 
 from __future__ import annotations
 
@@ -28,8 +26,9 @@ def medians(runs: Sequence[Callable[[], Any]], patience: float = PATIENCE) -> li
 
 
 def fastest(runs: Sequence[Callable[[], Any]], patience: float = PATIENCE) -> list[float]:
-    """Shortest seconds of each, in turns: for growth, as what a busy machine adds does not grow
-    with the work.
+    """Shortest seconds of each, in turns.
+
+    They serve for growth, because the delay by a busy machine does not grow with the work.
     """
     return _in_turns(runs, patience, min)[0]
 

@@ -1,1 +1,1 @@
-"""Other methods, written small, the contacts on which they race, and the races."""
+"""Other methods in short form, the contacts on which they race, and the races."""

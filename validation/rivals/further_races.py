@@ -1,6 +1,4 @@
-"""Races besides the pressure: the potential inside the body, the shear of partial slip, and a
-profile known by samples only.
-"""
+"""Further races: the potential in the body, the shear of partial slip, and sampled profiles."""
 
 from __future__ import annotations
 
@@ -40,8 +38,9 @@ def _points(make: Runner, sizes: Sequence[int], error: Callable[[Any], float]) -
 
 
 def interior(quick: bool) -> Iterator[Record]:
-    """The potential F of the rounded punch at a depth of 0.01 b: closed in each panel, or by
-    quadrature, or by the paper's series.
+    """The potential F of the rounded punch at a depth of 0.01 b, by three methods.
+
+    They are a closed form in each panel, quadrature, and the paper's series.
     """
     yield Doing("interior")
     density = sie.solve(
@@ -89,8 +88,9 @@ def interior(quick: bool) -> Iterator[Record]:
 
 
 def partial_slip(quick: bool) -> Iterator[Record]:
-    """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P: the zones are found and two
-    pressures taken, by each method.
+    """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P.
+
+    Each method computes the zones and two pressures.
     """
     yield Doing("partial slip")
     P, f, Q = 0.3, 0.5, 0.09
@@ -147,9 +147,7 @@ def partial_slip(quick: bool) -> Iterator[Record]:
 
 
 def sampled(quick: bool) -> Iterator[Record]:
-    """A parabola known at n points only: what is left is the interpolation's error, or the
-    elements' own.
-    """
+    """A parabola given at n points: the error is that of the interpolation, or of the elements."""
     yield Doing("sampled")
     x = np.linspace(-0.95, 0.95, 1001)
     truth = 0.5 * np.sqrt((1 - x) * (1 + x))

@@ -1,5 +1,5 @@
-"""The contacts on which the methods race: a question, the truth at some points, and the cost of a
-closed form to measure time by.
+"""The contacts on which the methods race: a scene, the exact pressure at some points, and the cost
+of a closed form as the unit of time.
 
 E* = 1. Where a closed form exists it is evaluated in mpmath; else quadrature in 40 digits, or in 25
 for sliding.
@@ -29,8 +29,9 @@ REACH = 75  # in u, s = tanh u: beyond, less than the 25 digits is left
 
 @dataclass(frozen=True)
 class Problem:
-    """`scene` for the package; `slope` on [lo, hi] for the peers; `truth(x)` of a float, to more
-    than 16 digits.
+    """`scene` for the package, `slope` on [lo, hi] for the peers, and the exact `truth(x)`.
+
+    The truth of a float has more than 16 digits.
     """
 
     name: str
@@ -59,13 +60,13 @@ class Problem:
 
     @cached_property
     def samples(self) -> Array:
-        """Off every grid, to within 1e-3 of the edges; and next to the kinks."""
+        """Points off every grid, to within 1e-3 of the edges, and next to the kinks."""
         s = np.array([*np.cos((np.arange(SAMPLES) + 0.37) * np.pi / (SAMPLES + 0.2)), *self.places])
         return 0.5 * (self.edges[0] + self.edges[1]) + 0.5 * (self.edges[1] - self.edges[0]) * s
 
     @cached_property
     def x(self) -> Array:
-        """Where the pressure is asked for: the samples first, POINTS together."""
+        """The points of the pressure: the samples first, POINTS together."""
         inner = np.linspace(*self.edges, POINTS - len(self.samples) + 2)[1:-1]
         return np.concatenate((self.samples, inner))
 
@@ -74,7 +75,9 @@ class Problem:
         return np.array([float(self.truth(x)) for x in self.samples.tolist()])
 
     def error(self, p: Array) -> float:
-        """Largest, over the peak; of pressures at `x`, of which the first are at the samples."""
+        """The largest error over the peak, of pressures at `x`, whose first points are the
+        samples.
+        """
         return float(np.abs(p[: len(self.samples)] - self.expected).max() / self.expected.max())
 
 
@@ -185,7 +188,7 @@ class Sliding:
         return total
 
     def _weighted(self, f: Callable[[Any], Any], u: Any) -> Any:
-        """f(tanh u) sech(u) exp(-2εu); every pressure asks for the same u."""
+        """f(tanh u) sech(u) exp(-2εu); every pressure uses the same u."""
         if u not in self._kept:
             self._kept[u] = mp.tanh(u), mp.sech(u) * mp.exp(-2 * self.epsilon * u)
         s, weight = self._kept[u]

@@ -1,6 +1,4 @@
-"""What every race of `work_precision` shares: the yardstick of time, colours, and a curve of error
-against time.
-"""
+"""The common part of all races of `work_precision`: unit of time, colours, and curves."""
 
 from __future__ import annotations
 
@@ -30,9 +28,7 @@ Point = tuple[int, float, float, float]  # size, error, seconds, ratio to the cl
 
 
 def closed_form() -> Any:
-    """The yardstick: the closed form of the rounded punch, as `analytic` evaluates it, to full
-    accuracy.
-    """
+    """The unit of time: the closed form of the rounded punch by `analytic`, to full accuracy."""
     return rounded_flat.pressure(_X, half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0)
 
 

@@ -1,8 +1,8 @@
-"""What others do, written small: global Gauss-Chebyshev, the dense Erdogan-Gupta solver of the
-textbooks, an FFT boundary-element solver.
+"""Other methods in short form: Gauss-Chebyshev, Erdogan-Gupta, FFT boundary elements.
 
-None of it shares code with the packages. The first two are told where the contact ends, which this
-package finds by itself.
+They are a global Gauss-Chebyshev series, the dense Erdogan-Gupta solver of the textbooks, and an
+FFT boundary-element solver. None of them shares code with the packages. The first two are given the
+edges of the contact, which this package computes.
 
     E*/2 H(x) = 1/π PV∫ p(t)/(x - t) dt on [lo, hi]
     p = w g,  w(s) = sqrt(1 - s²),  s from -1 to 1
@@ -25,8 +25,9 @@ CONVERGED = 1e-14
 def gauss_chebyshev(
     slope: Slope, lo: float, hi: float, n: int, x: Array, *, modulus: float = 1.0
 ) -> Array:
-    """One series for the whole contact: H = Σ c_k T_k from n samples by one transform, p = E*/2
-    sqrt(1 - s²) Σ c_k U_{k-1}.
+    """One series for the whole contact, from n samples by one transform.
+
+    H = Σ c_k T_k, p = E*/2 sqrt(1 - s²) Σ c_k U_{k-1}.
     """
     theta = (np.arange(n) + 0.5) * np.pi / n
     c = dct(slope(0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(theta)), type=2) / n
@@ -67,8 +68,9 @@ def erdogan_gupta_matrix(n: int) -> tuple[Array, Array, Array]:
 def boundary_elements(
     gap: Array, spacing: float, load: float, *, periodic: bool = False, modulus: float = 1.0
 ) -> Array:
-    """Constant pressures on equal elements under a load, by conjugate gradients with FFT products
-    (Polonsky & Keer 1999).
+    """Constant pressures on equal elements under a load, by conjugate gradients and FFT.
+
+    The method is that of Polonsky & Keer (1999).
 
     `gap` at the elements' centres. The surface sinks by -2/(πE*) ∫ p ln|x - t| dt, or, periodic, by
     2/(E* |k|) for each wave number k.

@@ -1,12 +1,10 @@
-"""The paper's appendix, equation by equation: each side evaluated to 50 digits, and both packages
-held against it.
+"""The paper's appendix: each side of each equation to 50 digits, and both packages.
 
 The left-hand sides are principal values by quadrature in mpmath; "identity" is how many digits the
 right-hand side agrees to. The closed forms of `analytic` are evaluated in mpmath and in NumPy; the
 solver `sie` is given a profile whose pressure is that integral: the rounded punch for (24), (25)
 and (32), and for (29) and (31) a single step of the slope, whose pressure is E*/2 ln|...|. Where
-the form that our copy of the paper prints is not the identity, the digits it has are shown beside:
-errata.
+the form that our copy of the paper prints is not the identity, its digits are listed as errata.
 """
 
 from __future__ import annotations
@@ -33,7 +31,7 @@ mp = context(DIGITS + GUARD)
 few = context(12)
 WRONG = mp.mpf(10) ** -20  # relative change of φ0 that a checker of 50 digits must see
 
-# (a, b, x, R): doubles, so that both packages are asked the same question
+# (a, b, x, R): doubles, so that both packages solve the same problem
 QUICK = ((0.5, 1.25, 0.75, 2.0),)
 CASES = (
     *QUICK,
@@ -75,12 +73,12 @@ class Setting:
 
     @cached_property
     def angles(self) -> dict[str, tuple[Any, Any]]:
-        """The rim's two ends: the left-hand sides' own limits, never spoiled."""
+        """The two ends of the rounded edge: the limits of the left-hand sides, never spoiled."""
         phi0 = mp.asin(mp.mpf(self.a) / self.b)
         return {"left": (-mp.pi / 2, -phi0), "right": (phi0, mp.pi / 2)}
 
     def over_rim(self, f: Callable[[Any], Any], side: str) -> Any:
-        """PV∫ f(t) dt / (sqrt(b² - t²) (t - x)) over one rim."""
+        """PV∫ f(t) dt / (sqrt(b² - t²) (t - x)) over one rounded edge."""
         b, x = mp.mpf(self.b), mp.mpf(self.x)
         return principal_value(
             mp,
@@ -133,7 +131,7 @@ def _logarithm(s: Setting, side: str) -> Any:
 
 
 def _rational(s: Setting) -> Any:
-    """(29) for the right rim: ξ1 = ξ0, ξ2 = 1."""
+    """(29) for the right rounded edge: ξ1 = ξ0, ξ2 = 1."""
     xi, one = s.xi[0], s.xi[1]
     return (
         (1 + xi**2)
@@ -143,7 +141,7 @@ def _rational(s: Setting) -> Any:
 
 
 def _substituted(s: Setting, kernel: Callable[[Any, Any], Any]) -> Any:
-    """∫ kernel(τ, ξ) dτ over the right rim, a principal value."""
+    """∫ kernel(τ, ξ) dτ over the right rounded edge, a principal value."""
     xi, start = s.xi
     return principal_value(mp, lambda t: kernel(t, xi), xi, start, mp.one)
 
@@ -191,7 +189,7 @@ def _split(s: Setting) -> Any:
 
 
 def _misprinted_root(s: Setting) -> Any:
-    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits tell that
+    """∫ dt / sqrt((b² - t²)(t - x)), the root over all: complex where t < x. A few digits show that
     it is another number.
     """
     b, x = few.mpf(s.b), few.mpf(s.x)
@@ -306,7 +304,7 @@ EQUATIONS = (
 
 
 def digits(value: Any, truth: Any) -> float:
-    """How many agree: -log10 of the relative difference, at most those of the context."""
+    """The number of digits that agree: -log10 of the relative difference, at most the context's."""
     difference = abs(mp.mpmathify(value) / truth - 1)
     return smallest((mp.dps, -mp.log10(difference) if difference else mp.inf))
 
@@ -331,9 +329,7 @@ def agreed(equation: Equation, s: Setting) -> dict[str, float]:
 
 
 def wrong_digits(equation: Equation, s: Setting, spoiled: Setting) -> dict[str, float]:
-    """The same of wrong inputs: φ0, or a of the closed forms, off by WRONG in 50 digits, answers
-    rounded to ten digits in doubles.
-    """
+    """The same for wrong inputs: φ0 or a off by WRONG, or answers rounded to ten digits."""
     truth = equation.left(s)
     found = {"identity": digits(equation.right(spoiled), truth)}
     if equation.closed is not None:

@@ -1,14 +1,13 @@
-"""Does the certificate know? Random contacts, right ones and wrong ones, each with its true error
-beside the certificate's estimate.
+"""The certificate against the truth: random contacts, right and wrong, with their true errors.
 
 Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar
 bodies, parabolas known by samples, and the shear of rounded flats in partial slip, of random sizes,
-loads and moduli, whose truth is a closed form in 22 digits; half of the answers are then made
-wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, behind the
-certificate's back. The estimate must never be smaller than a third of the true error. That is the
-largest at one to three random places within 0.95 r of the centre, over the peak (of f p, for a
-shear), less what one ulp of x and of the edges explains; of a trace also less what the rounding of
-its spline explains.
+loads and moduli, whose truth is a closed form in 22 digits. Half of the answers are then made
+wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, without
+information to the certificate. The estimate must never be smaller than a third of the true error.
+The true error is the largest at one to three random places within 0.95 r of the centre, over the
+peak (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less
+what the rounding of its spline explains.
 """
 
 from __future__ import annotations
@@ -67,7 +66,7 @@ class Contact(NamedTuple):
 
 
 def random_contact(rng: np.random.Generator) -> Contact:
-    """Of a random kind, with half-width b or under a load."""
+    """A contact of a random kind, with half-width b or under a load."""
     kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
     b, E, R = (float(10.0 ** rng.uniform(-3, 3)) for _ in range(3))
     return MAKERS[kind](kind, rng, (b, E, R))
@@ -248,8 +247,8 @@ def judged(rng: np.random.Generator, wrong: bool) -> Judged:
 
 
 def peak_of(solution: sie.Solution) -> float:
-    """The largest pressure, in rims however thin, to within 1e-6 r of the breaks, where it may be
-    infinite.
+    """The largest pressure, in rounded edges however thin, to within 1e-6 r of the breaks, where it
+    may be infinite.
     """
     m, r = solution.centre, solution.half_width
     (x1, x2), breaks = solution.edges, np.array(solution.scene.profile.breaks)
@@ -310,7 +309,7 @@ def claims(found: list[Judged]) -> Iterator[Claim]:
     )  # fmt: skip
     alarm = [j.estimate / max(j.true, 1e-15) for j in wrong if j.true > 1e-11]
     yield Claim(
-        "median of estimate over true error, where the error is above 1e-11: it does not cry wolf",
+        "median of estimate over true error, where the error is above 1e-11",
         "this page",
         float(np.median(alarm)), float(np.median(alarm)) * 1e4,
         "an estimate ten thousand times too large", high=100.0,

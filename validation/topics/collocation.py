@@ -1,4 +1,4 @@
-"""The general solver of Cauchy equations, which takes what the contact's own panels do not.
+"""The general solver of Cauchy equations, for equations that the contact's panels do not solve.
 
 Ligament: two collinear cracks of length 1 under unit pressure, the ligament between them shrinking;
 the largest relative error of the four stress intensity factors against Willmore's elliptic
@@ -49,7 +49,7 @@ class Row:
     case: str
     n: str
     error: float | None = None
-    estimated: float | None = None  # what the density says of itself
+    estimated: float | None = None  # the density's own estimate
     condition: float | None = None
     lapack: float | None = None  # seconds; exponents in the last row
     gmres: float | None = None
@@ -249,7 +249,7 @@ def claims(found: list[Row]) -> Iterator[Claim]:
 
 
 def _agreement(found: list[Row]) -> Claim:
-    """Of the two ways through the same matrix, one of them with a right-hand side that is off."""
+    """Both solutions of one matrix agree; the control has a wrong right-hand side."""
     system = System(thin_layer().problem, (QUICK_SIZES[0],))
     right, wrong = (
         system.by_lapack(),

@@ -1,7 +1,8 @@
-"""What is skipped, why, what it saves, and that the answer is the same: each scene solved with
-every skip, and with none.
+"""The savings of economy: each scene solved with every skip, and with none.
 
-"run" and "skip" are what `sie.plan` says before anything is computed; the stages that were filled
+The page lists what is skipped, the reason, the time saved, and the difference of the answers.
+
+"run" and "skip" are those of `sie.plan` before anything is computed; the stages that were filled
 afterwards are those it names. Times are medians in turns; `sie.solve(scene, economy=())` switches
 all skips off, and then one of them at a time.
 """
@@ -73,7 +74,7 @@ def cost(scene: sie.Scene, x: Any, patience: float) -> list[float]:
     )
 
 
-# A skip by its name, and a scene that has no need of what it leaves out.
+# A skip by its name, and a scene that does not need the skipped work.
 SKIPS = {
     "symmetry": "rounded flat",
     "transform": "smooth function",
@@ -131,7 +132,7 @@ def one_by_one(quick: bool) -> Iterator[Record]:
 
 
 def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
-    """Of (time with, time without) the least quotient; exchanged, for the control."""
+    """The least quotient of the times without and with; exchanged, for the control."""
     pairs = list(times)
     return checked(
         lambda pairs: smallest(without / with_ for with_, without in pairs), pairs,
@@ -141,9 +142,7 @@ def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
 
 
 def stress_of(scene: sie.Scene) -> Iterator[Claim]:
-    """What is asked for by name is planned, and nothing else: the stress fills one more stage than
-    the pressure and the shear.
-    """
+    """The plan of the stress: one more stage than that of the pressure and the shear."""
     solution = sie.solve(scene)
     _ = solution.stress(0.3, 0.2).xx
     planned = sie.plan(scene, "stress").stages
@@ -187,7 +186,7 @@ def compute(quick: bool) -> Iterator[Record]:
             "this project: the footprint is the plan",
             len(filled ^ plan.stages),
             len((filled | {"certificate"}) ^ plan.stages),
-            "a certificate that nobody asked for",
+            "a certificate that was not asked for",
             high=0,
         )
         seconds = cost(scene, x, 0.05 if quick else 0.3)

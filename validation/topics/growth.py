@@ -1,6 +1,7 @@
-"""Growth of time and memory with the pieces of the profile, the points asked for, the unknowns and
-the patches of a Cauchy equation, the steps of a load path. The patches are coupled by a dense
-matrix and grow faster than the rest; no claim is made of them.
+"""Growth of time and memory with pieces, points, unknowns, patches and steps of a path.
+
+The pieces are those of the profile, the unknowns and patches those of a Cauchy equation. The
+patches are coupled by a dense matrix and grow faster than the rest; no claim is made of them.
 
 Straight lines in a diagram of logarithms; the exponent is that of the last three sizes. The control
 is a dense sum.
@@ -85,9 +86,7 @@ def of_steps(n: int) -> Callable[[], Any]:
 
 
 def of_pairs(n: int) -> Callable[[], Any]:
-    """What a program does that does not part near from far: a logarithm for each piece and
-    point.
-    """
+    """A program without fast sums: a logarithm for each piece and point."""
     e, x = np.linspace(-1.0, 1.0, n), np.linspace(-0.9, 0.9, n)
     return lambda: np.log(np.abs(x[:, None] - e[None, :]) + 1e-300).sum(axis=1)
 
@@ -103,7 +102,7 @@ MEASURED = {
 
 
 def exponent(sizes: Sequence[float], values: Sequence[float]) -> float:
-    """Of growth over the last three sizes."""
+    """The exponent of growth over the last three sizes."""
     return float(np.polyfit(np.log(sizes[-3:]), np.log(values[-3:]), 1)[0])
 
 

@@ -357,7 +357,7 @@ def compute(quick: bool) -> Iterator[Record]:
 
 
 def measured(number: int) -> Iterator[Record]:
-    """Of that many contacts of each kind."""
+    """The records of that many contacts of each kind."""
     rows = []
     every: list[tuple[Trial, Outcome]] = []
     for j, (kind, given) in enumerate(ASKED):

@@ -1,8 +1,8 @@
-"""Wrong programs, each run here and caught here: the checks can fail, and do, at errors from 1 down
-to 1e-12 of the pressure.
+"""Wrong programs, which the checks must catch, at errors from 1 to 1e-12 of the pressure.
 
-The certificate catches what breaks the equations; what is wrong in the question (a constant, the
-sign of β) satisfies wrong equations perfectly, and only a closed form that shares no code can tell.
+The certificate catches answers that do not satisfy the equations. A wrong input (a constant, the
+sign of β) satisfies wrong equations perfectly, and only a closed form that shares no code shows the
+error.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""Ciavarella, Hills & Monno, "The influence of rounded edges on indentation by a flat punch"
-(1998), computed anew.
+"""Ciavarella, Hills & Monno (1998), "The influence of rounded edges ...", computed anew.
 
-Figs 2 to 8 come from the general solver, which knows nothing of rounded punches but their slope; on
-top stand points of the closed forms, which share no code with it. Then what the paper says in
-words, with numbers. Refuted is what the numbers contradict: the errata.
+Figs 2 to 8 come from the general solver, which uses only the slope of the rounded punch. Points on
+top are those of the closed forms, which share no code with it. Numbers for the statements in the
+paper's text follow. A statement that the numbers contradict is refuted, and listed among the
+errata.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SAME, PLACE = (
 )  # of limits, and of their places, where a gradient vanishes: known to half the digits
 FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
 PRINTED_CROSSING = 0.55
-CROSSING = 0.540206764905  # where the strength is Hertz's again, as this project says
+CROSSING = 0.540206764905  # where the strength is Hertz's again, by this project
 
 
 def compute(quick: bool) -> Iterator[Record]:
@@ -174,7 +174,7 @@ class Weakest(NamedTuple):
 
 
 def closed_weakest(ratio: float, f: float) -> Weakest:
-    """From the closed forms: a scan, then a simplex from its best, inside and on the surface."""
+    """The weakest point by the closed forms: a scan and a simplex, inside and on the surface."""
     x, y = np.linspace(-1.2, 1.2, 97), np.linspace(0.02, 1.2, 60)[:, None]
     inside = root_j2(ratio, f, x, y)
     i, j = np.unravel_index(int(inside.argmax()), inside.shape)
@@ -205,7 +205,7 @@ def limit(ratio: float, f: float = 0.0) -> float:
 
 
 def weakest(ratio: float, f: float) -> Weakest:
-    """By the package."""
+    """The weakest point by the package."""
     found = charts.punch(ratio, f).elastic_limit()
     return Weakest(found.ratio, *found.places[-1])
 
@@ -321,7 +321,7 @@ def closed_tension(ratio: float, c: Any) -> Any:
     return np.array([at(float(v)) for v in np.atleast_1d(c)])
 
 
-# -- what it says in words ------------------------------------------------------------------------
+# -- statements in the text -----------------------------------------------------------------------
 
 
 def statements() -> Iterator[Claim]:

@@ -40,7 +40,7 @@ class Row:
     case: str
     error: float
     load: float
-    estimated: float  # what the certificate says
+    estimated: float  # the certificate's estimate
     evaluations: int  # of the edge integrals
     spoiled_error: float  # the same measures on an answer that is wrong by SPOILED
     spoiled_load: float

@@ -1,12 +1,11 @@
-"""Indenters known by samples: the spline's exact pressure, growth with samples and points, and a
-trace with noise.
+"""Sampled indenters: the spline's exact pressure, growth with samples, and a noisy trace.
 
 Spline: h at 1000 points, the not-a-knot cubic through them from SciPy; edges by Newton and the
 pressure by quadrature, both in 40 digits on that spline, against `sie.Sampled` of the same samples.
 Growth: solve, with as many pressures as samples, from 100 to 10^4 of both. Noise: a parabola with
 white noise of 1e-4 of its radius; the smoothing is chosen by cross validation, and the half-width
-is held against Hertz. What noise does without smoothing is the control: the package refuses it with
-a sentence.
+is compared with Hertz. The control is the noise without smoothing, which the package refuses with a
+sentence.
 """
 
 from __future__ import annotations

@@ -117,8 +117,8 @@ def compute(quick: bool) -> Iterator[Record]:
 def judged(
     slider: Slider, coupling: float, factor: float = 1.0, truth: float | None = None
 ) -> tuple[float, float, float | None, float]:
-    """Errors of pressure, moment and potential, and what the certificate says; `truth` is the βf of
-    the closed form.
+    """Errors of pressure, moment and potential, and the certificate's estimate; `truth` is the βf
+    of the closed form.
     """
     solution, k = slider.solve(coupling), mp.mpf(coupling if truth is None else truth)
     x = solution.centre + solution.half_width * PLACES

@@ -3,11 +3,11 @@ reloading, bulk stress, cycles.
 
 Under a constant normal load P the tangential load Q rises, falls and rises again. Hertz: Cattaneo
 (1938), Mindlin (1949), with a bulk stress Nowell & Hills (1987); the rounded flat: Ciavarella,
-Hills & Monno (1998), § 3. Errors are over the largest value; what one ulp of x and one of a zone's
-end do to the slip in zones a millionth long is not counted. The solver is given the loads and finds
-zones, shear, slip and energy; the closed forms, which share no code with it, are evaluated in
-mpmath for the same doubles. A closed loop must close, and the area of the loop of Q over the
-bodies' shift, by Simpson's rule, must be the energy lost.
+Hills & Monno (1998), § 3. Errors are over the largest value. The effect of one ulp of x and of a
+zone's end on the slip in zones a millionth long is not counted. The solver computes zones, shear,
+slip and energy; the closed forms, which share no code with it, are evaluated in mpmath for the same
+doubles. A closed loop must close, and the area of the loop of Q over the bodies' shift, by
+Simpson's rule, must be the energy lost.
 """
 
 from __future__ import annotations
@@ -133,9 +133,7 @@ def loaded(contact: Contact, fraction: float, factor: float = 1.0) -> tuple[floa
 
 
 def _of_ulps(solution: sie.Solution, x: Any) -> float:
-    """What one ulp of x and one of an end of its zone, which is a double too, do to the slip: much
-    in a zone that is short.
-    """
+    """The effect of one ulp of x and of the zone's end on the slip: large in a short zone."""
     here, ulp = solution.slip(x), 2.0 * float(np.spacing(solution.half_width))
     return float(
         max(np.abs(solution.slip(x + d) - here).max() for d in (-ulp, ulp)) / np.abs(here).max()
@@ -218,7 +216,7 @@ def turned(contact: Contact) -> Iterator[Record]:
 
 
 def cycled(contact: Contact) -> Iterator[Claim]:
-    """Q to and fro between ± 0.8 fP: what is lost in it, and that it closes."""
+    """A cycle of Q between ± 0.8 fP: the energy lost, and the closure of the loop."""
     Q = TURNS[0] * FP
     cycle = sie.follow(contact.scene(), sie.Path([(P, Q), (P, -Q), (P, Q)]))
     given = contact.given | {

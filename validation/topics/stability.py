@@ -1,10 +1,9 @@
-"""Where digits begin to go: one number of the contact at a time is taken to its extremes, and
-beyond what is promised.
+"""The limits of full accuracy: one number of the contact at a time is taken to its extremes.
 
-Each answer is held against a closed form in 50 digits, at the very doubles that the solver was
-given, and against its own certificate. An answer is full if its error is within the bar; known, if
-it was refused, or if the certificate owns up to a third of the error; and lost, if digits are gone
-and nothing says so. The frontier is where the first stops. The check of the check: an answer off by
+Each answer is compared with a closed form in 50 digits, at the very doubles that the solver was
+given, and with its own certificate. An answer is full if its error is within the bar; known, if it
+was refused, or if the certificate states at least a third of the error; and lost, if digits are
+lost and nothing shows it. The frontier is where full accuracy ends. The control: an answer off by
 1e-10 must miss the bar.
 """
 

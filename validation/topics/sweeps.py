@@ -1,5 +1,4 @@
-"""One number of a contact taken to its extremes: error against the truth, and what the certificate
-says of it.
+"""One number of a contact taken to its extremes: the true error, and the certificate's estimate.
 
 Each sweep is a function value -> Outcome. Truths are closed forms in 50 digits (of many pieces, a
 sum of as many in doubles), evaluated at the very doubles that the solver was given.
@@ -39,9 +38,7 @@ class Outcome:
     refused: str = ""
 
     def state(self, bar: float) -> str:
-        """full accuracy; known (refused, or the certificate owns up to a third of the error); or
-        lost, with nothing said.
-        """
+        """full; known (refused, or the certificate states a third of the error); or lost."""
         if self.refused:
             return "known"
         if self.error <= bar:
@@ -93,8 +90,10 @@ def _outcome(
 
 
 def flatness(share: float, given: str) -> Outcome:
-    """share in (-1, 1): a/b = share if positive, else 1 - |share|; pressure at places of the flat
-    and the rim, load or rim.
+    """share in (-1, 1): a/b = share if positive, else 1 - |share|.
+
+    The errors are those of the pressure on the flat and its rounded edge, and of the load or the
+    width of that edge.
     """
     thin = share < 0
     a, rim = (1.0, -share / (1.0 + share)) if thin else (share, 1.0 - share)

@@ -1,11 +1,11 @@
-"""Error against run time: this package and what others do, on the same contacts, in the same run.
+"""Error against run time: this package and other methods, on the same contacts, in the same run.
 
-Each method answers the same question, the pressure at 1001 points, and its error is taken at about
+Each method computes the pressure at 1001 points, and its error is taken at about
 24 of them, off every grid, against a truth of more than 16 digits; elements are measured at their
 own centres. Times are medians over repeats in which the method and NumPy's closed form of the
-rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are told where the contact
-ends; this package and the boundary elements find it. Tamaas and ContactMechanics run where they are
-installed (pip install -e ".[peers]"); they are periodic, and so is their contact.
+rounded punch take turns. Gauss-Chebyshev, Erdogan-Gupta and collocation are given the edges of the
+contact; this package and the boundary elements compute them. Tamaas and ContactMechanics run where
+they are installed (pip install -e ".[peers]"); they are periodic, and so is their contact.
 """
 
 from __future__ import annotations
@@ -149,7 +149,7 @@ OURS_AND_TEXTBOOKS = (
 
 
 def methods() -> tuple[Method, ...]:
-    """Those of this package and of textbooks, and the codes of others that are installed."""
+    """The methods of this package and of textbooks, and the installed codes of others."""
     others = (
         Method(name, (32, 128, 512, 2048), _elements(solver), lambda problem: bool(problem.period))
         for name, (module, solver) in solvers.INSTALLABLE.items()

@@ -1,10 +1,9 @@
-"""Wrong programs by name, with the checker that must catch each: errors from 1 down to 1e-12 of the
-pressure.
+"""Wrong programs by name, each with its checker: errors from 1 to 1e-12 of the pressure.
 
 Some are formulas with a term wrong in place of the pressure; the others are this package itself
-with one of its parts replaced while it solves. The certificate catches what breaks the equations;
-what is wrong in the question (a constant, the sign of β) satisfies wrong equations perfectly, and
-only a closed form that shares no code can tell.
+with one of its parts replaced while it solves. The certificate catches answers that do not satisfy
+the equations. A wrong input (a constant, the sign of β) satisfies wrong equations perfectly, and
+only a closed form that shares no code shows the error.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ class Mutant:
 def stand_in(
     name: str, says: str, scene: sie.Scene, values: Callable[[], Any], **claims: Any
 ) -> Mutant:
-    """Another pressure behind the certificate's back."""
+    """A solution with another pressure, for the certificate."""
 
     def number(wrong: bool) -> float:
         if not wrong:
@@ -70,7 +69,7 @@ def _scaled(factor: float) -> Callable[[], Any]:
 
 
 def _half_panel() -> Any:
-    """Half of the right rim is left out of the integral."""
+    """Half of the right rounded edge is left out of the integral."""
     slope = PUNCH.profile.slope
     return lambda x: solvers.gauss_chebyshev(
         lambda t: np.where(t > 0.75, 0.0, slope(t)), -1.0, 1.0, 400, np.clip(x, -1.0, 1.0)
@@ -98,10 +97,10 @@ STAND_INS = (
         lambda: lambda x: sie.solve(PUNCH).pressure(x) * (1 - np.minimum(x * x, 1)),
     ),
     stand_in(
-        "homogeneous solution", "1.5e-13/w added, to which (1) is blind", PUNCH,
+        "homogeneous solution", "1.5e-13/w added, which the residual of (1) does not show", PUNCH,
         lambda: lambda x: sie.solve(PUNCH).pressure(x) + 1e-13 * 1.5 / root(x),
     ),
-    stand_in("half panel", "half of the right rim left out of the integral", PUNCH, _half_panel),
+    stand_in("half panel", "half of the right arc left out of the integral", PUNCH, _half_panel),
     stand_in("transposed map", "s for -s: the mirror image of the pressure", SKEW, _transposed),
     stand_in("centre off by 1e-12", "the pressure shifted", SKEW,
              lambda: lambda x: sie.solve(SKEW).pressure(x - 1e-12)),
@@ -120,8 +119,9 @@ def replaced(
     name: str, says: str, part: Callable[[], AbstractContextManager[Any]], scene: sie.Scene,
     truth: Callable[[Any], Any] | None = None
 ) -> Mutant:  # fmt: skip
-    """The package solves with a part replaced; then its certificate is asked, or a closed form of
-    `analytic` at points of the contact.
+    """The package solves with a part replaced; its certificate or a closed form must show it.
+
+    The closed form is that of `analytic` at points of the contact.
     """
 
     def number(wrong: bool) -> float:

@@ -1,5 +1,4 @@
-"""Wrong programs of the newer parts: shear, load paths, sliding, bonded punches, traces, stress
-inside, sums over many pieces.
+"""Wrong programs: shear, load paths, sliding, full stick, traces, stress, many pieces.
 
 Each is this package with one of its parts replaced while it solves; its answer is held against a
 closed form that shares no code with it.
@@ -234,7 +233,7 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
     ),
     (
         "reduced load P - Q",
-        "friction forgotten in P - Q/f",
+        "friction left out of P - Q/f",
         partial(
             number,
             _instead(partial_slip, "remaining", lambda _, f, P, Q: P - abs(Q)),

@@ -1,5 +1,6 @@
-"""Wrong programs, by name: what they get wrong, and the pressure that comes of it. The certificate
-must see each, whatever its size.
+"""Wrong programs by name: the error, and the resulting pressure.
+
+The certificate must detect each, whatever its size.
 
 `Wrong` stands in for a solution's pressure. Some are formulas with a term wrong, some are this
 package with one of its parts replaced.
@@ -19,7 +20,7 @@ Values = Callable[[Array], Array]
 
 
 class Wrong:
-    """A density with other values; `claims` are attributes that lie (resultant, moment)."""
+    """A density with other values; `claims` are wrong attributes (resultant, moment)."""
 
     def __init__(self, density: Any, values: Values, **claims: Any) -> None:
         self.__dict__.update(claims, right=density, values=values)
@@ -34,7 +35,7 @@ class Wrong:
 
 
 def with_pressure(scene: sie.Scene, values: Values | None = None, **claims: Any) -> sie.Solution:
-    """A solution whose pressure takes other values, and whose attributes may lie."""
+    """A solution whose pressure has other values, and whose attributes may be wrong."""
     solution = sie.solve(scene)
     right = solution.pressure
     solution.__dict__["pressure"] = Wrong(right, values or right, **claims)

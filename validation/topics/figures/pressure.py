@@ -17,6 +17,6 @@ def figures(found: Found) -> Iterator[Figure]:
     legend(ax)
     yield Figure(
         "certificate", drawing,
-        "The true error of each case, and what the certificate says of it without knowing the "
+        "The true error of each case, and the certificate's estimate, which does not use the "
         "truth. The line is the promise, 1e-13."
     )  # fmt: skip

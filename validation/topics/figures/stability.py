@@ -92,7 +92,7 @@ def _frontier(found: Found) -> Figure:
     return Figure(
         "frontier", drawing,
         "How far each number can be taken. Green: full accuracy; yellow: refused, or the "
-        "certificate owns up; red: lost in silence. "
+        "certificate shows it; red: lost in silence. "
         "Below each row, what is promised.",
     )  # fmt: skip
 
