@@ -205,7 +205,8 @@ class Solution:
     @cached_property
     def coupled(self) -> tuple[Edges, CoupledContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
-        return coupled_contact(self.scene, self.tol)
+        frictionless = partial(normal_contact, tol=self.tol, economy=ECONOMY)
+        return coupled_contact(self.scene, self.tol, frictionless)
 
     @property
     def normal_and_shear(self) -> JacobiDensity:

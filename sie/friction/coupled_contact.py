@@ -19,11 +19,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.edges import Edges
-from sie.contact.normal import normal_contact
+from sie.contact.pressure import Normal
 from sie.errors import ContactError, LoadError
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, interval_about
-from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.profiles.resolution import refined
@@ -317,20 +316,23 @@ def _axis(scene: Scene, bound: Edges) -> float:
     return contact.m
 
 
-def coupled_contact(scene: Scene, tol: float) -> tuple[Edges, CoupledContact]:
-    """The edges and the state; ContactError where no contact answers."""
+def coupled_contact(
+    scene: Scene, tol: float, frictionless: Callable[[Scene], Normal]
+) -> tuple[Edges, CoupledContact]:
+    """The edges and the state; ContactError where no contact answers.
+
+    `frictionless` solves the normal problem of a scene; its contact bounds the search.
+    """
     beta, profile = scene.beta, scene.profile
     flat = flat_functions(abs(beta), scene.friction)
     half_modulus = 0.5 * scene.Estar
-    bound = normal_contact(
+    bound = frictionless(
         Scene(
             profile=profile,
             modulus=scene.Estar,
             normal_load=scene.normal_load,
             half_width=scene.half_width,
-        ),
-        tol,
-        ECONOMY,
+        )
     )
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
     axis = _axis(scene, bound.edges)
