@@ -46,7 +46,7 @@ from .profiles.sampled import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
-from .traction.base import ZERO, Density, on_line, zero_or_nan
+from .traction.base import ZERO, Density, on_line
 from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
 
@@ -620,7 +620,9 @@ class Solution:
         """
         x = arguments.reals("x", x)
         if self.scene.bonded:
-            return np.where((x < self.edges[0]) | (x > self.edges[1]), np.inf, zero_or_nan(x))
+            return np.where(
+                (x < self.edges[0]) | (x > self.edges[1]), np.inf, np.where(np.isnan(x), x, 0.0)
+            )
         if self.scene.coupled:
             return self.coupled[1].gap(x, self.scene.profile)
         if self._several is not None:

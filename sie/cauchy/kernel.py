@@ -40,9 +40,8 @@ ROUNDING, MISSED = (
     4.0 * EPS,
     64.0 * EPS,
 )  # ... or to rounding; and what then is missed on no grid, in the mean: rounding of k itself
-PREDICTABLE = (
-    0.05  # from a tail below this part of the largest coefficient the size needed is estimated ...
-)
+# from a tail below this part of the largest coefficient the size needed is estimated ...
+PREDICTABLE = 0.05
 MARGIN = 1.25  # ... times this
 
 

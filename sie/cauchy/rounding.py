@@ -25,9 +25,8 @@ from .interval_map import Map
 Array = NDArray[Any]
 
 DRAWS = 4  # of roundings
-LARGEST = (
-    3.0  # a rounding's effect is hardly more than this times its root mean square over so few draws
-)
+# a rounding's effect is hardly more than this times its root mean square over so few draws
+LARGEST = 3.0
 
 
 class Spread(NamedTuple):

@@ -43,9 +43,8 @@ LARGEST_RULE, LARGEST_COMPLEX_RULE = (
     4000,
     1500,
 )  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
-NEAR_MINUS_ONE = (
-    1e-6  # an exponent within this of -1 has fewer digits left than the tolerance needs
-)
+# an exponent within this of -1 has fewer digits left than the tolerance needs
+NEAR_MINUS_ONE = 1e-6
 LARGEST_GUESS = 1000  # ... and the first size as estimated from g alone
 IDLE, SETTLED = (
     3,

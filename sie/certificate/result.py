@@ -18,9 +18,8 @@ PROMISE = (
 )
 WIDE = 79  # columns of a terminal
 LEAST = 8.0 * EPS  # rounding of single pressures, which the integrals average out ...
-EXPLAINED = (
-    16.0  # what one ulp of x does may add up to this multiple in a principal value next to a corner
-)
+# what one ulp of x does may add up to this multiple in a principal value next to a corner
+EXPLAINED = 16.0
 MOST_EXPLAINED = 0.1  # of the peak: where rounding of x can do more than that, nothing is certified
 RETREAT = "with Q and σ in proportion the zones of slip would retreat on the way here"
 

@@ -32,9 +32,8 @@ NAMED = 3  # intervals that a message names
 ROUNDING = (
     8.0 * EPS
 )  # of the slopes in the contact: by less a slope that rises may fall from point to point
-SCANNED = (
-    600  # points in contact at which the pressure's sign is looked at, at least 3 on every piece
-)
+# points in contact at which the pressure's sign is looked at, at least 3 on every piece
+SCANNED = 600
 
 
 def slope_rises(density: SlopeDensity, slope: Slope) -> bool:

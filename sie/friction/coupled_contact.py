@@ -45,9 +45,8 @@ LOOKS, EVEN = (
     1e-10,
 )  # where the symmetry of a profile is measured, and to what part of its slope
 ENERGY_NODES = 24
-NEAR_EDGE = (
-    1e-9  # half-widths: the first panel beside the edge, where H has a power of the distance
-)
+# half-widths: the first panel beside the edge, where H has a power of the distance
+NEAR_EDGE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)

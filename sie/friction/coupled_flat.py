@@ -47,9 +47,8 @@ FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
 # tell
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.3
-WIDEST_RATIO = (
-    250.0  # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
-)
+# beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
+WIDEST_RATIO = 250.0
 FIRST_STEP, SETTLED, MOST_STEPS = 0.02, 1e-14, 20
 
 

@@ -32,13 +32,11 @@ from .load_limit import refuse_sliding
 
 # A layer below this fraction of the whole memory is what rounding left of one that was wiped out.
 NOTHING = 8.0 * EPS
-BALANCED = (
-    1e-12  # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
-)
+# of κ: layers go without slip where Q falls with P as they carried it, but for rounding
+BALANCED = 1e-12
 ROUNDED = 4.0 * EPS  # of f P: by so much a rise in proportion may exceed |dQ| = f dP
-PROPORTIONAL = (
-    1e-12  # of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
-)
+# of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+PROPORTIONAL = 1e-12
 
 
 # -- the steps of a path ---------------------------------------------------------------------------

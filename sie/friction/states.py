@@ -93,9 +93,8 @@ class Slip(ABC):
     friction: float
     stick: tuple[tuple[float, float], ...]
     advancing: bool = True  # whether the zones of slip grow along the whole step
-    condition: float = (
-        1.0  # how much larger a relative error of the load on the stick zone is than one of P or Q
-    )
+    # how much larger a relative error of the load on the stick zone is than one of P or Q
+    condition: float = 1.0
 
     @property
     @abstractmethod

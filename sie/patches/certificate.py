@@ -34,9 +34,8 @@ TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times an ulp of x
 MOST = 1e-3  # of the peak: where an ulp of x can do more nothing is certified
 LEAST = 8.0 * float(np.finfo(float).eps)
-ROUGH = (
-    1e-9  # what the sum that measures may miss of a rough profile, whose pieces it does not grade
-)
+# what the sum that measures may miss of a rough profile, whose pieces it does not grade
+ROUGH = 1e-9
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 WIDE = 79
 

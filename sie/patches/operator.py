@@ -30,9 +30,8 @@ from .pieces import Pieces
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-NEAR = (
-    2.5  # half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
-)
+# half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
+NEAR = 2.5
 FAR = 3.0  # half-lengths of a cell from its middle: its charges serve from here on
 CHARGES = 20  # of a cell: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
 CELL = 64  # nodes in a cell, about

@@ -43,9 +43,8 @@ Array = NDArray[np.float64]
 
 ALL_KNOTS = 1000  # up to so many points each is a knot
 FEWEST_KNOTS = 250
-KNOTS_IN_LENGTH = (
-    10.0  # a spline on these differs from that on all points by 1e-5 of what smoothing changes
-)
+# a spline on these differs from that on all points by 1e-5 of what smoothing changes
+KNOTS_IN_LENGTH = 10.0
 SHORT = KNOTS_IN_LENGTH**4  # λ over the cube of the mean spacing: up to so many points are averaged
 EXACT_TRACE = 400
 PROBES = 16

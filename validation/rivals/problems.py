@@ -43,9 +43,8 @@ class Problem:
         None  # for boundary elements, with `closed` at many points
     )
     closed: Callable[[Array], Array] | None = None
-    series: bool = (
-        True  # whether Gauss-Chebyshev and Erdogan-Gupta apply: not where the exponents leave 1/2
-    )
+    # whether Gauss-Chebyshev and Erdogan-Gupta apply: not where the exponents leave 1/2
+    series: bool = True
     epsilon: float = 0.0
     period: float = 0.0
     places: tuple[float, ...] = field(default=())  # further samples, in s

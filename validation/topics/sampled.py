@@ -32,9 +32,8 @@ SECONDS = (3.0, 9.0)
 TIMED = False
 BAR = 1e-11
 SPOILED = 1e-9
-NODES = (
-    12  # of Gauss-Legendre on each piece of a spline: exact to degree 23, and the pieces are short
-)
+# of Gauss-Legendre on each piece of a spline: exact to degree 23, and the pieces are short
+NODES = 12
 SAMPLES = (150, 1000)
 SIZES = ((100, 1000, 3000), (100, 1000, 10_000))
 GROWTH = 3.0  # times what is linear: 300 from 100 to 10^4 of pieces and of points
