@@ -184,8 +184,8 @@ def noise(n: int) -> Iterator[Record]:
         f"trace of {n} points with noise: error of the half-width under a load",
         "this project: within 1 %",
         measured,
-        error(noisy(3000, 0.0)),
-        "the noise left in the trace",
+        error(noisy(3000, 100.0)),
+        "smoothing by which the curvature is lost too",
         high=ONE_PERCENT,
     )
     smooth: Any = scene.profile
