@@ -9,7 +9,7 @@ Each module is one indenter under one kind of load:
     sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
     bonded_flat                                           no slip at all, dissimilar bodies
     cattaneo, cattaneo_rounded                            partial slip, bodies alike
-    goodman                                               partial slip of dissimilar bodies, small beta
+    goodman                                               stick zone of dissimilar bodies
     cracks                                                what corresponds among cracks
 
 All speak one notation:

@@ -1,4 +1,4 @@
-"""A Cauchy equation prepared for the solver: maps, weights, conditions, and its functions sampled."""
+"""A Cauchy equation prepared for the solver: maps, weights, conditions, sampled functions."""
 
 from __future__ import annotations
 

@@ -91,7 +91,8 @@ class Search:
     half_modulus: float
     axis: float | None = None  # of a symmetric profile: half the unknowns and half the pieces
     keep_zero: bool = False
-    epsilon: float = 0.0  # of the edges' exponents in full sliding (`on_panels`); half_modulus is then E*/2 cos πε
+    # of the edges' exponents in full sliding (`on_panels`); half_modulus is then E*/2 cos πε
+    epsilon: float = 0.0
     mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
     # of the last contact, which the search often ends with

@@ -73,7 +73,8 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
             f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak "
             f"{peak:.3g}){_among(intervals)}: "
             "the profile is not convex there and lifts off; "
-            "give normal_load, under which several patches are found, raise the load or smooth the profile",
+            "give normal_load, under which several patches are found, raise the load or smooth "
+            "the profile",
             x=where,
             edges=density.interval,
             tension=intervals,
@@ -83,7 +84,8 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         where, intervals = float(x[np.argmin(gaps)]), intervals_below(x, gaps)
         raise InequalityError(
             f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
-            "the profile touches there too; give normal_load, under which several patches are found, "
+            "the profile touches there too; give normal_load, under which several patches are "
+            "found, "
             "lower the load, raise it until they merge, or smooth the profile",
             x=where,
             edges=density.interval,

@@ -22,8 +22,8 @@ from sie.profiles.slope import Slope, polynomial_slope
 from .edges import Found, Search
 
 NARROWER = 0.8  # each half-width tried is this part of the one before
-# Parts of the widest. The window of a function is fitted to the contact, which is 0.8 of it: whether
-# that carries more than the load is rounding, so that a wider one is tried first.
+# Parts of the widest. The window of a function is fitted to the contact, which is 0.8 of it:
+# whether that carries more than the load is rounding, so that a wider one is tried first.
 TRIED = (0.95, *(NARROWER**k for k in range(1, 31)))
 LEAST = 1e-6  # of the load: what carries less counts as this much in logarithms
 CLOSE = 1e-4  # of the load: from there Newton's steps for both edges

@@ -1,4 +1,5 @@
-"""Whether patches are the answer: p >= 0 on all of them and gap >= 0 beside them, by bounds and not by samples.
+"""Whether patches are the answer: p >= 0 on all of them and gap >= 0 beside them, by bounds and not
+by samples.
 
     on a patch     D >= 0, panel by panel: a Legendre series has c_0 - Σ|c_n| as a lower bound
     beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
@@ -41,7 +42,9 @@ class Tension(NamedTuple):
 
 
 class Overlap(NamedTuple):
-    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the largest g of that gap."""
+    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the
+    largest g of that gap.
+    """
 
     gap: int
     lo: float
@@ -126,7 +129,7 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
 
 
 def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
-    """Runs of neighbouring nodes of a panel where D is negative: (from, first node, last node, up to).
+    """Runs of neighbouring nodes of a panel where D < 0: (from, first node, last node, up to).
 
     They reach half-way to the next node, or as far beyond the panel's first or last one.
     """
@@ -205,7 +208,9 @@ def _clusters(x: Array, index: Index, r: float) -> list[Index]:
 
 
 class Side(NamedTuple):
-    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ and of the integrand, g at its start."""
+    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ
+    and of the integrand, g at its start.
+    """
 
     panels: GapPanels
     sign: Array
@@ -257,7 +262,9 @@ def _overlaps(o: Operator) -> tuple[Overlap, ...]:
 
 
 def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:
-    """Neighbouring places of overlap as one; each place comes with the width of the part that it is on."""
+    """Neighbouring places of overlap as one; each place comes with the width of the part that it is
+    on.
+    """
     found: list[Overlap] = []
     before = 0.0
     for gap, x, value, wide in sorted(bad):
@@ -346,7 +353,9 @@ def _series(c: Array, panel: Index, s: Array) -> Array:
 
 
 def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray[np.bool_]]:
-    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge); of voids nothing."""
+    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge); of voids
+    nothing.
+    """
     pieces = o.pieces
     edge = panels.points.anchor[:, 0]
     sign = np.where(panels.right, -1.0, 1.0)

@@ -65,7 +65,9 @@ def asks_for_patches(profile: Profile) -> bool:
 
 
 def several_patches(scene: Scene) -> SeveralPatches | FullContact:
-    """Raises ContactError where no patches are certified, or the scene asks for what is not covered."""
+    """Raises ContactError where no patches are certified, or the scene asks for what is not
+    covered.
+    """
     _refuse_uncovered(scene)
     try:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
@@ -116,7 +118,8 @@ def _refuse_uncovered(scene: Scene) -> None:
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"
         raise ContactError(
-            f"{what} on several patches of contact are not covered: set friction = 0, or dundurs = 0"
+            f"{what} on several patches of contact are not covered: set friction = 0, or dundurs "
+            "= 0"
         )
     if scene.profile.period < np.inf and (scene.moment is not None or scene.tilt != 0.0):
         raise ContactError("a periodic profile keeps level: leave out tilt and moment")

@@ -1,9 +1,11 @@
 """What is measured on contact in several patches, by sums that the solver did not use.
 
-residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak, per period with (π/λ) cot(π(x - t)/λ)
+residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak; per period the kernel is
+              (π/λ) cot(π(x - t)/λ)
 equilibrium   |∫p dx - P| / P, |∫p x dx - M| / (P r)
 inequalities  the lowest bound of D over the largest D, and places where the gap would be negative
-condition     relative change of the narrowest patch per relative change of the load: large near an event
+condition     relative change of the narrowest patch per relative change of the load; it is large
+              where a patch is about to appear, or two to merge
 """
 
 from __future__ import annotations
@@ -145,7 +147,9 @@ def certificate(
 
 
 def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
-    """The first, that of the pressure, with the worst numbers of all: what a shear is made of counts as well."""
+    """The first, that of the pressure, with the worst numbers of all: what a shear is made of
+    counts as well.
+    """
     return replace(
         found[0],
         residual=max(c.residual for c in found),
@@ -163,7 +167,8 @@ def _notes(condition: float) -> tuple[str, ...]:
     if condition < CLOSE:
         return ()
     sentence = (
-        f"note: a patch of contact is about to appear, or two to merge: a change of the load by 1e-9 "
+        "note: a patch of contact is about to appear, or two to merge: a change of the load by "
+        "1e-9 "
         f"changes the narrowest patch by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
@@ -186,7 +191,9 @@ def conditioning(state: State, pieces: Any, given: Given) -> float:
 
 
 class Measure(NamedTuple):
-    """Places x with weights dx and their patches; and places between them, on patches, where the equation is measured."""
+    """Places x with weights dx and their patches; and places between them, on patches, where the
+    equation is measured.
+    """
 
     x: Array
     weight: Array

@@ -1,6 +1,7 @@
 """The pressure on several patches: values, loads, potential.
 
-    p(x) = (E*/2π) |T_i(x)| D_i(x) on patch i,       F(z) = (E*/2) (H(z) + θ - T_i(z) D_i(z)/π) anywhere
+    p(x) = (E*/2π) |T_i(x)| D_i(x) on patch i
+    F(z) = (E*/2) (H(z) + θ - T_i(z) D_i(z)/π) anywhere
 
 with H continued from the nearest piece, or any constant: F does not depend on it. Per period F is
 1/λ ∫ p(t) cot(π(z - t)/λ) dt, the sum over all repetitions.
@@ -102,7 +103,9 @@ class PatchPressure(Density):
     # -- on the line -------------------------------------------------------------------------------
 
     def placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:
-        """x by the nearest edge of a patch; the patch that it is nearest to, and whether it is on that."""
+        """x by the nearest edge of a patch; the patch that it is nearest to, and whether it is on
+        that.
+        """
         P = self.operator.patches
         if P.chord.periodic:
             cut = P.a[0] - 0.5 * P.gaps[-1]
@@ -240,7 +243,9 @@ class PatchPressure(Density):
         )
 
     def _derivative(self, z: Complex, side: int) -> Complex:
-        """By Cauchy's formula on a circle that touches no traction; in contact from the values of p beside it."""
+        """By Cauchy's formula on a circle that touches no traction; in contact from the values of p
+        beside it.
+        """
         points, k, inside = self.placed(z.real)
         P = self.operator.patches
         off = np.maximum(np.maximum(P.a[k] - points.x, points.x - P.b[k]), 0.0)

@@ -1,13 +1,16 @@
 """Stick and slip on several patches at β = 0: Q and a bulk stress in proportion, after P.
 
-    q = ± f (p - p*),        p* the pressure of the same profile under P* = P - |Q|/f at the tilt of p
+    q = ± f (p - p*)
 
-The patches of p* are the stick zones; a patch that p* lacks slides all over (Ciavarella 1998; Jäger 1998). One rigid shift
-of all patches is for q what one approach is for p; at equal tilt p* <= p and its patches lie in those of p, so that the slip
+p* is the pressure of the same profile under P* = P - |Q|/f at the tilt of p. Its patches are the
+stick zones; a patch of p without one in p* slides all over (Ciavarella 1998; Jäger 1998). One rigid
+shift of all patches is for q what one approach is for p. At equal tilt p* <= p, and the patches of
+p* lie in those of p, so that the slip
 
-    g = ± f gap*                                          gap* that of p*, on the patches of p
+    g = ± f gap*                          gap* that of p*, on the patches of p
 
-has one sign everywhere. A bulk stress tilts the profile of p* by ∓2τ/(f E*) over all patches: then both are verified.
+has one sign everywhere. A bulk stress tilts the profile of p* by ∓2τ/(f E*) over all patches: then
+both are verified.
 """
 
 from __future__ import annotations
@@ -63,12 +66,14 @@ class PatchSlip(Slip):
             return None
         if self.tau != 0.0 and scene.profile.period < np.inf:
             raise ContactError(
-                f"bulk_stress = {scene.bulk_stress:g} in one of two bodies that meet periodically has no periodic "
+                f"bulk_stress = {scene.bulk_stress:g} in one of two bodies that meet "
+                "periodically has no periodic "
                 "answer: leave it out, or give it to both bodies as a stress afterwards"
             )
         if Q == 0.0:
             raise ContactError(
-                f"bulk_stress = {scene.bulk_stress:g} without tangential_load makes the patches slip both ways: "
+                f"bulk_stress = {scene.bulk_stress:g} without tangential_load makes the patches "
+                "slip both ways: "
                 "that is not covered on several patches; give tangential_load"
             )
         G = 0.5 * scene.Estar
@@ -102,7 +107,8 @@ class PatchSlip(Slip):
         if not inside or excess:
             raise ContactError(
                 f"bulk_stress = {self.scene.bulk_stress:g} makes the patches slip both ways under "
-                f"tangential_load = {self.tangential_load:g}: that is not covered on several patches; "
+                f"tangential_load = {self.tangential_load:g}: that is not covered on several "
+                "patches; "
                 "lower the bulk stress or raise the tangential load"
             )
 

@@ -1,6 +1,9 @@
-"""Full contact of a periodic profile: no edges, every harmonic A cos(kx + φ) of h gives the pressure -E*/2 k A cos(kx + φ).
+"""Full contact of a periodic profile, without edges.
 
-    p(x) = P/λ + (E*/2λ) ∫_λ (H(t) - H(x)) cot(π(t - x)/λ) dt,    F(z) = (E*/2) [H + i/λ ∫ (H(t) - H) cot(π(z - t)/λ) dt] - i P/λ
+Every harmonic A cos(kx + φ) of h gives the pressure -E*/2 k A cos(kx + φ):
+
+    p(x) = P/λ + (E*/2λ) ∫_λ (H(t) - H(x)) cot(π(t - x)/λ) dt
+    F(z) = (E*/2) [H + i/λ ∫_λ (H(t) - H) cot(π(z - t)/λ) dt] - i P/λ
 
 for Im z > 0, with any H taken out. It is the answer if p >= 0, which is verified by bounds.
 """
@@ -37,7 +40,9 @@ CHUNK = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class FullPressure(Density):
-    """The pressure of full contact on [start, start + period], repeated; load per period; half_modulus E*/2."""
+    """The pressure of full contact on [start, start + period], repeated; load per period;
+    half_modulus E*/2.
+    """
 
     pieces: Pieces
     start: float

@@ -1,12 +1,16 @@
 """Newton's method for the edges of N patches, with a Jacobian in closed form.
 
-    C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0,   K_i = ∫_{gap i} g' dx = 0,   P = G ∫ H d(t, c_j) dν_j,   M = G ∫ H t d(t, c_j) dν_j
+    C_j = ∫ H cos(π(t - c_j)/λ) dν_j = 0          K_i = ∫_{gap i} g' dx = 0
+    P = G ∫ H d(t, c_j) dν_j                      M = G ∫ H t d(t, c_j) dν_j
 
-When an edge e of patch k moves by δ, F changes by (G/2π) D_k(e) T_k(z)/d(z, e) δ: a point charge at e. With y = D_k(e) δ/2
+When an edge e of patch k moves by δ, F changes by (G/2π) D_k(e) T_k(z)/d(z, e) δ: a point charge at
+e. With y = D_k(e) δ/2
 
-    ∂C_j = ρ_j(e) cos(π(e - c_j)/λ),   ∂K_i = -(1/π) ρ_i(e) ∫_{gap i} T_i/d(x, e) dx,   ∂P = G d(e, c_k),   ∂M = G d(e, c_k) e
+    ∂C_j = ρ_j(e) cos(π(e - c_j)/λ)               ∂K_i = -(1/π) ρ_i(e) ∫_{gap i} T_i/d(x, e) dx
+    ∂P = G d(e, c_k)                              ∂M = G d(e, c_k) e
 
-with ρ_j(e) = d(e, c_k)/d(e, c_j). At a sharp edge, the end of the indenter, the unknown is the charge itself.
+with ρ_j(e) = d(e, c_k)/d(e, c_j). At a sharp edge, the end of the indenter, the unknown is the
+charge itself.
 """
 
 from __future__ import annotations
@@ -58,7 +62,9 @@ class State:
 
 
 class Event(NamedTuple):
-    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or "smooth" and edge k."""
+    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
+    "smooth" and edge k.
+    """
 
     kind: str
     number: int
@@ -180,7 +186,9 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
 
 
 def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | None, int]:
-    """Edges that meet the conditions, or the event that stopped the search on its way; and the steps."""
+    """Edges that meet the conditions, or the event that stopped the search on its way; and the
+    steps.
+    """
     low, high = (np.repeat(v, 2) for v in pieces.solid_around(state.patches.c))
     outward = np.where(np.arange(2 * state.patches.number) % 2 == 0, -1.0, 1.0)
     before, insists = np.inf, np.zeros(2 * state.patches.number, dtype=int)

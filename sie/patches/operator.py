@@ -1,14 +1,17 @@
 """The one operator of contact in N patches, on the line and per period.
 
-    W_i(x) = sqrt(d(x, a_i) d(b_i, x))          S_i(x) = Π_{j≠i} sqrt(d(x, a_j) d(x, b_j)) / |d(x, c_j)|
-    T_i(z) = sqrt(d(z, a_i) d(z, b_i)) S_i(z),  dν_i = dt/|T_i|, on patch k with the sign of d(t, c_k)/d(t, c_i)
+    W_i(x) = sqrt(d(x, a_i) d(b_i, x))
+    S_i(x) = Π_{j≠i} sqrt(d(x, a_j) d(x, b_j)) / |d(x, c_j)|
+    T_i(z) = sqrt(d(z, a_i) d(z, b_i)) S_i(z)
+    dν_i = dt/|T_i|, on patch k with the sign of d(t, c_k)/d(t, c_i)
 
-    D_i(x) = ∫_{patches} (H(t) - H(x))/d(t, x) dν_i        p = (G/π) |T_i| D_i,    g' = (1/π) T_i D_i in a gap
+    D_i(x) = ∫_{patches} (H(t) - H(x))/d(t, x) dν_i
+    p = (G/π) |T_i| D_i on patch i                g' = (1/π) T_i D_i in a gap
 
-Beside patch i its own nodes are summed as they are; where x is near a panel the difference quotient
-of the same piece of H is taken exactly, and of another piece k the pole at x is integrated in closed
-form: what (H_k(x) - H(x))/d(t, x) leaves in Gauss' rule is known. Cells of panels that are far from
-x act through a few charges on their Chebyshev points (Dutt, Gu & Rokhlin 1996).
+Beside patch i its own nodes are summed as they are. Where x is near a panel the difference quotient
+of the same piece of H is taken exactly, and of another piece k the pole at x is integrated in
+closed form: what (H_k(x) - H(x))/d(t, x) leaves in Gauss' rule is known. Cells of panels that are
+far from x act through a few charges on their Chebyshev points (Dutt, Gu & Rokhlin 1996).
 """
 
 from __future__ import annotations
@@ -39,7 +42,9 @@ CHUNK = 1 << 18  # entries of an array that are computed at once
 
 
 class Cells(NamedTuple):
-    """Runs of panels of one patch: first panel and end, middles and half-lengths, and charges of ω, ωH, b, bH on Chebyshev points."""
+    """Runs of panels of one patch: first panel and end, middles and half-lengths, and charges of ω,
+    ωH, b, bH on Chebyshev points.
+    """
 
     start: Index
     stop: Index
@@ -73,7 +78,9 @@ class Targets(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Operator:
-    """The slope H on patches; `charge` (2N,) are the point charges of sharp edges, a_1, b_1, a_2 ..., in units of slope."""
+    """The slope H on patches; `charge` (2N,) are the point charges of sharp edges, a_1, b_1, a_2
+    ..., in units of slope.
+    """
 
     patches: Patches
     pieces: Pieces
@@ -91,7 +98,7 @@ class Operator:
     def gaps(self) -> GapPanels:
         return gap_panels(self.patches, self.pieces)
 
-    # -- the root ------------------------------------------------------------------------------------------------------
+    # -- the root ----------------------------------------------------------------------------------
 
     def others(self, i: Index, x: Points) -> Any:
         """S_i at points (flat arrays), one patch i for each; S_i > 0 off the other patches."""
@@ -123,7 +130,7 @@ class Operator:
         T = np.sqrt(np.abs(left * right)) * S
         return np.where((left < 0.0) & (right < 0.0), -T, T), S
 
-    # -- the measure on the patches ------------------------------------------------------------------------------------
+    # -- the measure on the patches ----------------------------------------------------------------
 
     @cached_property
     def weight(self) -> Array:
@@ -212,10 +219,12 @@ class Operator:
         points = half[:, None] * chebyshev.points(CHARGES)
         return Cells(starts, stops, k.patch[starts], middle, half, points, moments @ SPREAD)
 
-    # -- sums for one group of targets ---------------------------------------------------------------------------------
+    # -- sums for one group of targets -------------------------------------------------------------
 
     def group(self, i: int, lo: float, hi: float) -> Group:
-        """What sums at targets between lo and hi need that use T_i: which cells act through charges, which panels node by node."""
+        """What sums at targets between lo and hi need that use T_i: which cells act through
+        charges, which panels node by node.
+        """
         P, cells = self.patches, self.cells
         wide = (
             min(lo, float(P.c[i])),
@@ -392,7 +401,9 @@ class Group:
         return rows, panels
 
     def _shared(self, targets: Targets, rows: Index, panels: Index, step: Any) -> Any:
-        """The integral over each near panel: the exact quotient on the same piece of H, and on others the pole apart."""
+        """The integral over each near panel: the exact quotient on the same piece of H, and on
+        others the pole apart.
+        """
         x, reference, piece, S, owner = targets
         o, k = self.operator, self.operator.panels
         own = k.piece[self.near][panels]
@@ -419,7 +430,7 @@ class Group:
         real = np.real(places.x)
         beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(places.offset)))
         counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
-        # not beside a repetition of the panel: of one patch per period both sides of a gap are the same patch
+        # not beside a repetition of the panel: of one patch per period both sides of a gap are it
         here = np.abs(places.anchor - k.points.anchor[q, 0]) <= 0.5 * o.patches.chord.period
         counts &= here & (k.patch[q] == owner[rows[other]])
         if counts.any():

@@ -25,7 +25,9 @@ Index = NDArray[np.int64]
 
 
 class Rule(NamedTuple):
-    """Nodes on a panel; the first panel at an edge, over the angle of the nearest singularity, and how the next ones grow."""
+    """Nodes on a panel; the first panel at an edge, over the angle of the nearest singularity, and
+    how the next ones grow.
+    """
 
     nodes: int
     first: float
@@ -35,7 +37,8 @@ class Rule(NamedTuple):
 LONG, SHORT = Rule(16, 1.5, 4.0), Rule(8, 0.5, 2.0)
 FINE = Rule(16, 0.5, 2.0)  # where values between the nodes are asked for as well
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
-FARTHEST = 1e4  # half-widths of the whole contact: how far out the gap is looked at where the indenter does not end
+# half-widths of the whole contact: how far out the gap is looked at where the indenter does not end
+FARTHEST = 1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +143,9 @@ def patch_panels(patches: Patches, pieces: Pieces) -> PatchPanels:
 
 @dataclass(frozen=True, eq=False)
 class GapPanels:
-    """Panels (p,) in gaps, nodes (p, n). Gap i is to the right of patch i; -1 and N - 1 are outside on the line.
+    """Panels (p,) in gaps, nodes (p, n).
+
+    Gap i is to the right of patch i; on the line -1 and N - 1 are outside.
 
     gap             (p,) its number
     right           (p,) whether the panel counts from the right end of its gap
@@ -173,7 +178,9 @@ class GapPanels:
 
 
 def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
-    """(distance from the edge, root, derivative of the distance) at a parameter of a gap of this width."""
+    """(distance from the edge, root, derivative of the distance) at a parameter of a gap of this
+    width.
+    """
     inner = np.isfinite(width)
     w = np.where(inner, width, 1.0)
     angle = np.where(inner, parameter, 0.0)

@@ -1,4 +1,5 @@
-"""The slope H of a profile on its pieces: values, divided differences and rises that keep their digits.
+"""The slope H of a profile on its pieces: values, divided differences and rises that keep their
+digits.
 
 On a piece H is a polynomial about an origin of its own, plus (where the profile has functions) a
 Chebyshev series. What the integrals ask for beside values are
@@ -211,7 +212,9 @@ class Pieces:
 
 
 def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pieces:
-    """The slope of a profile with its walls, functions resolved on the window; several copies of a periodic one."""
+    """The slope of a profile with its walls, functions resolved on the window; several copies of a
+    periodic one.
+    """
     slope = profile.pieces
     pieces = _with_walls(from_slope(slope, window, tol), profile.walls, profile)
     if profile.period == np.inf:

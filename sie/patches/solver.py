@@ -1,9 +1,8 @@
 """From a load to the patches, their number included.
 
-A grid says where contact is, about; Newton's method finds the edges; the inequalities are verified by
-bounds. Where they fail the patches are mended, cut where they pull, born where the bodies overlap,
-merged where a gap overlaps all over, and Newton's method starts again. What is not certified is not
-returned.
+A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
+they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
+where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
 """
 
 from __future__ import annotations
@@ -40,7 +39,8 @@ FAR, LOOKED_AT = (
     1e3,
     4000,
 )  # windows beyond a window, and places there, at which the bodies must not overlap
-NEARLY = 1e-7  # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
+# of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
+NEARLY = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,9 @@ class Problem:
     given: Given
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
-        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once for all heights."""
+        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once
+        for all heights.
+        """
         if not self.by_slope:
             return lambda x: self.height(x) + tilt * x
         pieces = self.pieces(window)
@@ -92,7 +94,8 @@ def contact(problem: Problem) -> Found:
             return found
         window = beyond
     raise LoadError(
-        f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; give a domain"
+        f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
+        "give a domain"
     )
 
 
@@ -124,7 +127,9 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 def _overlap_beyond(
     found: Found, problem: Problem, window: tuple[float, float]
 ) -> tuple[float, float]:
-    """A wider window where contact reaches the end of this one, or the bodies overlap beyond it, where the load is a force."""
+    """A wider window where contact reaches the end of this one, or the bodies overlap beyond it,
+    where the load is a force.
+    """
     lo, hi = found.operator.pieces.domain
     if problem.chord.periodic or (lo, hi) == problem.domain:
         return window
@@ -165,7 +170,8 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
             continue
         if not np.isfinite(float(problem.slope(np.array([end]))[0])):
             raise LoadError(
-                f"the slope is infinite at the end x = {end:.6g} of its domain, which the contact comes near: "
+                f"the slope is infinite at the end x = {end:.6g} of its domain, which the "
+                "contact comes near: "
                 "narrow the domain"
             )
         if not corner:
@@ -206,13 +212,16 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
         else:
             return lo, hi
     raise LoadError(
-        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: "
+        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
+        f"{hi:.6g}]: "
         "the slope rises too little, give a domain"
     )
 
 
 def _first_window(problem: Problem) -> tuple[float, float]:
-    """The domain where it is bounded; otherwise about the breaks as far as the slope has to rise to carry the load."""
+    """The domain where it is bounded; otherwise about the breaks as far as the slope has to rise to
+    carry the load.
+    """
     lo, hi = problem.domain
     if np.isfinite(lo) and np.isfinite(hi):
         return lo, hi
@@ -388,7 +397,8 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     if nearly is not None:
         return nearly
     raise LoadError(
-        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = {problem.given.load:.6g}: "
+        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
+        f"{problem.given.load:.6g}: "
         "two of them are about to merge, or one to appear; change the load a little"
     )
 

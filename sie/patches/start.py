@@ -1,8 +1,9 @@
-"""Where contact is, about: conjugate gradients on a grid, each product by two FFTs, from coarse grids to fine ones.
+"""A first guess of the patches: conjugate gradients on a grid, from coarse grids to fine ones.
 
-The pressure minimises ½∫p u + ∫p h under p >= 0 and ∫p = P (Polonsky & Keer 1999), with u = -1/(πG) ∫p ln|x - t| on the line
-and the harmonics p_k/(G|k|) per period. Edges are where p², linear next to a smooth edge, reaches zero; a patch of a few cells
-is a parabola with its load, P = πGκr²/2, where the slope is that which the other patches leave.
+The pressure minimises ½∫p u + ∫p h under p >= 0 and ∫p = P (Polonsky & Keer 1999), with
+u = -1/(πG) ∫p ln|x - t| on the line and the harmonics p_k/(G|k|) per period; each product takes two
+FFTs. Edges are where p², linear next to a smooth edge, reaches zero. A patch of a few cells is a
+parabola with its load, P = πGκr²/2, where the slope is that which the other patches leave.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ ENOUGH = 1e-3  # relative change of the pressure, summed over ITERATIONS, below 
 
 
 class Grid(NamedTuple):
-    """Cells of length dx from lo; p the pressure over E*/2 on each, and whether the grid is a period."""
+    """Cells of length dx from lo; p the pressure over E*/2 on each, and whether the grid is a
+    period.
+    """
 
     lo: float
     dx: float
@@ -40,7 +43,9 @@ def grid_pressure(
     load: float,
     periodic: bool,
 ) -> Grid:
-    """The pressure over E*/2 on a grid of the window; heights may be infinite where there is no indenter."""
+    """The pressure over E*/2 on a grid of the window; heights may be infinite where there is no
+    indenter.
+    """
     lo, hi = window
     n = min(COARSEST, cells)
     p = np.ones(0)
@@ -126,7 +131,7 @@ class Patch(NamedTuple):
 
 
 def patches_on(grid: Grid) -> list[Patch]:
-    """The patches on a grid; per period the cells are turned so that the widest gap is at the end."""
+    """The patches on a grid; per period the cells are turned, so that the widest gap ends it."""
     p, n = grid.p, len(grid.p)
     turn = 0
     if grid.periodic:

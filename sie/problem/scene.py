@@ -225,7 +225,9 @@ class Scene:
 
     @property
     def coupled(self) -> bool:
-        """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in part."""
+        """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in
+        part.
+        """
         return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 
     @property

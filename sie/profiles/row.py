@@ -65,11 +65,13 @@ class Row(Profile):
         for k, profile in enumerate(given):
             if not isinstance(profile, Profile):
                 raise ValueError(
-                    f"profiles[{k}] = {profile!r} is not a profile: give sie.Parabola(...) or another"
+                    f"profiles[{k}] = {profile!r} is not a profile: give sie.Parabola(...) or "
+                    "another"
                 )
             if profile.period < INF:
                 raise ValueError(
-                    f"profiles[{k}] is periodic: make a row of what is in one period and repeat that"
+                    f"profiles[{k}] is periodic: make a row of what is in one period and repeat "
+                    "that"
                 )
         object.__setattr__(self, "profiles", given)
 
@@ -233,7 +235,9 @@ class Periodic(Profile):
 
     @cached_property
     def repeated(self) -> Profile:
-        """What is repeated: the profile, or the lowest of its neighbours where the ends of an unbounded one do not meet."""
+        """What is repeated: the profile, or the lowest of its neighbours where the ends of an
+        unbounded one do not meet.
+        """
         if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
             return self.profile
         return Row([self.profile.shifted(turn * self.repeats) for turn in (-1, 0, 1)])
@@ -335,7 +339,9 @@ Runs = list[tuple[float, float, int]]
 
 
 def _compared(profiles: tuple[Profile, ...]) -> Runs:
-    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there is none."""
+    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there
+    is none.
+    """
     slopes = [profile.pieces for profile in profiles]
     ends = np.unique(np.concatenate([s.breaks for s in slopes] + [_ends(p) for p in profiles]))
     found: Runs = []

@@ -1,4 +1,6 @@
-"""Contact in several patches: edges, loads and pressures against values of thirty digits, and closed forms."""
+"""Contact in several patches: edges, loads and pressures against values of thirty digits, and
+closed forms.
+"""
 
 import mpmath
 import numpy as np
@@ -86,7 +88,7 @@ def test_the_tilt_under_a_moment():
     assert abs(tilt / -0.07597308212919692 - 1.0) < 1e-13
 
 
-# -- the solution of a scene -------------------------------------------------------------------------
+# -- the solution of a scene -----------------------------------------------------------------------
 
 
 def solved(**asked):
@@ -152,7 +154,7 @@ def test_two_patches_solve_their_integral_equation_by_a_quadrature_of_thirty_dig
     assert abs(total / mp.pi - 0.5 * float(TWO.slope(x))) < 1e-12
 
 
-# -- laws --------------------------------------------------------------------------------------------
+# -- laws ------------------------------------------------------------------------------------------
 
 SCENES = {
     "row": {"profile": TWO, "normal_load": 0.4},
@@ -222,7 +224,7 @@ def test_a_shift_by_a_period_changes_nothing():
     assert solution.gap(there) == pytest.approx(solution.gap(x), rel=1e-9, abs=1e-12)
 
 
-# -- closed forms ------------------------------------------------------------------------------------
+# -- closed forms ----------------------------------------------------------------------------------
 
 
 @given(log_between(0.05, 5.0), log_between(0.03, 30.0))
@@ -278,7 +280,7 @@ def test_the_wave_in_full_contact():
     assert not solution.gap(x).any()
 
 
-# -- friction ----------------------------------------------------------------------------------------
+# -- friction --------------------------------------------------------------------------------------
 
 
 def test_the_shear_of_a_row_of_one_is_that_of_its_profile():
@@ -304,7 +306,7 @@ def test_stick_zones_lie_in_patches_and_slip_goes_one_way(Q):
     assert solution.shear.resultant == pytest.approx(Q, rel=1e-12)
 
 
-# -- what has no answer ------------------------------------------------------------------------------
+# -- what has no answer ----------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
