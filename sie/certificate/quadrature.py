@@ -178,7 +178,7 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
 
 
 def _levels_of_few(slope: Slope, also: Array) -> int:
-    """How often the panels at the breaks are graded where these are few.
+    """The number of gradings at the breaks where these are few.
 
     Under powers |x|^(a+1) of the profile alone the pressure has |x|^a, which needs fewer.
     """

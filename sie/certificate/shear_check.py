@@ -145,7 +145,7 @@ def _opposing(state: Slip, x: Array) -> float:
 
 
 def _points(state: Slip, terms: list[Term]) -> Array:
-    """Where the equation is measured: over the zone that never slipped, half-way between nodes.
+    """The places of measurement: over the zone that never slipped, half-way between nodes.
 
     Of many terms these are the farthest apart in the neighbourhood.
     """

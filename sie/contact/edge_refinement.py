@@ -321,7 +321,7 @@ class Polish:
         return least + ROUNDINGS * r * k.size1, least + ROUNDINGS * r * k.size2
 
     def noise(self, contact: Interval) -> float:
-        """How rough the values of functions are by rounding of their own."""
+        """The rounding error of the values of functions."""
         if self._noise is None:
             self._noise = rounding_noise(self.slope.inside, contact.x1, contact.x2)
         return self._noise

@@ -275,7 +275,7 @@ def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
 def _unseen(
     found: Normal, resolved: Slope, scene: Scene, tol: float, economy: Collection[str]
 ) -> tuple[float, ...]:
-    """Where the slope needs a break that it does not have.
+    """The places where the slope needs a break that it does not have.
 
     By the pieces that gave the edges, and by what will give the pressure.
     """

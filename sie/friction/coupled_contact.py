@@ -248,7 +248,7 @@ class CoupledContact:
 
     @cached_property
     def energy(self) -> float:
-        """What friction turned into heat: ∫ f p |dg| over both slip zones, while P grew."""
+        """The dissipated energy: ∫ f p |dg| over both slip zones, while P grew."""
         flat, total = self.flat, 0.0
         steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
         for panel, length in steps:

@@ -54,7 +54,7 @@ FIRST_STEP, SETTLED, MOST_STEPS = 0.02, 1e-14, 20
 
 @dataclass(frozen=True, eq=False)
 class FlatPunch:
-    """What the eigenvalue problem gives, for P = 1 on |x| < 1.
+    """The solution of the eigenvalue problem, for P = 1 on |x| < 1.
 
     beta, friction      β > 0 and f, such that 1 - c >= FULL_STICK
     modulus             k = c, the half-width of the stick zone

@@ -113,7 +113,7 @@ def summed(c: Array, y: Array) -> Array:
 
 
 def _key(t: Array, e: Array) -> Array:
-    """What grows with t and keeps the relative distances from 0 and 1."""
+    """A function that grows with t and keeps the relative distances from 0 and 1."""
     low = t < 0.5
     size = np.log2(np.maximum(np.where(low, t, e), LEAST))
     key: Array = np.where(low, size, -size)
@@ -297,7 +297,7 @@ class FlatFunctions:
         return np.asarray(np.linalg.solve(system, self._source(at.t, at.rest)), dtype=float)
 
     def _source(self, t: Array, e: Array) -> Array:
-        """What friction alone makes of S."""
+        """The part of S that friction alone causes."""
         beta = self.beta
         beside = (1.0 / (t[:, None] + self._left_slip.t)) @ self._left_slip.weight
         s = self._outside(1.0)

@@ -230,7 +230,7 @@ class Dissipation:
         return total
 
     def _cuts(self) -> list[float]:
-        """Where an integral over y is cut: at the ends of panels, and so that no part is long."""
+        """The cuts of an integral over y: the ends of panels, and more where a part is long."""
         low = self._panels[0].lo if self._panels else self.top
         geometric = self.top / RATIO ** np.arange(
             1, int(math.log(self.top / low) / math.log(RATIO)) + 1

@@ -350,7 +350,7 @@ class OneSignedSlip(Slipping):
 
     @property
     def _tilted(self) -> Slope:
-        """What p̂ answers to."""
+        """The slope of the profile at the tilt of p̂."""
         return self.found.slope(self.step.scene.profile)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What a scene file wants of a solution, where text, CSV and JSON give the same."""
+"""The wanted quantities of a solution that text, CSV and JSON share."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def energy_of(solution: Solution) -> dict[str, float]:
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
-    """Where the bodies slip or have slipped, (lo, hi, sign of q)."""
+    """The zones that slip or have slipped, (lo, hi, sign of q)."""
     if solution.scene.epsilon:
         return ((*solution.edges, float(solution.scene.slides)),)
     if solution.scene.coupled:

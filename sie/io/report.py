@@ -58,7 +58,7 @@ def edges_summary(solution: Solution, units: Units) -> str:
 
 
 def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
-    """How many patches there are, what length is in contact, and the largest share of the load."""
+    """The number of patches, the length in contact, and the largest share of the load."""
     patches = solution.patches
     if len(patches) < 2:
         return ()

@@ -34,7 +34,7 @@ OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its 
 
 
 class Tension(NamedTuple):
-    """Where a patch would have to pull: [lo, hi] of patch k."""
+    """An interval with tension: [lo, hi] of patch k."""
 
     patch: int
     lo: float
@@ -56,7 +56,7 @@ class Overlap(NamedTuple):
 
 @dataclass(frozen=True)
 class Findings:
-    """What is wrong with patches; nothing if they are the answer.
+    """The violations of the inequalities; none if the patches are the answer.
 
     lowest      the lowest bound of D over the largest D
     """

@@ -1,4 +1,4 @@
-"""What is measured on contact in several patches, by sums that the solver did not use.
+"""The certificate of contact in several patches, by sums that the solver did not use.
 
 residual      max |1/π PV∫p(t)/(x - t) dt - E*/2 (h' + θ)| / peak; per period the kernel is
               (π/λ) cot(π(x - t)/λ)
@@ -44,7 +44,7 @@ WIDE = 79
 
 @dataclass(frozen=True)
 class PatchCertificate:
-    """What was measured; numbers are relative to the peak pressure, to P and to P r.
+    """The measured errors, relative to the peak pressure, to P and to P r.
 
     residual          of the integral equation
     force, moment     of equilibrium
@@ -239,7 +239,7 @@ def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
 
 
 def _rounding(rule: Measure, p: Array) -> float:
-    """What an ulp of x changes in p where the equation is measured."""
+    """The change of p by an ulp of x where the equation is measured."""
     order = np.argsort(rule.x, kind="stable")
     x, p = rule.x[order], p[order]
     k = np.clip(np.searchsorted(x, rule.at), 1, len(x) - 1)

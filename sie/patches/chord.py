@@ -64,7 +64,7 @@ class Chord:
         return (step - self.period * np.rint(step / self.period)) + offset
 
     def distance(self, x: Any, lo: float, hi: float) -> Any:
-        """How far x is from [lo, hi], or from the nearest repetition of it."""
+        """The distance of x from [lo, hi], or from its nearest repetition."""
         middle = 0.5 * (lo + hi)
         return np.abs(self.difference(x - middle)) - 0.5 * (hi - lo)
 

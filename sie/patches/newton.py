@@ -44,7 +44,7 @@ INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
 class Given(NamedTuple):
-    """What is asked for, in units of E*/2: load, and tilt or moment."""
+    """The given load, and tilt or moment, in units of E*/2."""
 
     load: float
     tilt: float

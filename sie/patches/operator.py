@@ -56,7 +56,7 @@ class Cells(NamedTuple):
 
 
 class Targets(NamedTuple):
-    """Where D_i is asked for, all (m,).
+    """The places at which D_i is evaluated, all (m,).
 
     x            places
     reference    the value of H that is taken out: H_piece(x), or any value where piece < 0

@@ -192,7 +192,7 @@ def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
 def gap_panels(
     patches: Patches, pieces: Pieces, outside: bool = False, farthest: float = FARTHEST
 ) -> GapPanels:
-    """Of all gaps between patches; with those outside, or per period the last one, if asked for."""
+    """The panels of all gaps; `outside` adds the outer ones, or per period the last."""
     rule = FINE if outside else LONG
     a, b, r, N = patches.a, patches.b, patches.r, patches.number
     first = pieces.locate(a)

@@ -78,7 +78,7 @@ class Pieces:
 
     @cached_property
     def reach(self) -> Array:
-        """How far beyond its ends each piece may be continued, as a length."""
+        """The length by which each piece may be continued beyond its ends."""
         n = max(self.power.shape[1] - 1, 1)
         length = 2.0 * self._half
         reach = length * (EASY if n < 4 else 2.0 / n**2)

@@ -1,4 +1,4 @@
-"""From a load to the patches, their number included.
+"""The patches of a load, their number included.
 
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
 they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
@@ -45,7 +45,7 @@ NEARLY = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What is asked, in units of E*/2.
+    """The given profile and loads, in units of E*/2.
 
     pieces     window -> the slope, without tilt
     slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
@@ -186,7 +186,7 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
 
 
 def fitted_window(problem: Problem) -> tuple[float, float]:
-    """Where contact may be: the domain, or what a coarse grid leaves of the line."""
+    """The interval of possible contact: the domain, or a part of it found on a coarse grid."""
     if problem.chord.periodic:
         return problem.domain[0], problem.domain[0] + problem.chord.period
     lo, hi = _first_window(problem)

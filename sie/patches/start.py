@@ -121,7 +121,7 @@ FEW = 5  # cells: a patch of fewer is taken as a parabola
 
 
 class Patch(NamedTuple):
-    """What a grid tells of a patch: edges, about, its load and how many cells it has."""
+    """A patch on the grid: its approximate edges, its load and the number of its cells."""
 
     a: float
     b: float
@@ -175,6 +175,6 @@ def patches_on(grid: Grid) -> list[Patch]:
 
 
 def _zero(q: Array, x: float, outward: float) -> float:
-    """Where p², linear through the two outer cells, is zero: up to a cell beyond the outer one."""
+    """The zero of p², linear through the two outer cells: up to a cell beyond the outer one."""
     rise = q[1] ** 2 - q[0] ** 2
     return x + outward * (min(q[0] ** 2 / rise, 1.0) if rise > 0.0 else 0.5)

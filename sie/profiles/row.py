@@ -225,7 +225,7 @@ class Periodic(Profile):
 
     @cached_property
     def start(self) -> float:
-        """Where the period of `profile` begins that is repeated."""
+        """The beginning of the period of `profile` that is repeated."""
         lo, hi = self.profile.domain
         if abs(lo) < INF:
             return lo
@@ -385,7 +385,7 @@ def _inner(lo: float, hi: float) -> float:
 def _crossings(
     profiles: tuple[Profile, ...], slopes: list[Slope], pair: tuple[int, int], lo: float, hi: float
 ) -> list[float]:
-    """Where the heights of two profiles are equal between lo and hi."""
+    """The places between lo and hi where two profiles have the same height."""
     one, other = pair
     inner = _inner(lo, hi)
     if slopes[one].functions or slopes[other].functions:

@@ -114,7 +114,7 @@ class OnPanels(SlopeDensity):
 
     @cached_property
     def _at_cusp_ends(self) -> dict[float, tuple[Array, Array]]:
-        """Where the pieces end beside each axis, counted from it, and the pressure there.
+        """The ends of the pieces beside each axis, counted from it, and the pressure there.
 
         Asked at once for all.
         """
