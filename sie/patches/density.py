@@ -26,6 +26,7 @@ from .operator import Operator, Targets
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
 AROUND = 16  # points of a circle that give a derivative ...
 NARROW = 0.125  # ... of this part of the distance to the nearest traction
@@ -118,13 +119,15 @@ class PatchPressure(Density):
         anchor = np.where(x - P.a[k] < P.b[k] - x, P.a[k], P.b[k])
         return Points(anchor, x - anchor), k, inside
 
+    def _sorted_out(self, x: Array) -> tuple[Array, Points, Index, Mask, Mask]:
+        """Zeros, nan at nan; x by its nearest edge; its patch; whether it is on that, or beside."""
+        finite = np.isfinite(x)
+        points, k, inside = self.placed(np.where(finite, x, 0.0))
+        return zero_or_nan(x), points, k, inside & finite, ~inside & finite
+
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
-        flat = x.ravel()
-        out = zero_or_nan(flat)
-        finite = np.isfinite(flat)
-        points, _, inside = self.placed(np.where(finite, flat, 0.0))
-        inside &= finite
+        out, points, _, inside, _ = self._sorted_out(x.ravel())
         if inside.any():
             out[inside] = in_order(self._inside, points.x[inside])
         return np.asarray(out.reshape(x.shape))
@@ -146,11 +149,7 @@ class PatchPressure(Density):
 
     def hilbert(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
-        flat = x.ravel()
-        out = zero_or_nan(flat)
-        finite = np.isfinite(flat)
-        points, k, inside = self.placed(np.where(finite, flat, 0.0))
-        inside, beside = inside & finite, ~inside & finite
+        out, points, k, inside, beside = self._sorted_out(x.ravel())
         o = self.operator
         if inside.any():
             at = points.x[inside]
