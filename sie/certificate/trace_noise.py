@@ -40,7 +40,8 @@ from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap
-from sie.profiles.sampled import PlacedTrace, Sampled, traces_in
+from sie.profiles.placed_traces import PlacedTrace, traces_in
+from sie.profiles.sampled import Sampled
 from sie.profiles.splines import slope_deviations
 from sie.profiles.trace_values import Mended
 from sie.traction.of_slope import SlopeDensity
