@@ -320,16 +320,8 @@ class System:
                 weight.inverse, moved(c[at], block.kappa), PROBES
             )
             left_over = second + smooth[probes] - wanted[probes]
-            terms.append(
-                Terms(
-                    at.stop - at.start,
-                    left_over,
-                    wanted[rows],
-                    smooth[rows],
-                    aliased[i],
-                    float(off[i].max()),
-                )
-            )
+            sizes = wanted[rows], smooth[rows], aliased[i], float(off[i].max())
+            terms.append(Terms(at.stop - at.start, left_over, *sizes))
         return attempted(
             self.problem,
             [c[at] for at in self._column_slices],

@@ -115,12 +115,7 @@ class Polish:
             if not left_sharp:
                 x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
             x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
-            most = FARTHEST * r  # inwards: the edges must not pass each other
-            if contact.from_left(x1) + tail1 > most:
-                x1, tail1 = two_sum(contact.x1, most + contact.tail1)
-            if contact.from_right(x2) - tail2 > most:
-                x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
-            moved = Interval(x1, x2, tail1, tail2)
+            moved = _kept_apart(contact, Interval(x1, x2, tail1, tail2))
             if moved == contact:
                 break
             contact = moved
@@ -319,3 +314,14 @@ class Polish:
         return self._noise
 
     _noise: float | None = None
+
+
+def _kept_apart(contact: Interval, moved: Interval) -> Interval:
+    """The moved contact, its edges at most FARTHEST half-widths inwards: they must not cross."""
+    x1, x2, tail1, tail2 = moved
+    most = FARTHEST * contact.r
+    if contact.from_left(x1) + tail1 > most:
+        x1, tail1 = two_sum(contact.x1, most + contact.tail1)
+    if contact.from_right(x2) - tail2 > most:
+        x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
+    return Interval(x1, x2, tail1, tail2)

@@ -26,7 +26,6 @@ smooth and sharp edges.
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -42,15 +41,13 @@ from sie.profiles.slope import Slope
 
 from .edge_integrals import Moments, moments
 from .edge_refinement import MAX_POLISHING, Polish
+from .first_guess import first_guess, of_linear_rise
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the
 # distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
-# P/(G κ) of a linear rise in units of a²: beyond it the flat base, of half-width a, is negligible
-# for a guess. Below this tan θ two terms of its series are rounding; else so many steps are enough.
-LEAST_FLAT, NARROW_RIM, NEWTONS = 1e-20, 1e-2, 4
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
 UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
 
@@ -201,37 +198,9 @@ class Search:
             return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
-        guess = self._of_linear_rise(axis, z, target) or self.first_guess(z, hi, target)
+        guess = of_linear_rise(self.slope, axis, z, target) or first_guess(self.slope, z, target)
         distance = logarithmic_root(excess, target, guess, hi - z, self.too_much(load))
         return Found(self.polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
-
-    def _of_linear_rise(self, axis: float, z: float, target: float) -> float:
-        """The edge's distance from z in closed form if H = κ (x - z) from there to the edge, or 0.
-
-        With a = z - axis, r = a/cos θ: P/G = κ r² (θ - sin θ cos θ), that is, for u = tan θ,
-        (1 + u²) arctan u - u = P/(G κ a²), whose derivative is 2u arctan u.
-        """
-        row = next((row for row in self.slope.rows if row.lo <= z < row.hi), None)
-        if self.slope.functions or row is None or row.origin != z or len(row.coefficients) != 2:
-            return 0.0
-        curvature, start = row.coefficients
-        if start or not curvature > 0.0:
-            return 0.0
-        a, scaled = z - axis, target / curvature
-        if not a * a > LEAST_FLAT * scaled:
-            distance = math.sqrt(2.0 / math.pi * scaled)
-        else:
-            wanted = scaled / (a * a)
-            # Both are lower bounds: of a small u, and of a large one
-            u = max((1.5 * wanted) ** (1.0 / 3.0), math.sqrt(2.0 / math.pi * wanted))
-            if u < NARROW_RIM:
-                u *= 1.0 + u * u / 15.0
-            else:
-                for _ in range(NEWTONS):
-                    angle = math.atan(u)
-                    u -= ((1.0 + u * u) * angle - u - wanted) / (2.0 * u * angle)
-            distance = a * u * u / (1.0 + math.hypot(1.0, u))
-        return distance if 0.0 < distance < row.hi - z else 0.0
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
         """The same by Newton alone, from the contact under a load that is not much different.
@@ -249,20 +218,6 @@ class Search:
     @cached_property
     def polish(self) -> Polish:
         return Polish(self.slope, self.moments, self.epsilon)
-
-    def first_guess(self, z: float, hi: float, target: float) -> float:
-        if math.isfinite(hi):
-            return 0.5 * (hi - z)
-        breaks = self.slope.break_points
-        ahead = bisect_right(breaks, z)
-        if ahead < len(breaks):
-            return breaks[ahead] - z
-        # Not within rounding of z, where the load would be noise
-        return (
-            max(z - breaks[0], abs(z))
-            if breaks and breaks[0] < z
-            else max(target, math.sqrt(EPS) * abs(z))
-        )
 
     def too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:
@@ -314,7 +269,7 @@ class Search:
             return None  # lowest at its end: all contact has a sharp edge there
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
-        guess = self.first_guess(z2, hi, target)
+        guess = first_guess(self.slope, z2, target)
         last = [
             guess,
             guess,

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from sie.errors import LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
@@ -17,6 +18,7 @@ from sie.numerics.root_finding import Bracket, Place, logarithmic_root
 from .edge_integrals import Moments, moments
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
 from .edges import PLACES, Edges, Found, Search
+from .first_guess import first_guess
 
 NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
 # Where a centre is looked for: the first step over the half-width, and what the next are longer by.
@@ -50,7 +52,7 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
     limit = min(lever - lo, hi - lever)
     try:
         r = logarithmic_root(
-            carried, target, search.first_guess(lever, hi, target), limit, search.too_much(load)
+            carried, target, first_guess(search.slope, lever, target), limit, search.too_much(load)
         )
     except LoadError:
         return None
@@ -78,17 +80,7 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
     if not low < high:
         return None
 
-    def at(m: Place) -> tuple[float, float, Interval, Moments]:
-        """The excess of M/(G r) over its given value, and its derivative."""
-        contact = interval_about(m[0], r).moved(m[1], m[1])
-        # Far from x = 0 the slope is nearly constant, which carries nothing
-        level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
-        k, centre = replace(search, slope=slope).moments(contact), contact.m
-        search.evaluations += 1
-        excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
-        k = k._replace(I0=k.I0 + math.pi * level, C2=k.C2 + 0.5 * math.pi * level)
-        return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
-
+    at = partial(_excess_of_moment, search, r, moment / scale)
     centre = min(max(0.5 * (z1 + z2), low), high)
     bracket = _first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
     if bracket is None:
@@ -116,6 +108,20 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
     tilt = -k.I0 / math.pi
     k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
     return replace(search.finished(Found(contact, moments=k), None, tilt), moment=moment)
+
+
+def _excess_of_moment(
+    search: Search, r: float, target: float, m: Place
+) -> tuple[float, float, Interval, Moments]:
+    """The excess of M/(G r) over its target at the centre m, its derivative, and the contact."""
+    contact = interval_about(m[0], r).moved(m[1], m[1])
+    # Far from x = 0 the slope is nearly constant, which carries nothing.
+    level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
+    k, centre = replace(search, slope=slope).moments(contact), contact.m
+    search.evaluations += 1
+    excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - target
+    k = k._replace(I0=k.I0 + math.pi * level, C2=k.C2 + 0.5 * math.pi * level)
+    return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
 
 
 def _first_change(

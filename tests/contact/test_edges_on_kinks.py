@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie.contact import edge_refinement, edges, normal
+from sie.contact import edge_refinement, edges, tilt_of_moment
 from sie.contact.edges import Search
 from validation.topics import kinks
 from validation.topics.kinks import Shape, Trial, mp
@@ -186,7 +186,7 @@ def test_where_no_tilt_has_the_moment_few_tilts_are_tried(monkeypatch):
     )
     with contextlib.suppress(sie.ContactError):
         _ = sie.solve(scene).edges
-    assert len(tried) <= normal.MAX_TILTS + 1
+    assert len(tried) <= tilt_of_moment.MAX_TILTS + 1
 
 
 @pytest.mark.parametrize("moment", [-1.79, 1.79, 1e-8])
