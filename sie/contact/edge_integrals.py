@@ -34,7 +34,7 @@ NARROW = 0.5 * math.pi + 0.01
 MANY = 24
 
 
-class Moments(NamedTuple):
+class EdgeIntegrals(NamedTuple):
     """The integrals of H over the contact, with dt/w = dφ and s = (t - m)/r = sin φ where ε = 0.
 
     I0      ∫H dt/w = positive - negative
@@ -57,9 +57,9 @@ class Moments(NamedTuple):
     size1: float
     size2: float
 
-    def mirrored(self) -> Moments:
+    def mirrored(self) -> EdgeIntegrals:
         """The integrals of h(-x) on the mirrored contact."""
-        return Moments(
+        return EdgeIntegrals(
             -self.I0,
             self.I1,
             -self.C2,
@@ -71,7 +71,7 @@ class Moments(NamedTuple):
             self.size1,
         )
 
-    def balanced(self, r: float) -> Moments:
+    def balanced(self, r: float) -> EdgeIntegrals:
         """The integrals of the contact moved sideways until I0 = 0, for a small I0.
 
         To first order, with 2 dI0 = (JR + JL) dm, 2 dI1 = (JR - JL) dm and dC2 = I1/r dm.
@@ -81,16 +81,16 @@ class Moments(NamedTuple):
         return self._replace(I0=0.0, I1=I1, C2=self.C2 - 2.0 * self.I0 / rise * self.I1 / r)
 
 
-NOTHING = Moments(*(0.0,) * 9)
+NOTHING = EdgeIntegrals(*(0.0,) * 9)
 
 
-def moments(
+def edge_integrals(
     slope: Slope,
     contact: Interval,
     lower: float | None = None,
     keep_zero: bool = False,
     epsilon: float = 0.0,
-) -> Moments:
+) -> EdgeIntegrals:
     """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half
     right of it.
     """
@@ -109,16 +109,16 @@ def moments(
 # -- arrays ----------------------------------------------------------------------------------------
 
 
-def _of_many(g: Geometry) -> Moments:
+def _of_many(g: Geometry) -> EdgeIntegrals:
     order, narrow = quadrature_order(g.slope.degree), g.angles[2][:, 0] <= NARROW_ANGLE
     if g.slope.functions or np.count_nonzero(narrow) < MANY:
         return _summed(g, order)
     wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
     short = _summed(g.part(narrow), narrow_order(g.slope.degree))
-    return Moments(*map(float.__add__, wide, short))
+    return EdgeIntegrals(*map(float.__add__, wide, short))
 
 
-def _summed(g: Geometry, order: int) -> Moments:
+def _summed(g: Geometry, order: int) -> EdgeIntegrals:
     if not len(g.k):
         return NOTHING
     offset, angle, weight, sign = g.nodes(order)
@@ -137,7 +137,7 @@ def _summed(g: Geometry, order: int) -> Moments:
     C2 = float(np.vdot(WH, plus * minus - 2.0 * e * (e + s) if e else plus * minus))
     positive, negative = _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0))
     I0, I1 = _sum(WH), float(np.vdot(WH, s))
-    return Moments(I0, I1, C2, JR, JL, positive, negative, *_sizes(g, weight, H))
+    return EdgeIntegrals(I0, I1, C2, JR, JL, positive, negative, *_sizes(g, weight, H))
 
 
 def _sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
@@ -201,14 +201,14 @@ class _Cut(NamedTuple):
     angle: float
 
 
-def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
+def _of_few(slope: Slope, contact: Interval, lower: float | None) -> EdgeIntegrals:
     width, degree, total = 2.0 * contact.r, slope.degree, None
     for row in slope.rows:
         cut = _cut(row, contact, lower, width)
         if cut is not None:
             more = _integrals(row.coefficients, cut, width, degree)
             total = tuple(map(float.__add__, total, more)) if total else more
-    found = Moments(*total) if total else NOTHING
+    found = EdgeIntegrals(*total) if total else NOTHING
     return found if slope.continuous else _with_jumps(found, slope, contact, lower)
 
 
@@ -289,7 +289,9 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
     )
 
 
-def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:
+def _with_jumps(
+    found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None
+) -> EdgeIntegrals:
     """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
     rises = slope.rises
     if lower is not None:

@@ -24,7 +24,7 @@ or H' jumps: at a distance d behind the break, to leading order,
 There a step leads to the root of this model, on whichever side of the break that is.
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
-their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by.
+their sizes (`size1` and `size2` of the edge integrals), and the rounding of a function's values.
 `uncertainty` is the error of the edges that remains.
 """
 
@@ -40,7 +40,7 @@ from sie.numerics.root_finding import Bracket
 from sie.profiles.resolution import rounding_noise
 from sie.profiles.slope import Slope
 
-from .edge_integrals import Moments
+from .edge_integrals import EdgeIntegrals
 
 # A residual is rounding below so many units of its terms: the roots and the angle of each piece,
 # its sines, its weights, Horner's rule and the sum round it once or twice each.
@@ -51,7 +51,7 @@ VARIES = 4.0
 # A step longer than this part of the distance to the next break follows what the break adds
 CLOSE = 0.25
 FARTHEST = 0.75  # of r, a step inwards
-STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
+STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals are evaluated
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times
 # from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
@@ -59,7 +59,7 @@ MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they
 LEFT, RIGHT = 0, 1
 
 
-def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+def uncertainty(contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
     """The shift of either edge for an ulp of the load and the rounding of its own equation.
 
     Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
@@ -71,19 +71,19 @@ def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, fl
 
 @dataclass
 class Polish:
-    """Newton's method for the edges of one slope; `evaluate` gives the moments of a contact."""
+    """Newton's method for the edges of one slope; `evaluate` integrates over a contact."""
 
     slope: Slope
-    evaluate: Callable[[Interval], Moments]
+    evaluate: Callable[[Interval], EdgeIntegrals]
     epsilon: float = 0.0
 
     # -- one of two edges is given, or none --------------------------------------------------------
 
     def both(
         self, contact: Interval, target: float, left_sharp: bool
-    ) -> tuple[Interval, Moments, bool]:
-        """The contact that carries target = P/G, its moments, and whether the residuals came down
-        to rounding.
+    ) -> tuple[Interval, EdgeIntegrals, bool]:
+        """The contact that carries target = P/G, its edge integrals, and whether the residuals
+        came down to rounding.
         """
         lo, hi = self.slope.domain
         left = Bracket((lo, 0.0), (contact.x2, contact.tail2))
@@ -126,10 +126,10 @@ class Polish:
         contact: Interval,
         target: float,
         lever: float,
-        tilted: Callable[[Interval, float], Moments],
-    ) -> tuple[Interval, Moments, float] | None:
-        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its
-        tilt; None if Newton's steps find none.
+        tilted: Callable[[Interval, float], EdgeIntegrals],
+    ) -> tuple[Interval, EdgeIntegrals, float] | None:
+        """The contact with smooth edges that carries target = P/G at x = lever, its edge integrals
+        and its tilt; None if Newton's steps find none.
 
         Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds
         p ~ sqrt((x - x1)/(x2 - x)) or the mirror image of it, whose resultants are G r J/2 and act
@@ -205,7 +205,7 @@ class Polish:
             contact = wanted
         return contact, False
 
-    def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, Moments]:
+    def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, EdgeIntegrals]:
         """The contact of the same half-width whose centre, between low and high, balances the
         slope: I0 = 0.
         """
@@ -299,7 +299,7 @@ class Polish:
 
     # -- rounding ----------------------------------------------------------------------------------
 
-    def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+    def rounding(self, contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
         """The rounding of F1 and F2."""
         r = contact.r
         least = ROUNDINGS * target + (

@@ -39,7 +39,7 @@ from sie.numerics.root_finding import ROUGH, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 
-from .edge_integrals import Moments, moments
+from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, Polish
 from .first_guess import first_guess, of_linear_rise
 
@@ -71,18 +71,18 @@ class Edges:
 
 
 class Found(NamedTuple):
-    """A contact, which edges are sharp, and its moments if they are known (but for the rounding of
-    its edges).
+    """A contact, which edges are sharp, and its edge integrals if they are known (but for the
+    rounding of its edges).
     """
 
     contact: Interval
     sharp: tuple[bool, bool] = (False, False)
-    moments: Moments | None = None
+    integrals: EdgeIntegrals | None = None
 
 
 @dataclass
 class Search:
-    """One profile's slope under one modulus; counts how often the moments were evaluated."""
+    """One profile's slope under one modulus; counts how often the edge integrals were evaluated."""
 
     slope: Slope
     half_modulus: float
@@ -93,26 +93,26 @@ class Search:
     mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
     # of the last contact, which the search often ends with
-    _last: tuple[Interval, Moments] | None = field(default=None, init=False, repr=False)
+    _last: tuple[Interval, EdgeIntegrals] | None = field(default=None, init=False, repr=False)
 
     # -- evaluation --------------------------------------------------------------------------------
 
-    def moments(self, contact: Interval) -> Moments:
+    def integrals(self, contact: Interval) -> EdgeIntegrals:
         if self._last is None or self._last[0] != contact:
             self.evaluations += 1
-            self._last = contact, self._moments(contact)
+            self._last = contact, self._edge_integrals(contact)
         return self._last[1]
 
-    def _moments(self, contact: Interval) -> Moments:
+    def _edge_integrals(self, contact: Interval) -> EdgeIntegrals:
         if self.axis is None:
-            return moments(self.slope, contact, None, self.keep_zero, self.epsilon)
+            return edge_integrals(self.slope, contact, None, self.keep_zero, self.epsilon)
         # The symmetry makes the others zero.
-        half = moments(self.slope, contact, self.axis, self.keep_zero)
+        half = edge_integrals(self.slope, contact, self.axis, self.keep_zero)
         J0 = half.JR + half.JL
         size = half.size1 + half.size2
-        return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
+        return EdgeIntegrals(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
 
-    def load(self, contact: Interval, k: Moments) -> float:
+    def load(self, contact: Interval, k: EdgeIntegrals) -> float:
         """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G
         r K2.
         """
@@ -126,7 +126,7 @@ class Search:
             return Edges(
                 contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations
             )
-        k = k or self.moments(contact)
+        k = k or self.integrals(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
         k1, k2 = self._singular_ends(contact, P, sharp, k)
@@ -140,7 +140,7 @@ class Search:
         return Edges(contact, P, M, tilt, sharp, k1, k2, I0, self.evaluations)
 
     def _singular_ends(
-        self, contact: Interval, P: float, sharp: tuple[bool, bool], k: Moments
+        self, contact: Interval, P: float, sharp: tuple[bool, bool], k: EdgeIntegrals
     ) -> tuple[float, float]:
         """(k1, k2), 0 at a smooth edge: their difference from I0, their weighted sum from P."""
         G, r, e, cos = self.half_modulus, contact.r, self.epsilon, math.cos(math.pi * self.epsilon)
@@ -189,12 +189,12 @@ class Search:
 
         if math.isfinite(hi):
             whole = Interval(*self.slope.domain)
-            if self.load(whole, self.moments(whole)) <= load:
+            if self.load(whole, self.integrals(whole)) <= load:
                 return Found(whole, (True, True))
 
         def excess(distance: float) -> tuple[float, float]:
             contact = at(distance)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
@@ -217,7 +217,7 @@ class Search:
 
     @cached_property
     def polish(self) -> Polish:
-        return Polish(self.slope, self.moments, self.epsilon)
+        return Polish(self.slope, self.integrals, self.epsilon)
 
     def too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:
@@ -255,7 +255,7 @@ class Search:
         return Found(
             left.contact.mirrored(),
             left.sharp[::-1],
-            left.moments.mirrored() if left.moments else None,
+            left.integrals.mirrored() if left.integrals else None,
         )
 
     def _right_edge(self, load: float) -> Found | None:
@@ -275,7 +275,7 @@ class Search:
             guess,
         ]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
 
-        def contact_at(distance: float) -> tuple[Interval, Moments]:
+        def contact_at(distance: float) -> tuple[Interval, EdgeIntegrals]:
             contact, k, left = split._left_edge(
                 (z1, z2), distance, max(last[1] / last[0], UNEVEN) * distance
             )
@@ -302,7 +302,7 @@ class Search:
 
     def _left_edge(
         self, z: tuple[float, float], right: float, guess: float
-    ) -> tuple[Interval, Moments, float]:
+    ) -> tuple[Interval, EdgeIntegrals, float]:
         """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there
         (a sharp edge); and z1 - x1.
         """
@@ -310,16 +310,16 @@ class Search:
         x2, tail2 = two_sum(z[1], right)
         if math.isfinite(lo):
             contact = Interval(lo, x2, 0.0, tail2)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             if k.I0 >= 0.0:
                 return contact, k, max(z[0] - lo, right)
-        found: dict[float, tuple[Interval, Moments]] = {}
+        found: dict[float, tuple[Interval, EdgeIntegrals]] = {}
 
         def balance(left: float) -> tuple[float, float]:
             """∫ of -H left of z1 over ∫ of H right of z2, which is 1 at the root."""
             x1, tail1 = two_sum(z[0], -left)
             contact = Interval(x1, x2, tail1, tail2)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             found[left] = contact, k
             if k.positive <= 0.0:
                 return HUGE, HUGE
@@ -385,10 +385,10 @@ class Search:
             # At the end of the indenter one edge is sharp if the other wants to be there
             if (m == hi - r) if side else (m == lo + r):
                 contact = Interval(hi - 2.0 * r, hi) if side else Interval(lo, lo + 2.0 * r)
-                k = self.moments(contact)
+                k = self.integrals(contact)
                 if k.I0 == 0.0:
-                    return Found(contact, moments=k)
+                    return Found(contact, integrals=k)
                 if (k.I0 < 0.0) == bool(side):
                     return Found(contact, (not side, bool(side)), k)
         contact, k = self.polish.centred(interval_about(0.5 * (low + high), r), low, high)
-        return Found(contact, moments=k)
+        return Found(contact, integrals=k)

@@ -105,7 +105,7 @@ def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float
     r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
     if at_fixed_width:
-        k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
+        k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
         rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
         falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
     return falls
