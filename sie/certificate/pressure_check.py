@@ -187,11 +187,11 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
 
 
 def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
-    """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the
-    nodes, as a stress.
+    """The part of the errors that rounding of x explains: of ∫p dx, and of the equation between
+    the nodes, a stress.
 
-    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p
-    itself must not excuse itself. `change` is that of H in one ulp between the nodes.
+    It is |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge where that
+    is less: noise of p must not pass for rounding. `change` is that of H in one ulp between nodes.
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]

@@ -245,7 +245,7 @@ def _bound(placed: PlacedTrace, reference: Sampled, x: Array, weights: Array) ->
 def _operator(
     angle: Array, place: Array, contact: Interval, kappa: Array, scene: Scene
 ) -> tuple[Array, Array]:
-    """From δH at the angles to δp/G at the places without its singular terms, and to C ± c_0'."""
+    """Matrices from δH at the angles to the regular part of δp/G at the places, and to C ± c_0'."""
     n = np.arange(len(angle))
     c = (2.0 / len(angle)) * np.cos(np.outer(n, angle))
     c[0] *= 0.5

@@ -167,11 +167,10 @@ def _jumps(g: Geometry) -> Array:
 
 
 def _rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two
-    pieces meet within rounding.
+    """The rises of H at both ends (2, K) of the pieces k, from its values there; 0 where two pieces
+    meet within rounding.
 
-    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all
-    there is.
+    Rounding divided by the square root of a distance of 1e-222 from an edge would exceed all else.
     """
     enter, leave = H
     size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))

@@ -230,8 +230,8 @@ class Polish:
         return contact, k
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
-        """How far right both edges move so that over = r I0 vanishes; the edge next to a break
-        tells.
+        """The distance by which both edges move right so that over = r I0 vanishes, by the edge
+        that is next to a break.
         """
         to_left = abs(self.nearest(contact, LEFT)[1])
         to_right = abs(self.nearest(contact, RIGHT)[1])
@@ -259,10 +259,10 @@ class Polish:
     def outwards(
         self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
     ) -> float:
-        """How far an edge moves outwards so that its residual `over`, which grows by `rise`,
-        vanishes.
+        """The distance by which an edge moves outwards so that its residual `over`, which grows by
+        `rise`, vanishes.
 
-        share     of what a break adds at this edge, that the residual takes
+        `share` is the part of a break's contribution at this edge that enters the residual.
         """
         newton = -over / rise
         b, d = self.nearest(contact, side)

@@ -382,7 +382,7 @@ class Search:
             return Found(interval_about(self.axis, r))
         low, high = max(lo + r, z1 - r), min(hi - r, z2 + r)
         for m, side in ((high, 1), (low, 0)):
-            # At the end of the indenter one edge is sharp if the other wants to be there
+            # One edge is sharp if the balance would move the other beyond the end of the indenter.
             if (m == hi - r) if side else (m == lo + r):
                 contact = Interval(hi - 2.0 * r, hi) if side else Interval(lo, lo + 2.0 * r)
                 k = self.integrals(contact)

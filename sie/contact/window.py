@@ -71,11 +71,11 @@ def window_of(scene: Scene) -> Window:
 
 
 def _first_window(scene: Scene) -> tuple[float, float]:
-    """A little more than the contact where symmetry tells it; otherwise the domain where it is
-    finite, or some way around the break nearest to x = 0, as far as the load or half-width asks
-    for.
+    """The interval on which a search begins.
 
-    A contact of half-width w under slopes of the size H(w) carries about G w H(w).
+    It is a little more than the contact where symmetry gives that, otherwise the domain where that
+    is finite, or a part around the break nearest to x = 0 that the load or half-width needs: a
+    contact of half-width w under slopes of the size H(w) carries about G w H(w).
     """
     profile = scene.profile
     lo, hi = profile.domain

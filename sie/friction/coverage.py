@@ -1,4 +1,4 @@
-"""What is not solved with friction, as far as that shows before anything is computed."""
+"""Refusals of loads with friction that no contact carries, or that are not covered."""
 
 from __future__ import annotations
 

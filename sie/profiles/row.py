@@ -233,8 +233,8 @@ class Periodic(Profile):
 
     @cached_property
     def repeated(self) -> Profile:
-        """What is repeated: the profile, or the lowest of its neighbours where the ends of an
-        unbounded one do not meet.
+        """The profile that is repeated: the given one, or the lowest of it and its neighbours
+        where the ends of an unbounded one do not meet.
         """
         if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
             return self.profile
