@@ -228,12 +228,10 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
         start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
     if at_right:
         hi_left, hi_right, length = width, 0.0, lo_right
-    a, b, c, d = (
-        math.sqrt(lo_left / width),
-        math.sqrt(lo_right / width),
-        math.sqrt(hi_left / width),
-        math.sqrt(hi_right / width),
-    )
+    a = math.sqrt(lo_left / width)
+    b = math.sqrt(lo_right / width)
+    c = math.sqrt(hi_left / width)
+    d = math.sqrt(hi_right / width)
     angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
     left = lo_left + hi_left < width
     from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
@@ -261,9 +259,8 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             dH = dH * y + H
             H = H * y + v
         at = middle + sign * half_step
-        near = (
-            2.0 * sin(0.5 * at) ** 2
-        )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        # 1 + sin φ from the left edge, 1 - sin φ from the right one.
+        near = 2.0 * sin(0.5 * at) ** 2
         cos_phi, sin_phi = sin(at), sign * (near - 1.0)
         w = angle * weight
         wH, wdH = w * H, w * dH

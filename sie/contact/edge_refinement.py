@@ -86,10 +86,8 @@ class Polish:
         to rounding.
         """
         lo, hi = self.slope.domain
-        left, right = (
-            Bracket((lo, 0.0), (contact.x2, contact.tail2)),
-            Bracket((contact.x1, contact.tail1), (hi, 0.0)),
-        )
+        left = Bracket((lo, 0.0), (contact.x2, contact.tail2))
+        right = Bracket((contact.x1, contact.tail1), (hi, 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -146,10 +144,8 @@ class Polish:
         tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
         for _ in range(MAX_BALANCING):
             k, r = tilted(contact, tilt), contact.r
-            half, turned = (
-                0.5 * (r * k.I1 - target),
-                target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0),
-            )
+            half = 0.5 * (r * k.I1 - target)
+            turned = target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
             rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
             if not (rise1 > 0.0 and rise2 > 0.0):
                 return None
@@ -242,10 +238,8 @@ class Polish:
         """How far right both edges move so that over = r I0 vanishes; the edge next to a break
         tells.
         """
-        to_left, to_right = (
-            abs(self.nearest(contact, LEFT)[1]),
-            abs(self.nearest(contact, RIGHT)[1]),
-        )
+        to_left = abs(self.nearest(contact, LEFT)[1])
+        to_right = abs(self.nearest(contact, RIGHT)[1])
         if abs(over) <= CLOSE * rise * min(to_left, to_right):
             return -over / rise
         if to_right <= to_left:
@@ -280,10 +274,8 @@ class Polish:
         if abs(newton) <= CLOSE * abs(d):
             return newton
         jump, kink = self.slope.corner(b)
-        B, C = (
-            share * math.sqrt(2.0 * contact.r) * jump,
-            share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink),
-        )
+        B = share * math.sqrt(2.0 * contact.r) * jump
+        C = share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink)
         A, behind = rise, -over + rise * d
         if d > 0.0:
             root = math.sqrt(d)
