@@ -58,9 +58,8 @@ class _Block(NamedTuple):
     t: Array
     columns: tuple[Array, Array, Array]  # x2 - t, t - x1, dt/dσ / ρ
     sigma: Array
-    analysis: (
-        Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
-    )
+    # values at the rows -> coefficients of p̃, over the constant of the singular part
+    analysis: Array
     quadrature: Array  # coefficients c -> weights times values at the columns
     kappa: int
 

@@ -192,9 +192,8 @@ class _Cut(NamedTuple):
 
     base: float  # lo - origin
     length: float
-    roots: tuple[
-        float, float, float, float
-    ]  # lo from left, lo from right, hi from left, hi from right
+    # lo from left, lo from right, hi from left, hi from right
+    roots: tuple[float, float, float, float]
     from_edge: float
     sign: float
     angle: float
@@ -243,14 +242,8 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
     I0 = I1 = C2 = J_near = J_far = positive = negative = 0.0
     base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
-    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
-    for v in c:
-        size = size * farthest + abs(v)
-    size *= 2.0 * angle
-    sin = math.sin
-    for g, weight in _rule(
-        5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)
-    ):
+    sin, short = math.sin, angle <= NARROW
+    for g, weight in _rule(5 + degree + int(4.0 * angle) if short else quadrature_order(degree)):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
         y = base + width * sin(half_step) * sin(middle)
@@ -274,18 +267,12 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
         else:
             negative -= wH
     JR, JL = (J_near, J_far) if sign > 0.0 else (J_far, J_near)
+    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
+    for v in c:
+        size = size * farthest + abs(v)
     _, right_of_lo, left_of_hi, _ = cut.roots
-    return (
-        I0,
-        I1,
-        C2,
-        JR,
-        JL,
-        positive,
-        negative,
-        size * right_of_lo * right_of_lo,
-        size * left_of_hi * left_of_hi,
-    )
+    size1, size2 = (2.0 * angle * size * root * root for root in (right_of_lo, left_of_hi))
+    return I0, I1, C2, JR, JL, positive, negative, size1, size2
 
 
 def _with_jumps(

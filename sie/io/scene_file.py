@@ -53,14 +53,7 @@ from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
 from .profile_tables import profile_of
-from .scene_tables import (
-    LOADS,
-    TOP,
-    Naming,
-    remedy,
-    require,
-    values_of,
-)
+from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
 from .toml_values import text, texts
 
 

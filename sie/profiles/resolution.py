@@ -65,10 +65,7 @@ class Tolerance(NamedTuple):
 
 
 def resolved(
-    function: Callable[[Array], Array],
-    breaks: Array,
-    tol: float,
-    cuts: Array | None = None,
+    function: Callable[[Array], Array], breaks: Array, tol: float, cuts: Array | None = None
 ) -> tuple[Array, NDArray[np.int64]]:
     """A refinement of `breaks`, and the Chebyshev degree that resolves each piece.
 
