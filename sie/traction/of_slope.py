@@ -77,7 +77,7 @@ class SlopeDensity(Density):
     def _corner(self, x: float) -> float:
         return 0.0
 
-    # What a form must know, on 1-d arrays, in units of E*/2 and without the singular ends.
+    # A form defines these on 1-d arrays, in units of E*/2 and without the singular ends.
     @abstractmethod
     def _regular(self, x: Array) -> Array:
         """p inside the contact, x ascending."""

@@ -260,7 +260,7 @@ class SlidingGeometry(Geometry):
         return offset, angle, whole * w * smooth
 
     def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
-        """The same from each piece's Chebyshev series: it steers Newton's steps only."""
+        """The same from each piece's Chebyshev series; only Newton's steps depend on it."""
         half = np.maximum(0.5 * self.length[:, None], SHORTEST)
         series = self.chebyshev_slope(max(self.slope.degree + 1, 2))
         # rounding on a piece that short
