@@ -722,7 +722,8 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     """
     refuse_no_scene(scene)
     tol = arguments.tolerance(tol)
-    for name in arguments.listed("economy", economy, "a set of names"):
+    names = () if economy is ECONOMY else arguments.listed("economy", economy, "a set of names")
+    for name in names:
         if not arguments.among(name, ECONOMY):
             raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
     refuse_uncovered(scene)

@@ -318,18 +318,17 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
     return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
 
 
-def _search(
-    scene: Scene, slope: Slope, economy: Collection[str], axis: float | None = None
-) -> Search:
+def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:
     epsilon, keep_zero = scene.epsilon, "zero panels" not in economy
     G = 0.5 * scene.Estar * math.cos(math.pi * epsilon)
-    return Search(slope, G, axis, keep_zero, epsilon)
+    return Search(slope, G, None, keep_zero, epsilon)
 
 
 def _edges_at(tilt: float, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
     """The edges under the given load, or of the given half-width, at a given tilt."""
-    upright = "symmetry" in economy and tilt == scene.epsilon == 0.0
-    search = _search(scene, slope.tilted(tilt), economy, scene.profile.axis if upright else None)
+    search = _search(scene, slope.tilted(tilt), economy)
+    if "symmetry" in economy and tilt == search.epsilon == 0.0:
+        search.axis = scene.profile.axis
     if scene.half_width is not None:
         found = search.of_half_width(scene.half_width)
         if all(found.sharp):
