@@ -71,6 +71,22 @@ class EdgeIntegrals(NamedTuple):
             self.size1,
         )
 
+    def settled(self, before: Interval, after: Interval, target: float) -> EdgeIntegrals:
+        """The integrals of the contact with smooth edges that carries target = P/G, to which the
+        last small step leads from where these were taken.
+
+        That step adds p ~ (α + β (x - m)) / sqrt(r² - (x - m)²), which takes the tilt I0/π back:
+        the moment about x = 0 becomes G (m target - r² C2) with the m, r and C2 from before.
+        """
+        moved = 0.5 * (
+            (after.x1 - before.x1)
+            + (after.x2 - before.x2)
+            + (after.tail1 - before.tail1)
+            + (after.tail2 - before.tail2)
+        )
+        C2 = (before.r**2 * self.C2 + moved * target) / after.r**2
+        return self._replace(I0=0.0, I1=target / after.r, C2=C2)
+
     def balanced(self, r: float) -> EdgeIntegrals:
         """The integrals of the contact moved sideways until I0 = 0, for a small I0.
 

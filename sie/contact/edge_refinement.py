@@ -48,6 +48,7 @@ ROUNDINGS = 16.0 * EPS
 # r JR may vary like a power of the distance to the next break, or to where the profile touches
 # first.
 VARIES = 4.0
+SMALL_STEP = 4.0 * EPS  # of r: after a last step of at most that the integrals are as before
 # A step longer than this part of the distance to the next break follows what the break adds
 CLOSE = 0.25
 FARTHEST = 0.75  # of r, a step inwards
@@ -80,14 +81,15 @@ class Polish:
     # -- one of two edges is given, or none --------------------------------------------------------
 
     def both(
-        self, contact: Interval, target: float, left_sharp: bool
+        self, contact: Interval, target: float, left_sharp: bool, touch: tuple[float, float]
     ) -> tuple[Interval, EdgeIntegrals, bool]:
         """The contact that carries target = P/G, its edge integrals, and whether the residuals
-        came down to rounding.
+        came down to rounding. It holds all of `touch`, but for rounding where that is no break.
         """
-        lo, hi = self.slope.domain
-        left = Bracket((lo, 0.0), (contact.x2, contact.tail2))
-        right = Bracket((contact.x1, contact.tail1), (hi, 0.0))
+        (lo, hi), breaks = self.slope.domain, self.slope.break_points
+        z1, z2 = ((z, 0.0) if z in breaks else None for z in touch)
+        left = Bracket((lo, 0.0), z1 or (contact.x2, contact.tail2))
+        right = Bracket(z2 or (contact.x1, contact.tail1), (hi, 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -100,7 +102,7 @@ class Polish:
             rounding1, rounding2 = self.rounding(contact, k, target)
             missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
             if missed <= 1.0:
-                return wanted, k, True
+                return wanted, self.settled(k, contact, wanted, target, left_sharp), True
             # Signs within rounding bound nothing; where that of I0 is, both edges are too far out
             # or in
             askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
@@ -113,8 +115,9 @@ class Polish:
             earlier.append(missed)
             x1, tail1 = contact.x1, contact.tail1
             if not left_sharp:
-                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
-            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
+                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow, (x1, tail1))
+            here = contact.x2, contact.tail2
+            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow, here)
             moved = _kept_apart(contact, Interval(x1, x2, tail1, tail2))
             if moved == contact:
                 break
@@ -240,6 +243,18 @@ class Polish:
         if to_right <= to_left:
             return self.outwards(contact, RIGHT, over, rise, 0.5)
         return -self.outwards(contact, LEFT, -over, rise, 0.5)
+
+    def settled(
+        self, k: EdgeIntegrals, contact: Interval, moved: Interval, target: float, left_sharp: bool
+    ) -> EdgeIntegrals:
+        """The integrals after the last step, whose first order is enough where no edge is sharp."""
+        if not left_sharp and not self.epsilon:
+            return k.settled(contact, moved, target)
+        steps = (
+            abs((moved.x1 - contact.x1) + (moved.tail1 - contact.tail1)),
+            abs((moved.x2 - contact.x2) + (moved.tail2 - contact.tail2)),
+        )
+        return self.evaluate(moved) if max(steps) > SMALL_STEP * contact.r else k
 
     # -- a step ------------------------------------------------------------------------------------
 

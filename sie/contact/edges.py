@@ -348,7 +348,7 @@ class Search:
 
         Raises LoadError if that ends where the load is not carried: between two bumps of a profile.
         """
-        contact, k, settled = self.polish.both(contact, target, left_sharp)
+        contact, k, settled = self.polish.both(contact, target, left_sharp, self.touch())
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
             seen = contact.mirrored() if self.mirrored else contact
