@@ -47,6 +47,6 @@ def kept_stages(old: Scene, new: Scene) -> frozenset[str]:
     pairs = ((name, getattr(new, name), getattr(old, name)) for name in SHEAR)
     changed = {name for name, now, before in pairs if now is not before and now != before}
     # One equation then gives pressure and shear: what changes the one changes the other.
-    if (old.bonded or old.coupled) and changed:
-        changed.add("bonded")
+    if changed:
+        changed |= {name for name in ("bonded", "coupled") if getattr(old, name)}
     return frozenset(stage for stage, needs in STAGES.items() if not changed & needs)
