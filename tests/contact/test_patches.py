@@ -332,13 +332,6 @@ def test_what_is_not_covered_is_refused_with_the_reason(asked, words):
         _ = solution.check(), solution.stick
 
 
-def test_a_load_path_on_several_patches_is_refused():
-    scene = sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, friction=0.5)
-    path = sie.Path([(0.4, 0.0), (0.4, 0.1), (0.4, -0.1)])
-    with pytest.raises(sie.ContactError, match="2 patches"):
-        _ = sie.follow(scene, path)[-1].stick
-
-
 @given(st.integers(0, 10**9))
 @settings(max_examples=20, deadline=None)
 def test_a_random_row_is_certified_or_refused(seed):
