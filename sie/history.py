@@ -39,6 +39,7 @@ from .friction.states import OneSignedSlip, Slip
 from .numerics.interval import EPS, Interval
 from .numerics.zones import left_over, within
 from .patches.answer import SeveralPatches
+from .patches.dissipation import PatchDissipation, Untouched
 from .patches.full import FullContact
 from .problem.load_path import Path
 from .problem.request import ECONOMY
@@ -267,7 +268,8 @@ class History(Sequence[Solution]):
                 self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
                 for P, o in zip(loads, layers, strict=True)
             ]
-        return self.dissipation.of_fronts(loads, layers, self.scene.friction).tolist()
+        of_fronts = (self.dissipation if self.in_one_patch else self.work_in_patches).of_fronts
+        return of_fronts(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
         return dissipated(self.first_loading(P, depth)) if depth else 0.0
@@ -281,6 +283,19 @@ class History(Sequence[Solution]):
             self.tol,
             self.economy,
         )
+
+    @cached_property
+    def work_in_patches(self) -> PatchDissipation:
+        """The dissipated energy where the contact is not one patch under every load."""
+        widest = self.plain(self.largest).in_patches
+
+        def under(P: float) -> SeveralPatches | FullContact | Untouched:
+            tilt = widest.edges.tilt
+            if P > 0.0:
+                return self.under(P, tilt)
+            return Untouched(self.scene.profile, tilt, widest.patches)
+
+        return PatchDissipation(under, self.largest, self.period)
 
 
 class KnownZones:

@@ -27,20 +27,20 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.friction.load_limit import remaining
 from sie.friction.states import Slip
-from sie.numerics import chebyshev
 from sie.numerics.zones import Zones, left_over, within
 from sie.problem.scene import Scene
 from sie.traction.base import Density
 from sie.traction.combination import superposed
 
 from .answer import SeveralPatches
+from .dissipation import Level, Untouched, slip_rule, work
 from .full import FullContact
 from .newton import conditions, punch
 from .operator import edge_ratio
 
 Array = NDArray[np.float64]
 
-NODES = 40  # between two edges of patches and stick zones
+SCANNED = 40  # places on each stick zone
 WITHIN = 1e-9  # of the width of all patches, and of the peak: by less p* may exceed 2p
 Contact = SeveralPatches | FullContact
 # The contact under a load and a tilt.
@@ -70,16 +70,11 @@ class PatchSlip(Slip):
         self.sign = 1.0 if self.Q > 0.0 else -1.0
         self.contact = full.edges.contact
 
-    @property
-    def slides(self) -> bool:
-        return abs(self.Q) == self.friction * self.full.edges.normal_load
-
     @cached_property
-    def corrective(self) -> Contact | None:
-        """p*; None in full sliding."""
+    def corrective(self) -> Level:
+        """p* and its gap; the untouched profile in full sliding."""
         edges, f = self.full.edges, self.friction
-        if self.slides:
-            return None
+        tilt = edges.tilt - self.sign * self.tau / (f * 0.5 * self.scene.Estar)
         if self.tau != 0.0 and math.isfinite(self.period):
             raise ContactError(
                 f"bulk_stress = {self.scene.bulk_stress:g} in one of two bodies that meet "
@@ -92,9 +87,9 @@ class PatchSlip(Slip):
                 "patches slip both ways: "
                 "that is not covered on several patches; give tangential_load"
             )
-        load = remaining(f, edges.normal_load, self.Q)
-        tilt = edges.tilt - self.sign * self.tau / (f * 0.5 * self.scene.Estar)
-        reduced = self.under(load, tilt)
+        if abs(self.Q) == f * edges.normal_load:
+            return Untouched(self.scene.profile, tilt, self.full.patches)
+        reduced = self.under(remaining(f, edges.normal_load, self.Q), tilt)
         if self.tau != 0.0:
             self._verify(reduced)
         return reduced
@@ -103,7 +98,7 @@ class PatchSlip(Slip):
         """Refuse stick zones beyond the patches, or |q| > f p there."""
         room = WITHIN * 2.0 * self.contact.r
         wider = tuple((a - room, b + room) for a, b in self.full.patches)
-        x, _ = angular_rule(reduced.patches)
+        x = _places(reduced.patches)
         p, p_star = self.full.pressure(x), reduced.pressure(x)
         if left_over(reduced.patches, wider) or (p_star > 2.0 * p + WITHIN * p.max()).any():
             raise ContactError(
@@ -131,8 +126,6 @@ class PatchSlip(Slip):
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         """Per period those in the period of the patches."""
-        if self.corrective is None:
-            return ()
         zones, start = self.corrective.patches, self.full.patches[0][0]
         if math.isinf(self.period):
             return zones
@@ -147,11 +140,11 @@ class PatchSlip(Slip):
     @property
     def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
         f = self.sign * self.friction
-        return f, () if self.corrective is None else ((-f, self.corrective.pressure),)
+        return f, ((-f, self.corrective.pressure),)
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        return () if self.corrective is None else (self.corrective,)
+        return () if isinstance(self.corrective, Untouched) else (self.corrective,)
 
     @cached_property
     def shear(self) -> Density:
@@ -162,10 +155,6 @@ class PatchSlip(Slip):
         """g at x (1-d): 0 in stick and beside the patches."""
         out = np.where(np.isnan(x), np.nan, 0.0)
         inside = within(x, self.full.patches, self.period)
-        if self.corrective is None:
-            raise ContactError(
-                "all patches slide: how far is not determined; lower tangential_load below f P"
-            )
         if inside.any():
             out[inside] = self.sign * self.friction * self.corrective.gap(x[inside])
         return out
@@ -178,37 +167,27 @@ class PatchSlip(Slip):
 
     @cached_property
     def energy(self) -> float:
-        x, weight = self._rule()
-        return float(self.friction * (weight * self.full.pressure(x)) @ np.abs(self.slip(x)))
+        return self.friction**2 * work(self.corrective, self.full, self.period)
 
     @cached_property
     def shift(self) -> float:
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
+        points, weight = slip_rule(self.full, self.stick, self.period)
+        slip = self.slip(points.x)
         if isinstance(self.full, FullContact):
-            x, weight = self._rule()
-            return float(weight @ self.slip(x)) / self.scene.profile.period
+            return float(weight @ slip) / self.period
         o = self.full.found.operator
         P = o.patches
-        unit = punch(o)
-        x, weight = self._rule()
-        points, k, _ = self.full.pressure.placed(x)
+        _, k, _ = self.full.pressure.placed(points.x)
         T, _ = o.root(k, points)
         rho = edge_ratio(P, np.arange(P.number))[k]
-        D = -(
-            unit * rho / P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
-        ).sum(axis=1)
-        return float((weight * np.abs(T) * D / np.pi) @ self.slip(x))
-
-    def _rule(self) -> tuple[Array, Array]:
-        return angular_rule(left_over(self.full.patches, self.stick, self.period))
+        apart = P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
+        D = -(punch(o) * rho / apart).sum(axis=1)
+        return float((weight * np.abs(T) * D / np.pi) @ slip)
 
 
-def angular_rule(zones: Zones) -> tuple[Array, Array]:
-    """Places and weights on zones, in the angle between their ends."""
-    if not zones:
-        return np.zeros(0), np.zeros(0)
-    g, w = chebyshev.gauss_legendre(NODES)
-    lo, hi = np.array(zones).T
-    half = 0.5 * (hi - lo)[:, None]
-    x = lo[:, None] + 2.0 * half * np.sin(0.5 * np.pi * g) ** 2
-    return x.ravel(), (half * np.sin(np.pi * g) * np.pi * w).ravel()
+def _places(zones: Zones) -> Array:
+    """Places on zones, close to their ends too."""
+    lo, hi = np.array(zones).T[..., None]
+    share = np.sin(0.5 * np.pi * (np.arange(SCANNED) + 0.5) / SCANNED) ** 2
+    return np.asarray((lo + (hi - lo) * share).ravel())

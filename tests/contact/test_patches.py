@@ -216,6 +216,16 @@ def test_the_gap_opens_as_the_potential_says(name):
     assert opened[finite] == pytest.approx(H[finite], abs=1e-6)
 
 
+@pytest.mark.parametrize("load", [1e-4, 1e-2])
+def test_the_gap_is_known_far_beyond_a_light_contact(load):
+    """Beside contact g = h - h(0) less what the load presses in, which is about P ln(x/r)."""
+    profile = sie.FromFunction("x - 0.6*sin(12*x + 0.7)", domain=(-2.0, 2.0))
+    solution = solved(profile=profile, normal_load=load)
+    x = np.array([-1.9, -1.0, 1.0, 1.9])
+    raised = profile.height(x) - float(profile.height(np.array([solution.centre]))[0])
+    assert solution.gap(x) == pytest.approx(raised, abs=20.0 * load)
+
+
 def test_a_shift_by_a_period_changes_nothing():
     solution = solved(**SCENES["wave"])
     x = np.linspace(-3.0, 3.0, 13)

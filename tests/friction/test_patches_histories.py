@@ -3,6 +3,9 @@
 The mesh solver does not use superposition.
 """
 
+from dataclasses import replace
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,6 +13,7 @@ from hypothesis import strategies as st
 
 import sie
 from oracles.kalker_patches import PatchMesh
+from sie.numerics import chebyshev
 from sie.numerics.zones import left_over
 
 F = 0.5
@@ -113,3 +117,82 @@ def test_histories_agree_with_a_mesh_to_its_error(name, seed):
     coarse, fine = np.array(errors)
     assert fine[::2].max() < 5e-3 and fine[1::2].max() < 5e-2
     assert fine[::2].sum() < 0.5 * coarse[::2].sum()
+
+
+# -- energy ----------------------------------------------------------------------------------------
+
+
+def oblique(P):
+    """Loads that rise and fall together, with slip and without."""
+    Q = F * P
+    points = [
+        (P, 0.6 * Q),
+        (0.8 * P, 0.5 * Q),
+        (0.9 * P, -0.3 * Q),
+        (P, 0.8 * Q),
+        (0.9 * P, 0.9 * Q),
+    ]
+    return sie.Path(points)
+
+
+@pytest.mark.parametrize("name", ["row", "wavy punch", "merged patches", "full contact"])
+def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
+    scene = SCENES[name]
+    path = oblique(scene.normal_load)
+    lost = [point.energy_lost for point in sie.follow(scene, path)]
+    parts = sie.follow(scene, path.subdivided(2))
+    assert [point.energy_lost for point in parts][::2] == pytest.approx(lost, rel=1e-10)
+
+
+def test_energy_of_a_row_of_one_is_that_of_its_profile():
+    row = sie.Scene(modulus=1.0, profile=sie.Row([TWO.profiles[0]]), normal_load=0.4, friction=F)
+    one = sie.Scene(modulus=1.0, profile=TWO.profiles[0], normal_load=0.4, friction=F)
+    lost = [[s.energy_lost for s in sie.follow(scene, oblique(0.4))] for scene in (row, one)]
+    assert lost[0] == pytest.approx(lost[1], rel=1e-10)
+
+
+def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
+    """∮Q dδ by Gauss' rule on one branch, which the other mirrors."""
+    scene = SCENES["row"]
+    g, w = chebyshev.gauss_legendre(16)
+    Q = 0.6 * np.cos(np.pi * g)
+    history = at_constant_load(scene, 0.6, *Q, -0.6)
+    shift = np.array([s.shift for s in history][1:-1])
+    dQ = -0.6 * F * scene.normal_load * np.pi * np.sin(np.pi * g)
+    area = -2.0 * float((w * shift) @ dQ)
+    lost = history[-1].energy_lost - history[0].energy_lost
+    assert area == pytest.approx(2.0 * lost, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["row", "wavy punch"])
+def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name):
+    """In small steps; patches of the wavy punch appear on the way."""
+    scene = SCENES[name]
+    P = scene.normal_load
+    points = [(0.5 * P, 0.3 * F * P), (P, 0.9 * F * P), (0.8 * P, -0.1 * F * P)]
+    history = sie.follow(scene, sie.Path(points))
+    loads = [points[0]]
+    for start, end in pairwise(points):
+        loads += [tuple(v) for v in np.linspace(start, end, 13)[1:]]
+    pressures = {load: sie.solve(replace(scene, normal_load=load)).pressure for load, _ in loads}
+    mesh = PatchMesh(history[1].patches, 300, 1.0)
+    q, lost = np.zeros(len(mesh.x)), 0.0
+    for load, Q in loads:
+        bound = F * pressures[load](mesh.x)
+        q, moved = mesh.step(q, bound, Q, 0.0)
+        lost += mesh.h * float(np.abs(q * moved).sum())
+        if (load, Q) in points:
+            exact = history[points.index((load, Q))]
+            assert np.abs(q - exact.shear(mesh.x)).mean() < 2e-2 * bound.max()
+    assert lost == pytest.approx(history[-1].energy_lost, rel=3e-2)
+
+
+@each
+def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
+    nearly, sliding = (
+        sie.solve(at_constant_load(scene, part)[0].scene) for part in (1 - 1e-7, 1.0)
+    )
+    x = places(sliding)
+    assert sliding.stick == ()
+    assert sliding.slip(x) == pytest.approx(nearly.slip(x), abs=1e-5 * (1.0 + np.ptp(x)))
+    assert sliding.energy_lost == pytest.approx(nearly.energy_lost, rel=1e-4, abs=1e-12)
