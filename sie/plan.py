@@ -236,6 +236,9 @@ def _certificate(stages: set[str]) -> Step:
 
 
 def _resolution(scene: Scene, economy: Collection[str]) -> Step:
+    if asks_for_patches(scene.profile) and scene.profile.pieces.functions:
+        how = "the slope is a function: pieces of Chebyshev series where contact is possible"
+        return Step("resolution", True, how)
     if upright_law(scene, economy) is not None:
         return Step("resolution", False, "the slope is a power law: known exactly")
     if scene.profile.pieces.functions:
@@ -259,6 +262,8 @@ def _edges(scene: Scene, economy: Collection[str]) -> str:
 
 
 def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
+    if asks_for_patches(scene.profile):
+        return Step("symmetry", False, "the edges of all patches are unknown")
     tilted = scene.tilt != 0.0
     if scene.profile.axis is None or tilted or scene.epsilon or "symmetry" not in economy:
         reasons = (
@@ -302,6 +307,8 @@ def _tilt(scene: Scene) -> Step:
 
 
 def _pressure(scene: Scene, economy: Collection[str]) -> str:
+    if asks_for_patches(scene.profile):
+        return "values of the slope on all patches, summed: no unknown but the edges"
     if scene.epsilon:
         return "exact panels with the edges' exponents"
     if "transform" not in economy:
@@ -347,7 +354,8 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
         return Step(
             "slip",
             True,
-            "zones of stick and slip for Q at constant P, slip in one direction",
+            "zones of stick and slip for Q at constant P, slip in one direction"
+            + (" on all patches" if asks_for_patches(scene.profile) else ""),
             "tangential",
         )
     return Step(

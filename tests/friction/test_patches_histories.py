@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 
 import sie
 from oracles.kalker_patches import PatchMesh
+from sie.io.report import summary
+from sie.io.scene_file import SceneFile
 from sie.numerics import chebyshev
 from sie.numerics.zones import left_over
 
@@ -196,3 +198,35 @@ def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
     assert sliding.stick == ()
     assert sliding.slip(x) == pytest.approx(nearly.slip(x), abs=1e-5 * (1.0 + np.ptp(x)))
     assert sliding.energy_lost == pytest.approx(nearly.energy_lost, rel=1e-4, abs=1e-12)
+
+
+# -- what is written of it -------------------------------------------------------------------------
+
+
+def test_the_table_of_a_path_lists_the_stick_zones_of_every_patch():
+    scene = SCENES["row"]
+    path = ((0.4, 0.0, 0.0), (0.4, 0.12, 0.0))
+    last = sie.follow(scene, sie.Path(path))[-1]
+    table = summary(last, SceneFile(last.scene, path=path, want=("shear",))).split("energy lost")[
+        -1
+    ]
+    for lo, hi in last.stick:
+        assert f"{lo:.6g}" in table and f"{hi:.6g}" in table
+
+
+def test_many_zones_are_summed_in_a_report():
+    teeth = sie.Row([sie.Parabola(1.0).shifted(float(k)) for k in range(10)])
+    scene = sie.Scene(modulus=1.0, profile=teeth, normal_load=0.1, friction=F, tangential_load=0.02)
+    solution = sie.solve(scene)
+    report = summary(solution, SceneFile(scene, want=("shear",)))
+    assert "in 10 zones, together" in report and "in 20 zones, together" in report
+
+
+@pytest.mark.parametrize("profile", [TWO, WAVES], ids=["row", "period"])
+def test_the_plan_of_several_patches_speaks_of_patches(profile):
+    scene = sie.Scene(
+        modulus=1.0, profile=profile, normal_load=0.4, friction=F, tangential_load=0.1
+    )
+    plan = str(sie.plan(scene, want="shear"))
+    assert "on all patches" in plan
+    assert "both edges" not in plan and "DCT" not in plan
