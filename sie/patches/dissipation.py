@@ -20,10 +20,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 from sie.friction.memory import SlippedLayer
 from sie.numerics.graded_rule import graded, on_panels
@@ -32,14 +32,13 @@ from sie.numerics.zones import Zones, left_over
 from sie.profiles.base import Profile
 from sie.traction.base import ZERO, Density
 
-from .answer import SeveralPatches
 from .chord import Points
-from .full import FullContact
 
 Array = NDArray[np.float64]
 
 SAME = 64.0 * EPS  # of the largest load: levels that differ by rounding
 LEVELS = ((32, 10), (200, 4), (2000, 1))  # of a graded rule where there are no more parts than ...
+SHRUNK = 14  # times an interval about a minimum: to the root of rounding, which is enough
 SAMPLES, LOWEST = 65, 8  # heights on a patch, and how many of their minima are refined
 
 
@@ -67,18 +66,32 @@ class Untouched:
         inner = np.flatnonzero((h[1:-1] <= h[:-2]) & (h[1:-1] <= h[2:])) + 1
         found = [float(h.min())]
         for k in inner[np.argsort(h[inner])][:LOWEST]:
-            bounds = (x[k - 1], x[k + 1])
-            found.append(float(minimize_scalar(self._scalar, bounds=bounds, method="bounded").fun))
+            found.append(self._lowest_between(float(x[k - 1]), float(x[k + 1])))
         return min(found)
 
-    def _scalar(self, x: float) -> float:
-        return float(self._height(np.array([x]))[0])
+    def _lowest_between(self, lo: float, hi: float) -> float:
+        """The minimum between two places with one minimum: an interval of a quarter each time."""
+        lowest = np.inf
+        for _ in range(SHRUNK):
+            x = np.linspace(lo, hi, 9)
+            h = self._height(x)
+            k = int(np.argmin(h))
+            lowest = min(lowest, float(h[k]))
+            lo, hi = float(x[max(k - 1, 0)]), float(x[min(k + 1, 8)])
+        return lowest
 
 
-Level = SeveralPatches | FullContact | Untouched
+class Level(Protocol):
+    """A contact without friction: its patches, the pressure on them, the gap beside."""
+
+    @property
+    def patches(self) -> tuple[tuple[float, float], ...]: ...
+    @property
+    def pressure(self) -> Density: ...
+    def gap(self, x: Array) -> Array: ...
 
 
-def work(lower: Level, upper: SeveralPatches | FullContact, period: float) -> float:
+def work(lower: Level, upper: Level, period: float) -> float:
     """E: the pressure of the upper level times the gap of the lower one."""
     places, weight = slip_rule(upper, lower.patches, period)
     p = upper.pressure(places.x)
@@ -86,9 +99,7 @@ def work(lower: Level, upper: SeveralPatches | FullContact, period: float) -> fl
     return float(np.where(np.isfinite(p), weight * p, 0.0) @ lower.gap(places.x))
 
 
-def slip_rule(
-    upper: SeveralPatches | FullContact, stick: Zones, period: float
-) -> tuple[Points, Array]:
+def slip_rule(upper: Level, stick: Zones, period: float) -> tuple[Points, Array]:
     """Places and weights on the patches beside the stick zones, in the angle between neighbouring
     ends of zones and breaks, and graded towards them.
     """
@@ -161,7 +172,5 @@ class PatchDissipation:
         if a > b:
             return -self._between(b, a)
         if (a, b) not in self._work:
-            upper = self.under(b)
-            assert not isinstance(upper, Untouched)
-            self._work[a, b] = work(self.under(a), upper, self.period)
+            self._work[a, b] = work(self.under(a), self.under(b), self.period)
         return self._work[a, b]

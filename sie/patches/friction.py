@@ -33,7 +33,7 @@ from sie.traction.base import Density
 from sie.traction.combination import superposed
 
 from .answer import SeveralPatches
-from .dissipation import Level, Untouched, slip_rule, work
+from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
 from .newton import conditions, punch
 from .operator import edge_ratio
@@ -71,7 +71,7 @@ class PatchSlip(Slip):
         self.contact = full.edges.contact
 
     @cached_property
-    def corrective(self) -> Level:
+    def corrective(self) -> Contact | Untouched:
         """p* and its gap; the untouched profile in full sliding."""
         edges, f = self.full.edges, self.friction
         tilt = edges.tilt - self.sign * self.tau / (f * 0.5 * self.scene.Estar)

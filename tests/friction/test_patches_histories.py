@@ -97,7 +97,7 @@ def test_patches_that_have_merged_stick_in_several_zones():
     assert len(solution.patches) < len(solution.stick)
 
 
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(st.sampled_from(["row", "wavy punch", "merged patches", "period"]), st.integers(0, 999))
 def test_histories_agree_with_a_mesh_to_its_error(name, seed):
     """First order: a third of the element, less than half of the error of q."""
@@ -175,7 +175,7 @@ def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name
     history = sie.follow(scene, sie.Path(points))
     loads = [points[0]]
     for start, end in pairwise(points):
-        loads += [tuple(v) for v in np.linspace(start, end, 13)[1:]]
+        loads += [tuple(v) for v in np.linspace(start, end, 9)[1:]]
     pressures = {load: sie.solve(replace(scene, normal_load=load)).pressure for load, _ in loads}
     mesh = PatchMesh(history[1].patches, 300, 1.0)
     q, lost = np.zeros(len(mesh.x)), 0.0
