@@ -16,7 +16,9 @@ NORMAL = frozenset(
 )
 SHEAR = NORMAL | {"friction", "tangential_load", "sliding", "bulk_stress", "dundurs"}
 STAGES = {
-    **dict.fromkeys(("unverified", "density", "inequalities", "normal", "pressure"), NORMAL),
+    **dict.fromkeys(
+        ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
+    ),
     **dict.fromkeys(("bonded", "coupled", "tangential", "dissipated", "certificate"), SHEAR),
 }
 
