@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
+from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
@@ -27,8 +28,12 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
-from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
-from .friction.coupled_traction import CoupledTraction
+from .friction.coupled_contact import CoupledContact
+from .friction.coupled_normal import coupled_contact
+from .friction.coupled_refusals import refuse_unsolved
+from .friction.coupled_sheared import ShearedContact, sheared_contact
+from .friction.coupled_tangential import TangentialSearch, tangential_search
+from .friction.coupled_traction import OnHalves
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
@@ -85,6 +90,8 @@ NEGLECTED = (
 _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
 )
+_PRESSED_FIELDS = (_NORMAL_FIELDS - {"coupled"}) | {"friction", "dundurs"}
+_STAGES |= dict.fromkeys(("pressed", "tangential_search"), _PRESSED_FIELDS)
 _STAGES |= dict.fromkeys(
     ("bonded", "coupled", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS
 )
@@ -129,7 +136,7 @@ class Solution:
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
-            return Normal(self.coupled[0], True)
+            return Normal(self.coupled[0], not self.scene.tangential_load)
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
@@ -203,10 +210,24 @@ class Solution:
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact]:
+    def coupled(self) -> tuple[Edges, CoupledContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
-        frictionless = partial(normal_contact, tol=self.tol, economy=ECONOMY)
-        return coupled_contact(self.scene, self.tol, frictionless)
+        if self.scene.tangential_load:
+            return sheared_contact(self.scene, self.tangential_search)
+        return self.pressed
+
+    @cached_property
+    def pressed(self) -> tuple[Edges, CoupledContact]:
+        """The same under the normal load alone."""
+        return coupled_contact(self.scene, self._frictionless)
+
+    @cached_property
+    def tangential_search(self) -> TangentialSearch:
+        """The search for the zones of dissimilar bodies under any tangential load after that."""
+        return tangential_search(self.scene, self.pressed[1], self._frictionless)
+
+    def _frictionless(self, scene: Scene) -> Normal:
+        return normal_contact(scene, self.tol, ECONOMY)
 
     @property
     def normal_and_shear(self) -> JacobiDensity:
@@ -215,7 +236,7 @@ class Solution:
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component | CoupledTraction:
+    def pressure(self) -> SlopeDensity | Component | OnHalves:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns
@@ -248,7 +269,9 @@ class Solution:
         """Whether the shear is found after the pressure: partial slip, or similar bodies
         sliding.
         """
-        return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
+        scene = self.scene
+        elsewhere = scene.epsilon or scene.bonded or scene.coupled
+        return sheared(scene, self.economy) and not elsewhere
 
     @property
     def carries_shear(self) -> bool:
@@ -287,7 +310,10 @@ class Solution:
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self.scene.coupled:
-            return coupled_certificate(self.coupled[1], self.scene, self.tol)
+            state = self.coupled[1]
+            if isinstance(state, ShearedContact):
+                return sheared_certificate(state, self.scene, self.tol)
+            return coupled_certificate(state, self.scene, self.tol)
         if self._several is not None:
             stages = [self._several]
             if self.sheared and isinstance(self.tangential, PatchSlip):
@@ -501,6 +527,11 @@ class Solution:
         Johnson, Contact Mechanics (1985), § 2.2.
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled and self.scene.tangential_load:
+            raise ContactError(
+                f"the shift of dissimilar bodies (β = {self.scene.beta:.4g}) is counted from that "
+                "without slip, which oscillates next to the edges and is not solved; `slip` is"
+            )
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:
@@ -795,11 +826,5 @@ def _refuse_uncovered(scene: Scene) -> None:
         return
     if scene.normal_load is not None and not scene.slides:
         refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
-    if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
-        raise ContactError(
-            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
-            "with friction: how it shifts their zones of stick is not solved; "
-            f"{NEGLECTED}; or set friction = 0"
-        )
-    if scene.coupled:
+    if scene.beta != 0.0 and scene.friction != 0.0 and (scene.coupled or scene.bulk_stress):
         refuse_unsolved(scene, NEGLECTED)

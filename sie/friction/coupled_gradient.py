@@ -8,7 +8,7 @@ the slip gradient γ̂(τ) of the flat punch under P = 1 on |t| < 1,
 as γ̂ = 0 for τ < c. A point y < s slips before it is touched, s < y, too. On c < τ the shear is f p
 beside a function that is regular there, so that (docs/derivations/coupled_slip.md)
 
-    γ̂ = (1 - β²) cos(πθ) χ S/β   next to c,      β (1 + f²) φ - J   for τ < 1,      f D - J   for τ > 1,
+    γ̂ = (1 - β²) cos(πθ) χ S/β  next to c,    β (1 + f²) φ - J  for τ < 1,    f D - J  for τ > 1,
 
 and ∫_a^y P' D(y/s) ds/s = E*/2 h' by (1).
 """

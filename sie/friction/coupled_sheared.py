@@ -1,19 +1,19 @@
 """Pressure, shear, slip and gap of dissimilar bodies under P, then Q.
 
-In the frame of `coupled_tangential` (axis at 0, β > 0, Q > 0), with p_d, γ_d, Ψ, χ of `coupled_zones`,
-V the pressure of full sliding without its singular ends k1, k2, and r = f p - q:
+In the frame of `coupled_tangential` (axis at 0, β > 0, Q > 0), with p_d, γ_d, Ψ, χ of
+`coupled_zones`, V the pressure of full sliding without its singular ends k1, k2, and r = f p - q:
 
-    stick       p = p_s + p_d,   (1 - β²) p_d = A - β γ_d,   H r + β f r = g,   q = f p - r
-    slip        p = V + (x2 - x)^(1/2+θ) (x - x1)^(1/2-θ) S,   q = f p,   γ = f E*/2 h' + β (1 + f²) p - H r
-    beside      1/π ∫p/(x - t) dt = V's + (k2 (x - x1) - k1 (x - x2))/(2 N) + χ Ψ
+    stick   p = p_s + p_d,  (1 - β²) p_d = A - β γ_d,       q = f p - r,  H r + β f r = g
+    slip    p = V + (x2 - x)^(1/2+θ) (x - x1)^(1/2-θ) S,    q = f p
+            γ = f E*/2 h' + β (1 + f²) p - H r
+    beside  H p = H p_s + χ Ψ
 
-S, smooth up to the edge, is what k1, k2 and χ Ψ leave there. β < 0 turns the signs of q and of the slip,
-and Q against the sign of β is the mirror image.
+S, smooth up to the edge, is what k1, k2 and χ Ψ leave there. β < 0 turns the signs of q and of the
+slip, and a Q against the sign of β is the mirror image.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -23,19 +23,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sie.contact.edges import Edges
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
+from sie.problem.scene import Scene
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
+from sie.traction.on_panels import SlidingDensity
 
 from .coupled_gradient import SlipGradient
-from .coupled_tangential import TangentialSearch, Trial
+from .coupled_iteration import Trial
+from .coupled_tangential import TangentialSearch
 from .coupled_traction import Panels, TwoSidedTraction, resolved_panels
 
 Array = NDArray[np.float64]
 
 DEGREE = 16
+BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are looked at
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
 RATIO, NEAREST = 3.0, 1e-14  # of panels towards an end: growth, and the first, in parts of the zone
 # Panels of the gap: the first, in half-widths, where H has a power of the distance; growth
@@ -146,7 +151,7 @@ class ShearedContact:
     # -- tractions, in the frame -------------------------------------------------------------------
 
     @cached_property
-    def _regular(self):
+    def _regular(self) -> SlidingDensity:
         """V."""
         return replace(self.state.sliding, k1=0.0, k2=0.0)
 
@@ -192,7 +197,9 @@ class ShearedContact:
         """S in a slip zone, nearer to the stick zone than to the edge."""
         (x1, e1, e2, x2), (a1, a2) = self.state.zones, self._exponents
         sliding, problem = self.state.sliding, self.state.problem
-        strength = (1.0 if on_right else -1.0) * self.search.beta * math.cos(math.pi * problem.map.theta)
+        strength = (
+            (1.0 if on_right else -1.0) * self.search.beta * math.cos(math.pi * problem.map.theta)
+        )
         ends = 0.5 * (sliding.k1 * (x2 - u) + sliding.k2 * (u - x1))
         both = ends + strength * np.abs(u - e2) ** a2 * np.abs(u - e1) ** a1 * problem.Psi(u)
         S: Array = both / ((x2 - u) * (u - x1))
@@ -216,8 +223,16 @@ class ShearedContact:
         return r
 
     def frame_shear(self, u: Array) -> Array:
-        """q."""
-        return self.friction * self.frame_pressure(u) - self.deficit(u)
+        """q; under a corner of the profile, where p is infinite, the mean of q on both sides."""
+        p = self.frame_pressure(u)
+        corner = np.isinf(p)
+        q = np.empty(len(u))
+        q[~corner] = self.friction * p[~corner] - self.deficit(u[~corner])
+        if corner.any():
+            aside = BESIDE * self.state.sliding.contact.r
+            beside = (self.frame_shear(u[corner] + step) for step in (-aside, aside))
+            q[corner] = 0.5 * sum(beside, np.zeros(int(corner.sum())))
+        return q
 
     def in_frame(self, x: Array) -> Array:
         """u of x, on the edges where x is."""
@@ -230,12 +245,20 @@ class ShearedContact:
 
     @cached_property
     def _gained(self) -> tuple[Integral, Integral]:
-        """E*/2 times the slip under Q: ∫(γ - that under P alone) from the left edge to e1, and from e2."""
+        """E*/2 times what the slip gains under Q, up to e1 and from e2: ∫(γ - that under P)."""
         (x1, e1, e2, x2), b = self.state.zones, self.search.normal.b
         cuts = self.search.gamma.cuts
         spread = b + (-x1 - b) * RATIO ** -np.arange(30.0)
         left = towards_ends(x1, e1, np.append(cuts, -spread))
         return integral(self._gain, left), integral(self._gain, towards_ends(e2, x2, cuts))
+
+    @property
+    def least_gain(self) -> float:
+        """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
+        law."""
+        left, right = self._gained
+        gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
+        return float(gained.min()) / float(np.abs(gained).max())
 
     def _gain(self, u: Array) -> Array:
         """γ - that under P alone, in slip."""
@@ -273,7 +296,7 @@ class ShearedContact:
         """Not known: raises ContactError."""
         raise ContactError(
             "the energy that dissimilar bodies (β != 0) dissipate under a tangential load is not "
-            "solved: it depends on all states on the way, and the certified answer is the last one; "
+            "solved: it is a sum over all states on the way to the last one, which alone is found; "
             "set tangential_load = 0 for that of the normal load, or give dundurs = 0 to neglect β"
         )
 
@@ -294,8 +317,9 @@ class ShearedContact:
         out[(flat < lo) | (flat > hi) | np.isinf(flat)] = np.inf
         (first, last), u = self.contact[:2], self.in_frame(flat)
         x1, _, _, x2 = self.state.zones
-        for edge, beside in ((first, flat < first), (last, flat > last)):
-            beside &= np.isfinite(flat) & (out == 0.0)
+        known = np.isfinite(flat) & (out == 0.0)
+        for edge, side in ((first, flat < first), (last, flat > last)):
+            beside = side & known
             if beside.any():
                 rise = profile.height(flat[beside]) - profile.height(np.array(edge))
                 on_right = (edge == last) == (self.flip > 0.0)
@@ -331,15 +355,25 @@ class ShearedContact:
         def halves() -> tuple[tuple[Panels, ...], tuple[Panels, ...]]:
             return self._half(at, 1.0, (pressure, shear)), self._half(at, -1.0, (pressure, shear))
 
-        P, f = self.search.normal.load, self.friction
+        P = self.search.normal.load
         about = self.flip * self.moment
         return (
             TwoSidedTraction(
-                pressure, lambda: tuple(half[0] for half in halves()), at, P, self.marks, self.contact,
+                pressure,
+                lambda: tuple(half[0] for half in halves()),
+                at,
+                P,
+                self.marks,
+                self.contact,
                 self.axis * P + about,
             ),
             TwoSidedTraction(
-                shear, lambda: tuple(half[1] for half in halves()), at, self.turn * self.Q, self.marks, self.contact,
+                shear,
+                lambda: tuple(half[1] for half in halves()),
+                at,
+                self.turn * self.Q,
+                self.marks,
+                self.contact,
             ),
         )
 
@@ -361,3 +395,15 @@ class ShearedContact:
         places = {*ends, *(self.axis + s * y for y in normal.marks for s in (-1.0, 1.0)), self.axis}
         kept = [x for x in places if lo < x < hi]
         return (lo, *sorted(kept), hi)
+
+
+def sheared_contact(scene: Scene, search: TangentialSearch) -> tuple[Edges, ShearedContact]:
+    """The edges and the state under the scene's Q; ContactError where none is found."""
+    sign = math.copysign(1.0, scene.beta)
+    flip = math.copysign(1.0, sign * scene.tangential_load)
+    Q = abs(scene.tangential_load)
+    state = ShearedContact(search, search.found(Q), Q, sign, flip)
+    P = search.normal.load
+    moment = state.axis * P + flip * state.moment
+    edges = Edges(state.contact, P, moment, 0.0, (False, False), 0.0, 0.0, 0.0, 0)
+    return edges, state

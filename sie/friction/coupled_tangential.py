@@ -1,15 +1,18 @@
-"""A tangential load on dissimilar bodies that were pressed together before: edges of contact and stick.
+"""A tangential load on dissimilar bodies pressed together before: the edges of contact and stick.
 
-P is constant, Q > 0 and β > 0 (other signs are mirror images). Both slip zones get the sign of Q: the
-right one grows from that of the normal load, a new one grows from the left edge, and the old left one
-sticks with the slip gradient γ that it had. As the zones move in one direction only, the state depends
-on Q alone. The four edges x1 < e1 < e2 < x2 meet four conditions,
+P is constant, Q > 0 and β > 0 (other signs are mirror images). Both slip zones get the sign of Q:
+the right one grows from that of the normal load, a new one grows from the left edge, and the old
+left one sticks with the slip gradient γ that it had. As the zones move in one direction only, the
+state depends on Q alone. The four edges x1 < e1 < e2 < x2 meet four conditions,
 
     ∫p_d dx = 0,    p finite at x1 and at x2,    f P - ∫(f p - q) dx = Q,
 
-with p = p_s + p_d, p_s full sliding on [x1, x2] under P (`on_panels`) and p_d of `coupled_zones`. The
-start joins what is known at both ends: at Q = 0 the zones of the normal load, and next to f P a stick
-zone x0 ± l sqrt(1 - Q/(f P)) where the slip gradient of full sliding, G = f E*/2 h' + β (1 + f²) p_s - γ,
+with p = p_s + p_d, p_s full sliding on [x1, x2] under P (`on_panels`) and p_d of `coupled_zones`.
+The start joins what is known at both ends: at Q = 0 the zones of the normal load, and next to f P a
+stick zone x0 ± l sqrt(1 - Q/(f P)) where the slip gradient of full sliding less γ,
+
+    G = f E*/2 h' + β (1 + f²) p_s - γ,
+
 passes zero; there f p - q solves the equation of a Hertzian contact, l² = 2 f P/(π G').
 """
 
@@ -17,16 +20,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import moments
+from sie.contact.pressure import Normal
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
+from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 from sie.traction.on_panels import SlidingDensity
@@ -35,19 +39,15 @@ from sie.traction.piece_quadrature import SlidingGeometry
 
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
+from .coupled_iteration import Trial, iterated
+from .coupled_refusals import refuse_corners
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
 Array = NDArray[np.float64]
 
-SETTLED = 1e-12  # of the conditions, each over its size
-STALLED = 1e-9  # such is the rounding of the conditions where zones are narrow
-STEP = 1e-6  # of a zone: a difference for the derivatives
-MOST_STEPS = 30
-KEPT = 0.2  # of each zone: what a step leaves of it at least
-LEAST = 1e-4  # part of a step
 NEARLY = 1e-9  # of the half-width, from the ends of what the zones may be
-# Where values are wanted: panels shrink to such parts of the half-width next to kinks, if they are few,
-# and of the stick zone at its ends; growth
+# Where values are wanted: panels shrink to such parts of the half-width next to kinks, if they are
+# few, and of the stick zone at its ends; growth
 DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-15, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
@@ -59,7 +59,7 @@ def sliding_pressure(
     slope: Slope, contact: Interval, half_modulus: float, epsilon: float, load: float
 ) -> SlidingDensity:
     """p in full sliding on any contact, with the singular ends that the load asks for."""
-    I = moments(slope, contact, None, False, epsilon)  # noqa: E741 -- as in `edges`
+    I = moments(slope, contact, None, False, epsilon)
     cos, r = math.cos(math.pi * epsilon), contact.r
     G = half_modulus * cos
     difference = 2.0 * G * cos * I.I0 / math.pi
@@ -67,19 +67,6 @@ def sliding_pressure(
     k1 = 0.5 * (weighted + (1.0 + 2.0 * epsilon) * difference)
     panels = Panels(SlidingGeometry(slope, contact, epsilon), I.I0)
     return SlidingDensity(contact, half_modulus, k1, k1 - difference, load, 0.0, panels)
-
-
-class Trial(NamedTuple):
-    """What four edges give: the parts of the state, and the conditions that they miss."""
-
-    zones: Zones
-    sliding: SlidingDensity
-    problem: StickProblem
-    missed: Array
-
-    @property
-    def error(self) -> float:
-        return float(np.abs(self.missed).max())
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,9 +102,7 @@ class TangentialSearch:
         """h' on straight pieces and series, as far as any contact may reach."""
         (x1, x2), b = self.widest, self.normal.b
         lo, hi = self.slope.domain
-        return refined(
-            self.slope, max(WINDOW * min(x1, -b), lo), min(WINDOW * max(x2, b), hi), EPS
-        )
+        return refined(self.slope, max(WINDOW * min(x1, -b), lo), min(WINDOW * max(x2, b), hi), EPS)
 
     @cached_property
     def gamma(self) -> Tabulated:
@@ -125,7 +110,9 @@ class TangentialSearch:
         state, gradient = self.normal, SlipGradient(self.normal.superposition, self.normal.ahead)
         (x1, x2), b = self.widest, state.b
         lo, hi = self.resolved_slope.domain
-        window = Interval(max(0.5 * (1.0 + WINDOW) * min(x1, -b), lo), min(0.5 * (1.0 + WINDOW) * max(x2, b), hi))
+        window = Interval(
+            max(0.5 * (1.0 + WINDOW) * min(x1, -b), lo), min(0.5 * (1.0 + WINDOW) * max(x2, b), hi)
+        )
         panels = Panels(SlidingGeometry(self.resolved_slope, window, -self.theta), 0.0)
         any_pressure = SlidingDensity(window, state.half_modulus, 0.0, 0.0, 0.0, 0.0, panels)
         return tabulated(
@@ -188,9 +175,7 @@ class TangentialSearch:
     def gradient_of_rest(self, sliding: SlidingDensity, rule: Rule) -> Array:
         """γ_d at the places of a rule."""
         f, beta = self.friction, self.beta
-        return (
-            self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * sliding(rule.x)
-        )
+        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * sliding(rule.x)
 
     # -- the search --------------------------------------------------------------------------------
 
@@ -201,10 +186,11 @@ class TangentialSearch:
             answer = self._followed(Q)
         if answer is None:
             raise ContactError(
-                f"no zones of stick and slip of this kind were found under tangential_load = {Q:g} "
-                f"(f P = {self.limit:g}, β f = {self.beta * self.friction:.3g}): as it grows, the left "
-                "edge of the stick zone does not stay in the contact of the normal load alone; lower "
-                "the friction, or give dundurs = 0 to neglect β"
+                f"dissimilar bodies with β f = {self.beta * self.friction:.3g} under |Q| = {Q:.6g} "
+                f"= {Q / self.limit:.3g} f P: where the contact spreads, surfaces stick that came "
+                "into contact under Q, and the slip gradient that they keep, which depends on "
+                "every state before, is not solved; change Q, lower the friction, or give dundurs "
+                "= 0 to neglect β"
             )
         return answer
 
@@ -242,80 +228,32 @@ class TangentialSearch:
         b = self.normal.b
         x1, x2 = (end + part * (edge - end) for end, edge in zip((-b, b), self.widest, strict=True))
         near = NEARLY * b
-        e1, e2 = max(e1, lo + near, x1 + near), min(e2, hi - near * (1.0 - hi / b) - EPS * b, x2 - near)
+        e1, e2 = (
+            max(e1, lo + near, x1 + near),
+            min(e2, hi - near * (1.0 - hi / b) - EPS * b, x2 - near),
+        )
         return np.array([x1, e1, e2, x2])
 
     def _newton(self, edges: Array, Q: float) -> Trial | None:
-        """Newton's method with differences, renewed where an update of the derivatives serves badly."""
         try:
-            return self._iterated(edges, Q)
+            return iterated(lambda at: self.trial(at, Q), edges, self._room)
         except (ArithmeticError, np.linalg.LinAlgError, ContactError):
             return None
 
-    def _iterated(self, edges: Array, Q: float) -> Trial | None:
-        if not self._allowed(edges):
-            return None
-        now = self.trial(edges, Q)
-        slopes: Array | None = None
-        best = math.inf
-        for _ in range(MOST_STEPS):
-            fresh = slopes is None
-            if slopes is None:
-                slopes = self._slopes(edges, Q, now.missed)
-            step = -np.linalg.solve(slopes, now.missed)
-            if not np.isfinite(step).all():
-                return None
-            moved = self._moved(edges, step, Q, now.error)
-            if moved is None:
-                if fresh:
-                    return now if now.error < STALLED else None
-                slopes = None
-                continue
-            new, part = moved
-            made = np.array(new.zones) - edges
-            gain = new.missed - now.missed - slopes @ made
-            slopes = slopes + np.outer(gain, made) / float(made @ made)
-            if part < 1.0 or new.error > 0.3 * now.error:
-                slopes = None
-            edges, before, now = np.array(new.zones), now, new
-            if now.error <= SETTLED:
-                return now
-            if now.error >= 0.5 * best and now.error < STALLED and fresh:
-                return now
-            best = min(best, now.error)
-        return now if now.error < STALLED else None
-
-    def _allowed(self, edges: Array) -> bool:
+    def _room(self, edges: Array) -> Array:
+        """How far each edge may move either way, to the next edge or bound; not positive beyond."""
         lo, hi = self._bounds
-        (least, most), near = self.resolved_slope.domain, EPS * self.normal.b
-        inside = least < edges[0] and edges[3] < most
-        return bool(inside and (np.diff(edges) > near).all() and edges[1] > lo and edges[2] < hi)
-
-    def _slopes(self, edges: Array, Q: float, missed: Array) -> Array:
-        """∂(what is missed)/∂(edges)."""
-        gaps = np.diff(edges)
-        lo, hi = self._bounds
-        room = np.array(
-            [gaps[0], min(gaps[0], gaps[1], edges[1] - lo), min(gaps[1], gaps[2], hi - edges[2]), gaps[2]]
+        least, most = self.resolved_slope.domain
+        x1, e1, e2, x2 = edges.tolist()
+        left, stuck, right = e1 - x1, e2 - e1, x2 - e2
+        return np.array(
+            [
+                min(left, x1 - least),
+                min(left, stuck, e1 - lo),
+                min(stuck, right, hi - e2),
+                min(right, most - x2),
+            ]
         )
-        slopes = np.empty((4, 4))
-        for k in range(4):
-            other = edges.copy()
-            other[k] += STEP * room[k]
-            slopes[:, k] = (self.trial(other, Q).missed - missed) / (other[k] - edges[k])
-        return slopes
-
-    def _moved(self, edges: Array, step: Array, Q: float, error: float) -> tuple[Trial, float] | None:
-        """The trial after as much of the step as keeps the order of the edges and misses less."""
-        part = 1.0
-        while part >= LEAST:
-            new = edges + part * step
-            if (np.diff(new) > KEPT * np.diff(edges)).all() and self._allowed(new):
-                trial = self.trial(new, Q)
-                if trial.error < (1.0 - 0.1 * part) * error or trial.error < SETTLED:
-                    return trial, part
-            part *= 0.5
-        return None
 
     def _followed(self, Q: float) -> Trial | None:
         """The state under Q, from those under other loads."""
@@ -346,3 +284,26 @@ class TangentialSearch:
             change = (np.array(found.zones) - edges) / (to - angle)
             edges, angle = np.array(found.zones), to
         return None
+
+
+def tangential_search(
+    scene: Scene, normal: CoupledContact, frictionless: Callable[[Scene], Normal]
+) -> TangentialSearch:
+    """The search under the scene's P; ContactError for contacts that end at corners.
+
+    `frictionless` solves the normal problem of a scene, full sliding included.
+    """
+    sliding = Scene(
+        profile=scene.profile,
+        modulus=scene.Estar,
+        dundurs=abs(scene.beta),
+        friction=scene.friction,
+        normal_load=normal.load,
+        sliding=1,
+    )
+    edges = frictionless(sliding).edges
+    if normal.corner_load or any(edges.sharp):
+        refuse_corners(scene)
+    widest = edges.contact.x1 - normal.axis, edges.contact.x2 - normal.axis
+    slope = scene.profile.pieces.shifted(-normal.axis) if normal.axis else scene.profile.pieces
+    return TangentialSearch(normal, slope, scene.friction, widest)

@@ -101,10 +101,14 @@ class OnHalves(Density):
                     values.imag[real] *= side
                 else:
                     x = flat.real[real]
-                    values[real] = on_surface(values.real[real], self(x), side)
+                    values[real] = on_surface(values.real[real], self._on_surface(x), side)
             return values
 
         return self._in_plane(potential, z, side, derivative)
+
+    def _on_surface(self, x: Array) -> Array:
+        """The traction at x, as the potential has it."""
+        return self(x)
 
     def _potential(self, z: Any) -> Complex:
         return self._potentials(z, derivative=False)[0]
@@ -166,6 +170,14 @@ class TwoSidedTraction(OnHalves):
             return out + 0.0
 
         return on_line(value, x)
+
+    def _on_surface(self, x: Array) -> Array:
+        inside = (x >= self.contact.x1) & (x <= self.contact.x2)
+        y, out = x - self.middle, np.zeros(len(x))
+        for half, side in zip(self.halves, (1.0, -1.0), strict=True):
+            own = inside & (side * y >= 0.0)
+            out[own] = half.traction(side * y[own])
+        return out
 
     def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
         right, left = self.halves
@@ -248,6 +260,15 @@ class HalfPotential:
     """1/π ∫_0^b f(t)/(z - t) dt and its derivative, at Im z > 0, from panels of f."""
 
     panels: Panels
+
+    def traction(self, y: Array) -> Array:
+        """f at 0 <= y <= b."""
+        lo, hi, series, power = self.panels
+        y = np.minimum(y, hi[-1])
+        k = np.minimum(np.searchsorted(hi, y), len(hi) - 1)
+        part = (y - lo[k]) / (hi - lo)[k]
+        values: Array = chebyshev.evaluate(series.T[:, k], 2.0 * part - 1.0)
+        return values * np.where(k == len(hi) - 1, 1.0 - part, 1.0) ** power
 
     @cached_property
     def quadrature(self) -> tuple[Array, Array]:

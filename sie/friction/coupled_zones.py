@@ -1,7 +1,8 @@
-"""Coupled stick and slip in a contact whose edges and stick zone are given, under a tangential load.
+"""Coupled stick and slip in a contact whose edges and stick zone are given, under P and Q.
 
-The contact is [x1, x2], [e1, e2] sticks with the slip gradient γ, and on both sides q = f p (β > 0, Q >
-0). Full sliding under the whole load on the same contact, p_s, leaves a problem of a flat punch,
+The contact is [x1, x2], [e1, e2] sticks with the slip gradient γ, and on both sides q = f p
+(β > 0, Q > 0). Full sliding under the whole load on the same contact, p_s, leaves a problem of a
+flat punch,
 
     p_d = p - p_s,   γ_d = γ - f E*/2 h' - β (1 + f²) p_s,   F = 1/π ∫p_d/(z - t) dt = χ Ψ,
     χ = |(x - e2)/(x - x2)|^a2 |(x - e1)/(x - x1)|^a1,   Ψ = 1/π ∫(p_d/χ)/(z - t) dt,
@@ -11,13 +12,13 @@ a1 = 1/2 + θ, a2 = 1/2 - θ, tan πθ = β f, ∫p_d dt = 0. As in docs/derivat
     A = -1/π ∫ F/(x - η) dη beside the contact,      (1 - β²) p_d = A - β γ_d   in stick.
 
 A map x -> y, a ratio of linear functions, takes x1, e1, e2, x2 to -1/k, -1, 1, 1/k, and the surface
-beside the contact, through infinity, to y = 1/(k s), |s| < 1. With the denominator n(y) of the map both
-steps are one symmetric kernel, A/n = K Φ/π², Φ = K (p_d/n),
+beside the contact, through infinity, to y = 1/(k s), |s| < 1. With the denominator n(y) of the map
+both steps are one symmetric kernel, A/n = K Φ/π², Φ = K (p_d/n),
 
     K v(s) = ∫ W v/(1 - k s y) dy,      W = ((1 - k y)/(1 - y))^a2 ((1 + k y)/(1 + y))^a1,
 
-which a Gauss-Jacobi rule in u, y = sn u, resolves for all k. γ_d has kinks: it is integrated on panels.
-All of Φ is of the order of β, and is kept divided by it.
+which a Gauss-Jacobi rule in u, y = sn u, resolves for all k. γ_d has kinks: it is integrated on
+panels. All of Φ is of the order of β, and is kept divided by it.
 """
 
 from __future__ import annotations
@@ -80,7 +81,10 @@ def stick_rule(zones: Zones, exponents: tuple[float, float], cuts: Array, neares
     half = 0.5 * zones.stuck
     sides = []
     for side, (end, beside, power) in enumerate(
-        ((zones.e1, zones.e1 - zones.x1, exponents[0]), (zones.e2, zones.x2 - zones.e2, exponents[1]))
+        (
+            (zones.e1, zones.e1 - zones.x1, exponents[0]),
+            (zones.e2, zones.x2 - zones.e2, exponents[1]),
+        )
     ):
         ahead = np.sort(cuts - end if side == 0 else end - cuts)
         ends = np.concatenate(([0.0], ahead[(ahead > 0.0) & (ahead < half)], [half]))
@@ -150,7 +154,9 @@ class Map:
         same = (s_below < s_above)[:, None] == (y_below < y_above)
         s_near, y_near = np.minimum(s_below, s_above)[:, None], np.minimum(y_below, y_above)
         apart = s_near + y_near - s_near * y_near  # 1 - |s y|
-        values: Array = 1.0 / np.where(same, self.rest + self.k * apart, 1.0 + self.k * (1.0 - apart))
+        values: Array = 1.0 / np.where(
+            same, self.rest + self.k * apart, 1.0 + self.k * (1.0 - apart)
+        )
         return values
 
     def denominator(self, below: Array, above: Array) -> Array:
@@ -196,13 +202,15 @@ class Answer(NamedTuple):
 class StickProblem:
     """p_d/β in a contact with these zones, for γ_d at the places of the rule; Φ/β at the nodes."""
 
-    def __init__(self, zones: Zones, beta: float, friction: float, rule: Rule, gamma: Array) -> None:
+    def __init__(
+        self, zones: Zones, beta: float, friction: float, rule: Rule, gamma: Array
+    ) -> None:
         self.beta, self.friction, self.rule, self.gamma = beta, friction, rule, gamma
         self.map = Map(zones, math.atan(beta * friction) / math.pi)
         m = self.map
         nodes = (m.below, m.above)
         ends = np.array([2.0, 0.0, 1.0 + m.far]), np.array([0.0, 2.0, 1.0 - m.far])
-        s = tuple(np.append(node, end) for node, end in zip(nodes, ends, strict=True))
+        s = np.append(m.below, ends[0]), np.append(m.above, ends[1])
         own = m.kernel(s, nodes) * m.weight
         below, above, mass = m.of_rule(rule)
         source = -(m.kernel(s, (below, above)) @ (mass * gamma)) / (1.0 - beta * beta)
@@ -216,9 +224,7 @@ class StickProblem:
         system[n, :n], system[n, n] = whole[-1], -1.0
         solved = np.linalg.solve(system, np.append(source[:n], -source[-1]))
         self.Phi, self.missed = solved[:n], float(solved[n])
-        self.at_right, self.at_left, _ = (
-            whole[n:] @ self.Phi + source[n:] - self.missed
-        ).tolist()
+        self.at_right, self.at_left, _ = (whole[n:] @ self.Phi + source[n:] - self.missed).tolist()
         self.A = (own[:n] @ self.Phi) / math.pi**2  # A/(β n)
 
     @property
@@ -276,7 +282,10 @@ class StickProblem:
     def masses(self) -> Array:
         """p_d/(β χ) dx at the places of the rule."""
         (x1, _, _, x2), (a1, a2), rule = self.map.zones, self.map.exponents, self.rule
-        to_left, to_right = rule.left + (self.map.zones.e1 - x1), rule.right + (x2 - self.map.zones.e2)
+        to_left, to_right = (
+            rule.left + (self.map.zones.e1 - x1),
+            rule.right + (x2 - self.map.zones.e2),
+        )
         masses: Array = rule.weight * to_right**a2 * to_left**a1 * self.of_rule[0]
         return masses
 
