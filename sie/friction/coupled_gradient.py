@@ -35,6 +35,7 @@ RESOLVED = 1e-12  # of the size of the functions: the last coefficients of a pan
 FAINT = 1e-13  # of that size times the interval: what a short panel may miss
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
 ROUGH, SAME = 1e-8, 0.5
+HALVINGS = 14  # of the last panel, before its functions are looked at
 APART = 1e-9  # of the interval: marks that are nearer are one
 
 
@@ -145,6 +146,8 @@ def tabulated(
     b = marks[-1]
     kept = [m for m in marks[:-1] if APART * b < m < (1.0 - APART) * b]
     ends = [0.0, *(m for k, m in enumerate(kept) if m - (0.0, *kept)[k] > APART * b), b]
+    # Next to the end all of them have a power of the distance
+    ends[-1:] = [b - (b - ends[-2]) * 0.5**k for k in range(1, HALVINGS)] + [b]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
     todo = [(lo, hi, np.inf) for lo, hi in itertools.pairwise(ends)]
     done: list[tuple[float, float, Array]] = []

@@ -215,8 +215,11 @@ def test_slip_gradient_beside_a_flat_is_the_principal_value_of_its_shear():
 def test_quarter_periods_of_a_modulus_are_mpmaths(k):
     rest = math.sqrt((1.0 - k) * (1.0 + k))
     found = modulus_of(k, rest)
-    K, K_complement = float(mpmath.ellipk(k * k)), float(mpmath.ellipk(rest * rest))
-    assert found.K == pytest.approx(K, rel=1e-14)
+    context = mpmath.MPContext()
+    context.dps = 40
+    square = context.mpf(k) ** 2
+    K, K_complement = float(context.ellipk(square)), float(context.ellipk(1 - square))
+    assert pytest.approx(K, rel=1e-14) == found.K
     assert found.K_complement == pytest.approx(K_complement, rel=1e-14)
 
 
@@ -335,7 +338,7 @@ def test_plan_names_the_stages_that_are_filled():
     ("profile", "words"),
     [
         (sie.Flat(1.0), "corner of the indenter"),
-        (sie.Piecewise((-0.3, 0.3), ((-0.3, 1.0),)), "corner"),
+        (sie.Piecewise((-0.3, 0.3), ((0.0, 1.0),)), "corner"),
     ],
 )
 def test_sharp_edges_are_refused_with_the_width_of_the_zone_that_is_missing(profile, words):
@@ -344,7 +347,8 @@ def test_sharp_edges_are_refused_with_the_width_of_the_zone_that_is_missing(prof
 
 
 def test_width_of_the_zone_that_is_missing_follows_the_oscillation_of_a_bonded_edge():
-    with pytest.raises(sie.ContactError, match="about 6e-09 half-widths"):
+    width = math.exp(-math.pi * (0.5 * math.pi + math.atan(0.3)) / math.atanh(0.3))
+    with pytest.raises(sie.ContactError, match=f"about {width:.1g} half-widths"):
         _ = solved(sie.Flat(1.0)).edges
 
 
