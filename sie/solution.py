@@ -41,9 +41,9 @@ from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
-from .patches.certificate import PatchCertificate, worst_of
 from .patches.friction import PatchSlip
 from .patches.full import FullContact
+from .patches.result import PatchCertificate, worst_of
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene

@@ -328,8 +328,7 @@ def _reason(problem: Exception) -> str:
     if isinstance(problem, BrokenExecutor):
         return (
             "the process that computed this chunk died: its memory was exhausted, or a function "
-            "that is "
-            "wanted crashed; ask for these points alone, or with a smaller chunk"
+            "that is wanted crashed; ask for these points alone, or with a smaller chunk"
         )
     return (
         str(problem)

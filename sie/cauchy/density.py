@@ -82,10 +82,8 @@ class Part:
     def intensity_errors(self) -> tuple[float, float]:
         """Estimated relative errors of the intensities; infinite where one vanishes by chance."""
         p = jacobi.polynomials(self.weight, len(self.coefficients), np.array([-1.0, 1.0]))
-        values, off = (
-            np.abs(self.coefficients @ p),
-            np.linalg.norm(np.abs(p.T) * self.errors, axis=1),
-        )
+        values = np.abs(self.coefficients @ p)
+        off = np.linalg.norm(np.abs(p.T) * self.errors, axis=1)
         left, right = (
             e / v if v > 0.0 else math.copysign(math.inf, e)
             for e, v in zip(off.tolist(), values.tolist(), strict=True)
@@ -210,10 +208,8 @@ class Part:
         s, A = jacobi.analysis(self.weight, n)
         right, left = 1.0 - s, 1.0 + s
         to_right, to_left, rho, rest = self.map.distances(right, left)
-        psi, slope = (
-            jacobi.evaluate(self.weight, self.coefficients, s),
-            jacobi.derivative(self.weight, self.coefficients, s),
-        )
+        psi = jacobi.evaluate(self.weight, self.coefficients, s)
+        slope = jacobi.derivative(self.weight, self.coefficients, s)
         of_weight = (self.weight.beta * right - self.weight.alpha * left) / (right * left)
         values = (
             to_right

@@ -189,10 +189,8 @@ class CauchyEquation:
             )
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
-        ends, n = (
-            self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends,
-            len(self.interval),
-        )
+        ends = self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends
+        n = len(self.interval)
         if isinstance(ends, str) or (
             isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)
         ):

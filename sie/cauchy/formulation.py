@@ -206,9 +206,8 @@ def solved(matrix: Array, rhs: Array) -> Array:
     if not np.linalg.norm(found) <= SINGULAR * np.linalg.norm(rhs):
         raise ContactError(
             "the equation is singular: its homogeneous form has a solution that the side "
-            "conditions do not fix; "
-            "give conditions that are independent, for each interval one where both ends are "
-            "singular"
+            "conditions do not fix; give conditions that are independent, for each interval one "
+            "where both ends are singular"
         )
     return found
 

@@ -92,14 +92,10 @@ class System:
 
     def _kernel(self) -> tuple[Array | None, Array]:
         """k and all smooth parts, rows by columns, times ρ of the row, over ρ of the column."""
-        x, t = (
-            np.concatenate([b.x for b in self.blocks]),
-            np.concatenate([b.t for b in self.blocks]),
-        )
-        rho, rest = (
-            np.concatenate([b.rows[2] for b in self.blocks])[:, None],
-            np.concatenate([b.columns[2] for b in self.blocks]),
-        )
+        x = np.concatenate([b.x for b in self.blocks])
+        t = np.concatenate([b.t for b in self.blocks])
+        rho = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
+        rest = np.concatenate([b.columns[2] for b in self.blocks])
         regular = (
             None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
         )

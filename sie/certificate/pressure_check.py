@@ -47,9 +47,8 @@ TOGETHER = 2**17  # entries of a matrix that are computed at once
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
-    with np.errstate(
-        divide="ignore", invalid="ignore", over="ignore"
-    ):  # what cannot be measured is infinite, and not ok
+    # What cannot be measured is infinite, and not ok.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return _measured(density, slope, tol)
 
 

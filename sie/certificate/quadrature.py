@@ -25,9 +25,8 @@ from sie.traction.piece_quadrature import edge_rule
 Array = NDArray[np.float64]
 
 FEW_BREAKS = 40
-TOWARDS_EDGE = np.array(
-    [0.0625, 0.125, 0.1875]
-)  # panels need no grading to an edge, but the residual is wanted near it
+# Panels need no grading to an edge, but the residual is wanted near it.
+TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])
 # What the last panel of a graded rule leaves is rounding with LEVELS for the logarithm under a
 # corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
 # x ln|x| under a corner of the slope.
@@ -161,9 +160,8 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
     parts = np.ceil(length / LONGEST).astype(int)
-    number = np.arange(parts.sum()) - np.repeat(
-        parts.cumsum() - parts, parts
-    )  # of each part within its piece
+    # The number of each part within its piece.
+    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)
     within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
     middle = 0.5 * (ends[:-1] + ends[1:])
     chosen = middle[_largest(middle, length)]

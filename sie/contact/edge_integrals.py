@@ -70,6 +70,22 @@ class Moments(NamedTuple):
             self.size1,
         )
 
+    def settled(self, before: Interval, after: Interval, target: float) -> Moments:
+        """The integrals of the contact with smooth edges that carries target = P/G, to which the
+        last small step leads from where these were taken.
+
+        That step adds p ~ (α + β (x - m)) / sqrt(r² - (x - m)²), which takes the tilt I0/π back:
+        the moment about x = 0 becomes G (m target - r² C2) with the m, r and C2 from before.
+        """
+        moved = 0.5 * (
+            (after.x1 - before.x1)
+            + (after.x2 - before.x2)
+            + (after.tail1 - before.tail1)
+            + (after.tail2 - before.tail2)
+        )
+        C2 = (before.r**2 * self.C2 + moved * target) / after.r**2
+        return self._replace(I0=0.0, I1=target / after.r, C2=C2)
+
     def balanced(self, r: float) -> Moments:
         """The integrals of the contact moved sideways until I0 = 0, for a small I0.
 
@@ -228,12 +244,10 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
         start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
     if at_right:
         hi_left, hi_right, length = width, 0.0, lo_right
-    a, b, c, d = (
-        math.sqrt(lo_left / width),
-        math.sqrt(lo_right / width),
-        math.sqrt(hi_left / width),
-        math.sqrt(hi_right / width),
-    )
+    a = math.sqrt(lo_left / width)
+    b = math.sqrt(lo_right / width)
+    c = math.sqrt(hi_left / width)
+    d = math.sqrt(hi_right / width)
     angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
     left = lo_left + hi_left < width
     from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
@@ -261,9 +275,8 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             dH = dH * y + H
             H = H * y + v
         at = middle + sign * half_step
-        near = (
-            2.0 * sin(0.5 * at) ** 2
-        )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        # 1 + sin φ from the left edge, 1 - sin φ from the right one.
+        near = 2.0 * sin(0.5 * at) ** 2
         cos_phi, sin_phi = sin(at), sign * (near - 1.0)
         w = angle * weight
         wH, wdH = w * H, w * dH

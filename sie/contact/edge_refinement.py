@@ -48,6 +48,7 @@ ROUNDINGS = 16.0 * EPS
 # r JR may vary like a power of the distance to the next break, or to where the profile touches
 # first.
 VARIES = 4.0
+SMALL_STEP = 4.0 * EPS  # of r: after a last step of at most that the integrals are as before
 # A step longer than this part of the distance to the next break follows what the break adds
 CLOSE = 0.25
 FARTHEST = 0.75  # of r, a step inwards
@@ -80,16 +81,15 @@ class Polish:
     # -- one of two edges is given, or none --------------------------------------------------------
 
     def both(
-        self, contact: Interval, target: float, left_sharp: bool
+        self, contact: Interval, target: float, left_sharp: bool, touch: tuple[float, float]
     ) -> tuple[Interval, Moments, bool]:
         """The contact that carries target = P/G, its moments, and whether the residuals came down
-        to rounding.
+        to rounding. It holds all of `touch`, but for rounding where that is no break.
         """
-        lo, hi = self.slope.domain
-        left, right = (
-            Bracket((lo, 0.0), (contact.x2, contact.tail2)),
-            Bracket((contact.x1, contact.tail1), (hi, 0.0)),
-        )
+        (lo, hi), breaks = self.slope.domain, self.slope.break_points
+        z1, z2 = ((z, 0.0) if z in breaks else None for z in touch)
+        left = Bracket((lo, 0.0), z1 or (contact.x2, contact.tail2))
+        right = Bracket(z2 or (contact.x1, contact.tail1), (hi, 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -102,7 +102,7 @@ class Polish:
             rounding1, rounding2 = self.rounding(contact, k, target)
             missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
             if missed <= 1.0:
-                return wanted, k, True
+                return wanted, self.settled(k, contact, wanted, target, left_sharp), True
             # Signs within rounding bound nothing; where that of I0 is, both edges are too far out
             # or in
             askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
@@ -115,8 +115,9 @@ class Polish:
             earlier.append(missed)
             x1, tail1 = contact.x1, contact.tail1
             if not left_sharp:
-                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
-            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
+                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow, (x1, tail1))
+            here = contact.x2, contact.tail2
+            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow, here)
             most = FARTHEST * r  # inwards: the edges must not pass each other
             if contact.from_left(x1) + tail1 > most:
                 x1, tail1 = two_sum(contact.x1, most + contact.tail1)
@@ -146,10 +147,8 @@ class Polish:
         tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
         for _ in range(MAX_BALANCING):
             k, r = tilted(contact, tilt), contact.r
-            half, turned = (
-                0.5 * (r * k.I1 - target),
-                target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0),
-            )
+            half = 0.5 * (r * k.I1 - target)
+            turned = target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
             rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
             if not (rise1 > 0.0 and rise2 > 0.0):
                 return None
@@ -242,15 +241,25 @@ class Polish:
         """How far right both edges move so that over = r I0 vanishes; the edge next to a break
         tells.
         """
-        to_left, to_right = (
-            abs(self.nearest(contact, LEFT)[1]),
-            abs(self.nearest(contact, RIGHT)[1]),
-        )
+        to_left = abs(self.nearest(contact, LEFT)[1])
+        to_right = abs(self.nearest(contact, RIGHT)[1])
         if abs(over) <= CLOSE * rise * min(to_left, to_right):
             return -over / rise
         if to_right <= to_left:
             return self.outwards(contact, RIGHT, over, rise, 0.5)
         return -self.outwards(contact, LEFT, -over, rise, 0.5)
+
+    def settled(
+        self, k: Moments, contact: Interval, moved: Interval, target: float, left_sharp: bool
+    ) -> Moments:
+        """The integrals after the last step, whose first order is enough where no edge is sharp."""
+        if not left_sharp and not self.epsilon:
+            return k.settled(contact, moved, target)
+        steps = (
+            abs((moved.x1 - contact.x1) + (moved.tail1 - contact.tail1)),
+            abs((moved.x2 - contact.x2) + (moved.tail2 - contact.tail2)),
+        )
+        return self.evaluate(moved) if max(steps) > SMALL_STEP * contact.r else k
 
     # -- a step ------------------------------------------------------------------------------------
 
@@ -280,10 +289,8 @@ class Polish:
         if abs(newton) <= CLOSE * abs(d):
             return newton
         jump, kink = self.slope.corner(b)
-        B, C = (
-            share * math.sqrt(2.0 * contact.r) * jump,
-            share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink),
-        )
+        B = share * math.sqrt(2.0 * contact.r) * jump
+        C = share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink)
         A, behind = rise, -over + rise * d
         if d > 0.0:
             root = math.sqrt(d)

@@ -109,9 +109,8 @@ class Search:
     def _moments(self, contact: Interval) -> Moments:
         if self.axis is None:
             return moments(self.slope, contact, None, self.keep_zero, self.epsilon)
-        half = moments(
-            self.slope, contact, self.axis, self.keep_zero
-        )  # the symmetry makes the others zero
+        # The symmetry makes the others zero.
+        half = moments(self.slope, contact, self.axis, self.keep_zero)
         J0 = half.JR + half.JL
         size = half.size1 + half.size2
         return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
@@ -270,9 +269,8 @@ class Search:
             P = reached * self.half_modulus
             return LoadError(
                 f"the load {load:.6g} exceeds what this profile carries in one patch of contact, "
-                f"{P:.6g}: "
-                "beyond it the slope no longer rises enough towards the edge; lower the load or "
-                "extend the profile",
+                f"{P:.6g}: beyond it the slope no longer rises enough towards the edge; lower the "
+                "load or extend the profile",
                 load=P,
             )
 
@@ -380,8 +378,7 @@ class Search:
             )
             return LoadError(
                 f"a contact that {one} finds no {other} edge: the profile does not rise enough to "
-                f"the {other}; "
-                "prescribe less tilt or load, or a profile that rises on both sides",
+                f"the {other}; prescribe less tilt or load, or a profile that rises on both sides",
                 edge=-x2 if self.mirrored else x2,
             )
 
@@ -396,17 +393,16 @@ class Search:
 
         Raises LoadError if that ends where the load is not carried: between two bumps of a profile.
         """
-        contact, k, settled = self.polish.both(contact, target, left_sharp)
+        contact, k, settled = self.polish.both(contact, target, left_sharp, self.touch())
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
             seen = contact.mirrored() if self.mirrored else contact
             raise LoadError(
                 "no single patch of contact was found that carries the load "
-                f"{target * self.half_modulus:.6g}: "
-                f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with "
-                f"{carried * self.half_modulus:.6g}; "
-                "the profile has several bumps, or doubles there do not resolve so narrow a "
-                "contact: raise the load, lower it, or smooth the profile",
+                f"{target * self.half_modulus:.6g}: the search ended at [{seen.x1:.6g}, "
+                f"{seen.x2:.6g}] with {carried * self.half_modulus:.6g}; the profile has several "
+                "bumps, or doubles there do not resolve so narrow a contact: raise the load, lower "
+                "it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)

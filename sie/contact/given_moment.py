@@ -93,11 +93,9 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
     bracket = _first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
     if bracket is None:
         return None
-    m, slope, earlier = (
-        bracket.middle(),
-        math.copysign(1.0, at(bracket.high)[0]),
-        [math.inf, math.inf],
-    )
+    m = bracket.middle()
+    slope = math.copysign(1.0, at(bracket.high)[0])
+    earlier = [math.inf, math.inf]
     for _ in range(MAX_POLISHING):
         excess, rise, contact, k = at(m)
         size = k.size1 + k.size2

@@ -45,10 +45,8 @@ GROWS = 1.5  # a window so much wider must carry so much more, or no wider one w
 WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket
-SIZE, MOMENT = (
-    1e120,
-    1e304,
-)  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
+SIZE = 1e120  # bounds a half-width and a pressure, whose squares are multiplied again
+MOMENT = 1e304  # bounds a moment
 NEARER = (
     "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 )
@@ -74,8 +72,7 @@ def normal_contact(
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
             f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
-            "like beyond is not known: "
-            "lower the load or the tilt, or measure further out",
+            "like beyond is not known: lower the load or the tilt, or measure further out",
             end=end,
         )
     return found
@@ -96,9 +93,8 @@ def _within_scale(
             f"range: {arguments.REMEDY}"
         )
     try:
-        with np.errstate(
-            over="ignore", invalid="ignore", divide="ignore"
-        ):  # what that leaves is refused below
+        # What that leaves is refused below.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             found = _contact(scene, tol, economy, seen)
     except ArithmeticError:
         raise LoadError(
@@ -359,10 +355,8 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         return Normal(
             edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0
         )
-    search, at_fixed_width = (
-        Search(slope, G, epsilon=epsilon, keep_zero=keep_zero),
-        scene.half_width is not None,
-    )
+    search = Search(slope, G, epsilon=epsilon, keep_zero=keep_zero)
+    at_fixed_width = scene.half_width is not None
     edges = None
     if (
         scene.normal_load is not None
@@ -374,9 +368,8 @@ def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float
         edges = given_moment.of_half_width(search, scene.half_width, scene.moment)
         if edges is None and np.isinf(scene.profile.domain).all():
             raise LoadError(
-                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found "
-                f"that has the moment {scene.moment:.6g}: "
-                "give a smaller moment, or a larger half_width"
+                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found that "
+                f"has the moment {scene.moment:.6g}: give a smaller moment, or a larger half_width"
             )
     edges = edges or _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
     return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
@@ -439,8 +432,7 @@ def _tilt_of_moment(
     if abs(best.moment - moment) > MISSED * _reach(best):
         raise LoadError(
             f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is "
-            f"{best.moment:.6g} "
-            f"at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
+            f"{best.moment:.6g} at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
             moment=best.moment,
             tilt=best.tilt,
         )

@@ -131,9 +131,8 @@ def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | No
     """
     ratio: Exponent = a / b
     if abs(ratio.imag) <= PHASE * abs(ratio):
-        ratio = (
-            ratio.real
-        )  # a and b of one phase; equal weights must be of equal type, as keys of caches
+        # a and b have one phase; equal weights must be of equal type, as keys of caches.
+        ratio = ratio.real
     theta = (
         -_arctangent(1.0 / ratio) / math.pi
         if abs(ratio) > 1.0
@@ -185,18 +184,15 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
         beta = total - alpha
     else:
         alpha = total - beta
-    a, square, k = (
-        np.empty(n + 1, dtype=kind),
-        np.zeros(n + 1, dtype=kind),
-        np.arange(1, n + 1, dtype=np.longdouble),
-    )  # k^4 is no int64
+    a = np.empty(n + 1, dtype=kind)
+    square = np.zeros(n + 1, dtype=kind)
+    k = np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
     tail = kind(weight.tail)
     a[0] = (beta - alpha) / (total + 2) - tail
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        ends = (
-            alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
-        )  # the same, but that 1 + β cancels next to -1
+        # The same, but that 1 + β cancels next to -1.
+        ends = alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
         square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
         square[2:] = (
@@ -330,10 +326,8 @@ def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
     """
     a, b = weight.alpha.real, weight.beta.real
     step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
-    from_left, from_middle = (
-        step * (np.arange(n) + (0.75 + 0.5 * b)),
-        step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a)),
-    )
+    from_left = step * (np.arange(n) + (0.75 + 0.5 * b))
+    from_middle = step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a))
     ends = (2.0 * np.sin(0.5 * from_left) ** 2) ** (b + 0.5) * (
         2.0 * np.cos(0.5 * from_left) ** 2
     ) ** (a + 0.5)
@@ -370,10 +364,8 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
     A = (w[:, None] * polynomials(weight.real, n, s).T).astype(float)
     if not weight.is_real:
         at, w = _extended_gauss(weight, n)
-        real, own = (
-            (w * polynomials(weight.real, n, at)).astype(complex),
-            polynomials(weight, n, at).astype(complex),
-        )
+        real = (w * polynomials(weight.real, n, at)).astype(complex)
+        own = polynomials(weight, n, at).astype(complex)
         A = A @ (real @ own.T)
     nodes = s.astype(float)
     nodes.flags.writeable = False

@@ -220,18 +220,25 @@ class Bracket:
         else:
             self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
 
-    def place(self, wanted: Place, slow: bool) -> Place:
+    def place(self, wanted: Place, slow: bool, here: Place | None = None) -> Place:
         """The place itself, or the middle of the bracket.
 
         It is the middle if the place is out of bounds, or if the steps are slow and both bounds
-        known.
+        known. Where one bound is infinite, it is the middle between the other one and `here`.
         """
-        if self.low < wanted < self.high and not (slow and all(self.cuts)):
+        low, high = self.low, self.high
+        inside = low < wanted < high
+        if inside and not (slow and all(self.cuts)):
             return wanted
-        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
+        if math.isfinite(low[0] + high[0]):
+            return self.middle()
+        if here is None or inside:
+            return wanted
+        return _middle(low, here) if wanted <= low else _middle(here, high)
 
     def middle(self) -> Place:
-        return two_sum(
-            self.low[0],
-            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
-        )
+        return _middle(self.low, self.high)
+
+
+def _middle(low: Place, high: Place) -> Place:
+    return two_sum(low[0], 0.5 * ((high[0] - low[0]) + (high[1] - low[1])) + low[1])

@@ -71,9 +71,8 @@ class FunctionTerm:
 
     def __call__(self, offset: Array) -> Array:
         """Values at t, given offset = t - shift."""
-        with np.errstate(
-            all="ignore"
-        ):  # `resolution` refuses values that are not finite, and names the place
+        # `resolution` refuses values that are not finite, and names the place.
+        with np.errstate(all="ignore"):
             values: Array = self.sign * arguments.real_values(
                 "slope", self.function, self.sign * offset
             )
@@ -152,9 +151,8 @@ class Slope:
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:
-        inside = np.clip(
-            x, self.breaks[0], self.breaks[-1]
-        )  # beyond the ends the value is replaced; keep functions in their domain
+        # Beyond the ends the value is replaced; keep functions in their domain.
+        inside = np.clip(x, self.breaks[0], self.breaks[-1])
         return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
 
     @cached_property
@@ -258,11 +256,9 @@ class Slope:
             )
             below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
         else:
-            k, start, ulp = (
-                np.array([j - 1, j]),
-                np.array([x, x]),
-                np.spacing(abs(x)) if self.functions else 0.0,
-            )
+            k = np.array([j - 1, j])
+            start = np.array([x, x])
+            ulp = np.spacing(abs(x)) if self.functions else 0.0
             below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[
                 :, 0
             ].tolist()
@@ -291,11 +287,9 @@ class Slope:
     @cached_property
     def corners(self) -> Array:
         """Jumps of the polynomials' Taylor coefficients at the inner breaks, (N - 1, D)."""
-        k, inner, width = (
-            np.arange(len(self.origins)),
-            self.breaks[1:-1],
-            self.coefficients.shape[1],
-        )
+        k = np.arange(len(self.origins))
+        inner = self.breaks[1:-1]
+        width = self.coefficients.shape[1]
         return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
 
     @property
@@ -350,9 +344,8 @@ class Slope:
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         breaks, origins = self.breaks + dx, self.origins + dx
-        kept = (
-            np.diff(breaks) > 0.0
-        )  # a piece that is shorter than the doubles are apart there is gone
+        # A piece that is shorter than the doubles are apart there is gone.
+        kept = np.diff(breaks) > 0.0
         if kept.all():
             return replace(self, breaks=breaks, origins=origins, functions=functions)
         ends = np.append(breaks[:-1][kept], breaks[-1])

@@ -157,9 +157,8 @@ class OnPanels(SlopeDensity):
     @property
     def _slope_at_edges(self) -> tuple[float, float]:
         p, g = self.panels, self.panels.geometry
-        left = (
-            float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
-        )  # a flat piece there was left out
+        # A flat piece there was left out.
+        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
         return left, float(p.series[-1].sum()) if g.cut_right else 0.0
 
     def _beside(self, x: Array) -> tuple[Array, Array]:

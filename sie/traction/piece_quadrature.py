@@ -112,17 +112,13 @@ class Geometry:
         """Some of the pieces; quadrature only."""
         part = copy(self)
         part.k = self.k[chosen]
-        part.ends, part.tails, part.length = (
-            self.ends[:, chosen],
-            self.tails[:, chosen],
-            self.length[chosen],
-        )
+        part.ends = self.ends[:, chosen]
+        part.tails = self.tails[:, chosen]
+        part.length = self.length[chosen]
         part.left, part.right = self.left[:, chosen], self.right[:, chosen]
         part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
-        part.cut_left, part.cut_right = (
-            self.cut_left and bool(chosen[0]),
-            self.cut_right and bool(chosen[-1]),
-        )
+        part.cut_left = self.cut_left and bool(chosen[0])
+        part.cut_right = self.cut_right and bool(chosen[-1])
         from_edge, sign, length = self.angles
         part.angles = (
             from_edge[chosen],

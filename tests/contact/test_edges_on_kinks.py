@@ -104,7 +104,7 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
     off = (0.2 if inside else -0.2) * settled.r
     start = settled.moved(off, -off)
     first = search.moments(start)
-    _, k, done = newton.both(start, target, left_sharp=False)
+    _, k, done = newton.both(start, target, False, search.touch())
     if (
         trial.scene.profile.convex and min(first.JL, first.JR) > 0.0
     ):  # on a straight part there is no derivative
