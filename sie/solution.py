@@ -224,7 +224,9 @@ class Solution:
     @cached_property
     def tangential_search(self) -> TangentialSearch:
         """The search for the zones of dissimilar bodies under any tangential load after that."""
-        return tangential_search(self.scene, self.pressed[1], self._frictionless)
+        return tangential_search(
+            self.scene, self.pressed[1], lambda scene: self._frictionless(scene).edges
+        )
 
     def _frictionless(self, scene: Scene) -> Normal:
         return normal_contact(scene, self.tol, ECONOMY)

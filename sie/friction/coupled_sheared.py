@@ -18,7 +18,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,50 +32,18 @@ from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
 
 from .coupled_gradient import SlipGradient
+from .coupled_integral import RATIO, Integral, integral, towards_ends
 from .coupled_iteration import Trial
 from .coupled_tangential import TangentialSearch
-from .coupled_traction import Panels, TwoSidedTraction, resolved_panels
+from .coupled_traction import Panels, resolved_panels
+from .coupled_two_sided import TwoSidedTraction
 
 Array = NDArray[np.float64]
 
-DEGREE = 16
 BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are looked at
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
-RATIO, NEAREST = 3.0, 1e-14  # of panels towards an end: growth, and the first, in parts of the zone
 # Panels of the gap: the first, in half-widths, where H has a power of the distance; growth
 NEAR_EDGE, FARTHER = 1e-9, 4.0
-
-
-class Integral(NamedTuple):
-    """∫f from cuts[0] to x, from Chebyshev series of f on panels between the cuts, which ascend."""
-
-    cuts: Array
-    series: Array
-    before: Array
-
-    def __call__(self, x: Array) -> Array:
-        k = np.clip(np.searchsorted(self.cuts, x) - 1, 0, len(self.cuts) - 2)
-        lo, hi = self.cuts[k], self.cuts[k + 1]
-        part = chebyshev.evaluate(self.series.T[:, k], 2.0 * (x - lo) / (hi - lo) - 1.0)
-        values: Array = self.before[k] + part
-        return values
-
-
-def integral(function: Callable[[Array], Array], cuts: Array) -> Integral:
-    """The antiderivative of a function that the panels resolve."""
-    half = 0.5 * np.diff(cuts)
-    x = cuts[:-1, None] + half[:, None] * (1.0 + chebyshev.points(DEGREE))
-    c = chebyshev.transform(function(x.ravel()).reshape(x.shape))
-    series = half[:, None] * chebyshev.antiderivative(c)
-    return Integral(cuts, series, np.append(0.0, np.cumsum(series.sum(axis=1))[:-1]))
-
-
-def towards_ends(lo: float, hi: float, inner: Array) -> Array:
-    """Cuts of [lo, hi] that shrink towards both ends, with those inside."""
-    levels = math.ceil(math.log(1.0 / NEAREST) / math.log(RATIO))
-    near = 0.5 * (hi - lo) * RATIO ** -np.arange(levels, -0.5, -1.0)
-    cuts = np.concatenate(([lo], lo + near, hi - near, [hi], inner[(inner > lo) & (inner < hi)]))
-    return np.unique(cuts)
 
 
 @dataclass(frozen=True, eq=False)

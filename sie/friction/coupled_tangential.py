@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import moments
-from sie.contact.pressure import Normal
+from sie.contact.edges import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
@@ -287,11 +287,11 @@ class TangentialSearch:
 
 
 def tangential_search(
-    scene: Scene, normal: CoupledContact, frictionless: Callable[[Scene], Normal]
+    scene: Scene, normal: CoupledContact, contact: Callable[[Scene], Edges]
 ) -> TangentialSearch:
     """The search under the scene's P; ContactError for contacts that end at corners.
 
-    `frictionless` solves the normal problem of a scene, full sliding included.
+    `contact` finds the edges of a scene, of full sliding here.
     """
     sliding = Scene(
         profile=scene.profile,
@@ -301,7 +301,7 @@ def tangential_search(
         normal_load=normal.load,
         sliding=1,
     )
-    edges = frictionless(sliding).edges
+    edges = contact(sliding)
     if normal.corner_load or any(edges.sharp):
         refuse_corners(scene)
     widest = edges.contact.x1 - normal.axis, edges.contact.x2 - normal.axis
