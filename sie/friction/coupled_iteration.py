@@ -7,14 +7,10 @@ is shortened until the edges keep their order and the conditions are missed by l
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-
-from sie.traction.on_panels import SlidingDensity
-
-from .coupled_zones import StickProblem, Zones
 
 Array = NDArray[np.float64]
 
@@ -27,26 +23,23 @@ SHORTEST = 1e-4  # part of a step
 GAINED, RENEWED = 0.1, 0.3  # of the error: what a step has to gain, and above what is renewed
 
 
-class Trial(NamedTuple):
-    """What four edges give: the parts of the state, and the conditions that they miss."""
-
-    zones: Zones
-    sliding: SlidingDensity
-    problem: StickProblem
-    missed: Array
+class Missing(Protocol):
+    """What given edges give: the conditions that they miss, and the largest of these."""
 
     @property
-    def edges(self) -> Array:
-        return np.array(self.zones)
+    def edges(self) -> Array: ...
 
     @property
-    def error(self) -> float:
-        return float(np.abs(self.missed).max())
+    def missed(self) -> Array: ...
+
+    @property
+    def error(self) -> float: ...
 
 
-def iterated(
-    trial: Callable[[Array], Trial], edges: Array, room: Callable[[Array], Array]
-) -> Trial | None:
+T = TypeVar("T", bound=Missing)
+
+
+def iterated(trial: Callable[[Array], T], edges: Array, room: Callable[[Array], Array]) -> T | None:
     """The trial that meets the conditions, None where none is reached.
 
     `room` tells how far each edge may move; it is not positive where edges are not allowed.
@@ -75,7 +68,9 @@ def iterated(
     return now if now.error < STALLED else None
 
 
-def _slopes(trial: Callable[[Array], Trial], now: Trial, room: Callable[[Array], Array]) -> Array:
+def _slopes(
+    trial: Callable[[Array], Missing], now: Missing, room: Callable[[Array], Array]
+) -> Array:
     """∂(what is missed)/∂(edges)."""
     slopes, step = np.empty((4, 4)), DIFFERENCE * room(now.edges)
     for k in range(4):
@@ -86,8 +81,8 @@ def _slopes(trial: Callable[[Array], Trial], now: Trial, room: Callable[[Array],
 
 
 def _moved(
-    trial: Callable[[Array], Trial], now: Trial, step: Array, room: Callable[[Array], Array]
-) -> Trial | None:
+    trial: Callable[[Array], T], now: T, step: Array, room: Callable[[Array], Array]
+) -> T | None:
     """The trial after as much of the step as is allowed and gains."""
     part = 1.0 if np.isfinite(step).all() else 0.0
     while part >= SHORTEST:

@@ -33,8 +33,7 @@ from sie.traction.on_panels import SlidingDensity
 
 from .coupled_gradient import SlipGradient
 from .coupled_integral import RATIO, Integral, integral, towards_ends
-from .coupled_iteration import Trial
-from .coupled_tangential import TangentialSearch
+from .coupled_tangential import TangentialSearch, Trial
 from .coupled_traction import Panels, resolved_panels
 from .coupled_two_sided import TwoSidedTraction
 

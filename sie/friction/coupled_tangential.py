@@ -22,6 +22,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +40,7 @@ from sie.traction.piece_quadrature import SlidingGeometry
 
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
-from .coupled_iteration import Trial, iterated
+from .coupled_iteration import iterated
 from .coupled_refusals import refuse_corners
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
@@ -67,6 +68,23 @@ def sliding_pressure(
     k1 = 0.5 * (weighted + (1.0 + 2.0 * epsilon) * difference)
     panels = Panels(SlidingGeometry(slope, contact, epsilon), I.I0)
     return SlidingDensity(contact, half_modulus, k1, k1 - difference, load, 0.0, panels)
+
+
+class Trial(NamedTuple):
+    """What four edges give: the parts of the state, and the conditions that they miss."""
+
+    zones: Zones
+    sliding: SlidingDensity
+    problem: StickProblem
+    missed: Array
+
+    @property
+    def edges(self) -> Array:
+        return np.array(self.zones)
+
+    @property
+    def error(self) -> float:
+        return float(np.abs(self.missed).max())
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,7 +254,9 @@ class TangentialSearch:
 
     def _newton(self, edges: Array, Q: float) -> Trial | None:
         try:
-            return iterated(lambda at: self.trial(at, Q), edges, self._room)
+            # Edges that are tried may lie so near to each other that nothing is finite
+            with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+                return iterated(lambda at: self.trial(at, Q), edges, self._room)
         except (ArithmeticError, np.linalg.LinAlgError, ContactError):
             return None
 
