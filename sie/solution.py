@@ -470,7 +470,8 @@ class Solution:
         -----
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
         Where dissimilar bodies are pressed together it is counted from when a point came into
-        contact: what slipped first sticks later, and keeps its slip.
+        contact: what slipped first sticks later, and keeps its slip. Where their contact spreads
+        under a tangential load, it is counted from when that load began.
 
         Examples
         --------
@@ -498,7 +499,7 @@ class Solution:
         Raises
         ------
         ContactError
-            As for `slip`.
+            As for `slip`, and for dissimilar bodies under a tangential load.
         """
         self._refuse_unknown_slip()
         if self.scene.coupled:
@@ -517,7 +518,7 @@ class Solution:
         Raises
         ------
         ContactError
-            As for `slip`.
+            As for `energy_lost`.
 
         Notes
         -----

@@ -63,13 +63,13 @@ def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Cert
     stuck = (x > lo) & (x < hi)
     before = gradient_of_slip(normal, np.abs(x[stuck] - state.axis), beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
-    P, limit = normal.load, scene.friction * normal.load
+    P, whole = normal.load, float(weight @ np.abs(values.q))
     r, rounding = state.contact.r, EPS * state.contact.r / float(np.diff(marks).min())
     excess = float((np.abs(values.q) - scene.friction * values.p).max()) / (scene.friction * peak)
     gaps = _gaps(state, scene)
     shear = ShearCertificate(
         residual=drift,
-        equilibrium=abs(float(weight @ values.q) - scene.tangential_load) / limit,
+        equilibrium=abs(float(weight @ values.q) - scene.tangential_load) / whole,
         excess=max(excess, 0.0),
         opposing=min(state.least_gain, 0.0),
         abscissae=EPS + 16.0 * EPS * peak / of_shear,

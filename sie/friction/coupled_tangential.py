@@ -205,10 +205,10 @@ class TangentialSearch:
         if answer is None:
             raise ContactError(
                 f"dissimilar bodies with β f = {self.beta * self.friction:.3g} under |Q| = {Q:.6g} "
-                f"= {Q / self.limit:.3g} f P: where the contact spreads, surfaces stick that came "
-                "into contact under Q, and the slip gradient that they keep, which depends on "
-                "every state before, is not solved; change Q, lower the friction, or give dundurs "
-                "= 0 to neglect β"
+                f"= {Q / self.limit:.3g} f P: no stick zone was found that lies inside the contact "
+                "of the normal load alone. Beyond it stick surfaces that came into contact under "
+                "Q; the slip gradient that they keep depends on every state before and is not "
+                "solved; change Q, lower the friction, or give dundurs = 0 to neglect β"
             )
         return answer
 
