@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import moments
+from sie.contact.edge_integrals import edge_integrals
 from sie.contact.edges import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
@@ -60,7 +60,7 @@ def sliding_pressure(
     slope: Slope, contact: Interval, half_modulus: float, epsilon: float, load: float
 ) -> SlidingDensity:
     """p in full sliding on any contact, with the singular ends that the load asks for."""
-    I = moments(slope, contact, None, False, epsilon)
+    I = edge_integrals(slope, contact, None, False, epsilon)
     cos, r = math.cos(math.pi * epsilon), contact.r
     G = half_modulus * cos
     difference = 2.0 * G * cos * I.I0 / math.pi
@@ -186,7 +186,7 @@ class TangentialSearch:
 
     def second_moment(self, contact: Interval) -> float:
         """∫p x dx about its centre that the slope alone causes in a contact that slides."""
-        k = moments(self.resolved_slope, contact, None, False, -self.theta)
+        k = edge_integrals(self.resolved_slope, contact, None, False, -self.theta)
         G = self.normal.half_modulus * math.cos(math.pi * self.theta)
         return -G * contact.r**2 * (k.C2 - 0.5 * k.I0)
 

@@ -158,9 +158,8 @@ def logarithmic_root(
     derivative shows; if the target exceeds that value, `error(u, f)` is raised with the best that
     was found.
     """
-    low, high = 0.0, limit
+    low, high, steps = 0.0, limit, [np.inf, np.inf]
     u, best, best_u = guess, 0.0, guess
-    steps = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         f, slope = function(u)
         if f > best or f >= target:  # the last that is enough, or else the largest
@@ -181,8 +180,7 @@ def logarithmic_root(
         open_ended = low == 0.0 or not math.isfinite(high)
         new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
         if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton is
-            # slow
+            # Newton is slow without a bracket: f is steep at a small u, and flat at a large one
             new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
         if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
             new = _between(low, high, u)  # Newton diverges, or oscillates across a kink

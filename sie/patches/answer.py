@@ -21,6 +21,7 @@ from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .of_scene import Problem, problem_of
+from .operator import Operator
 from .result import PatchCertificate
 from .solver import contact
 
@@ -49,7 +50,17 @@ class SeveralPatches:
         return self.pressure.patches
 
     def gap(self, x: Array) -> Array:
-        return gap(self.found.operator, x)
+        """The gap at x (1-d), also beyond the window in which contact was looked for."""
+        o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
+        inside = x[np.isfinite(x) & (x >= domain[0]) & (x <= domain[1])]
+        first, last = float(inside.min(initial=lo)), float(inside.max(initial=hi))
+        if (first < lo or last > hi) and not self.problem.chord.periodic:
+            o = Operator(o.patches, self.problem.pieces((min(first, lo), max(last, hi))), o.Y)
+        return gap(o, x)
+
+    @property
+    def window(self) -> tuple[float, float]:
+        return self.found.operator.pieces.domain
 
     def certificate(self, tol: float) -> PatchCertificate:
         return certificate(self.found, self.pressure, self.problem.given, tol)
