@@ -104,11 +104,10 @@ def follow(
         )
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
-            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: "
-            "pressure and shear "
-            "are coupled, and only a normal load that grows is solved then; solve its points as "
-            "scenes, "
-            "or give dundurs = 0 to neglect β"
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: what "
+            "sticks again after unloading of P or a reversal of Q keeps a slip gradient that "
+            "depends on every state before; solve P, then a Q that grows, as scenes, or give "
+            "dundurs = 0 to neglect β"
         )
     return History(scene, path, tol, economy)
 

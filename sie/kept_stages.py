@@ -15,11 +15,13 @@ NORMAL = frozenset(
     ("profile", "body", "indenter", "modulus", *LOADS, "epsilon", "bonded", "coupled")
 )
 SHEAR = NORMAL | {"friction", "tangential_load", "sliding", "bulk_stress", "dundurs"}
+PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs"}
 STAGES = {
     **dict.fromkeys(
         ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
     ),
     **dict.fromkeys(("bonded", "coupled", "tangential", "dissipated", "certificate"), SHEAR),
+    **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
 }
 
 

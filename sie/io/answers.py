@@ -47,11 +47,13 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} for dissimilar bodies in full sliding.
+    """The dissipated energy; {} for dissimilar bodies under a tangential load.
 
-    They slipped in part before, and the energy dissipated then is not known.
+    What they dissipated before, in other states of partial slip, is not known.
     """
-    return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
+    scene = solution.scene
+    unknown = scene.epsilon or (scene.coupled and scene.tangential_load)
+    return {} if unknown else {"energy_lost": solution.energy_lost}
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
