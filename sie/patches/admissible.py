@@ -246,7 +246,7 @@ def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tup
 
 
 def sides(o: Operator, panels: GapPanels) -> Side:
-    reference, _, T, D = gap_values(o, panels)
+    reference, T, D = gap_values(o, panels)
     sign = np.where(panels.right, -1.0, 1.0)
     phi = sign[:, None] * T * D / (np.pi * panels.root)
     n = phi.shape[1]

@@ -20,8 +20,9 @@ from sie import arguments
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
 from .chord import Points
-from .intensity import intensities, on_patches
-from .operator import Operator, Targets
+from .close import Targets
+from .intensity import blocks, intensities, on_patches
+from .operator import Operator
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -138,9 +139,12 @@ class PatchPressure(Density):
         piece = o.pieces.locate(points.x)
         at_end = points.x == o.patches.b[k]
         piece = np.where(at_end, o.pieces.locate(points.x, "left"), piece)
-        T, _ = o.root(k, points)
+        at = blocks(k, points.x)
+        T, _ = o.root(k[at[:, 0]], points[at])
+        p = np.empty(x.shape)
         with np.errstate(divide="ignore", invalid="ignore"):
-            p = (self.half_modulus / np.pi) * np.abs(T) * on_patches(o, k, points, piece)
+            D = on_patches(o, k[at[:, 0]], points[at], piece[at])
+            p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
         edges = points.offset == 0.0
         if edges.any():
             at = 2 * k[edges] + (points.anchor[edges] == o.patches.b[k[edges]])
@@ -195,20 +199,14 @@ class PatchPressure(Density):
         reference = np.where(
             follows, pieces.value(piece, z.anchor, z.offset), pieces.value(piece, real, 0.0)
         )
-        T, S = o.root(k, z)
-        D = np.empty(z.offset.shape, dtype=np.result_type(T, reference))
-        followed = np.where(follows, piece, -1)
-        order = np.argsort(k, kind="stable")
-        for some in np.split(order, np.flatnonzero(np.diff(k[order])) + 1):
-            i = int(k[some[0]])
-            runs = some[np.argsort(np.real(z.x[some]), kind="stable")]
-            for part in np.array_split(runs, max(len(runs) // 128, 1)):
-                x = np.real(z.x[part])
-                group = o.group(i, float(x.min()), float(x.max()))
-                D[part] = group.D(
-                    Targets(z[part], reference[part], followed[part], S[part], k[part])
-                )
-        return self.half_modulus * (reference + self.tilt - T * D / np.pi)
+        F = np.empty(z.offset.shape, dtype=np.result_type(z.offset, reference))
+        at = blocks(k, np.real(z.x))
+        i, place, value = k[at[:, 0]], z[at], reference[at]
+        T, S = o.root(i, place)
+        followed = np.where(follows, piece, -1)[at]
+        D = o.D(Targets(i, np.arange(len(i)), place, value, followed, k[at], S))
+        F[at] = self.half_modulus * (value + self.tilt - T * D / np.pi)
+        return F
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)

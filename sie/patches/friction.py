@@ -31,9 +31,9 @@ from sie.traction.combination import superposed
 
 from .answer import SeveralPatches, answered, whole
 from .full import FullContact
+from .measure import edge_ratio
 from .newton import punch
 from .of_scene import problem_of
-from .operator import edge_ratio
 from .solver import changed, contact
 
 Array = NDArray[np.float64]

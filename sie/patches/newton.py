@@ -15,7 +15,6 @@ charge itself.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -23,7 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chord import Points
-from .operator import Operator, Targets, edge_ratio
+from .close import Targets
+from .intensity import on_patches
+from .measure import add, edge_ratio, parts
+from .operator import Operator
 from .panels import GapPanels, Patches
 from .pieces import Pieces
 
@@ -86,21 +88,8 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     k = np.repeat(np.arange(N), 2)
     tilt = state.tilt + o.H0
     missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
-    intensity = np.empty(2 * N)
-    S = o.others(k, Points(e, np.zeros(2 * N)))
-    edge_piece = np.where(np.arange(2 * N) % 2 == 0, pieces.locate(e), pieces.locate(e, "left"))
-    value = pieces.value(edge_piece, e, 0.0)
-    for i, group in o.at_edges():
-        own = slice(2 * i, 2 * i + 2)
-        C, plain = group.closure()
-        missed[i] = C + tilt * plain
-        matrix[i, 2 * N] = plain
-        smooth = np.flatnonzero(~state.sharp[own]) + 2 * i
-        if smooth.size:
-            x = Points(e[smooth], np.zeros(len(smooth)))
-            intensity[smooth] = group.D(
-                Targets(x, value[smooth], edge_piece[smooth], S[smooth], k[smooth])
-            )
+    C, plain = o.closures()
+    missed[:N], matrix[:N, 2 * N] = C + tilt * plain, plain
     ratio = edge_ratio(P, np.arange(N))
     matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
     K, across = closures(o, ratio)
@@ -117,8 +106,17 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     charged = matrix[:, : 2 * N] @ o.Y
     charged[N : 2 * N - 1] = 0.0  # D contains them
     charged[2 * N] *= given.moment is not None
-    intensity[state.sharp] = 0.0
+    intensity = np.where(state.sharp, 0.0, at_edges(o))
     return o, Linear(missed + charged, matrix, intensity)
+
+
+def at_edges(o: Operator) -> Array:
+    """D at all edges (2N,); a smooth edge is that of no other charge."""
+    P, N = o.patches, o.patches.number
+    piece = np.stack((o.pieces.locate(P.a), o.pieces.locate(P.b, "left")), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
+        return on_patches(o, np.arange(N), x, piece).ravel()
 
 
 def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
@@ -127,26 +125,31 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     N = P.number
     if N == 1:
         return np.zeros(0), np.zeros((0, 2))
-    reference, _, T, D = gap_values(o)
-    integral = np.bincount(k.gap, ((reference - T * D / np.pi) * k.dx).sum(axis=1), N - 1)
+    reference, T, D = gap_values(o)
     base = pieces.value(pieces.locate(P.b[:-1], "left"), P.b[:-1], 0.0)
+    excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - (integral - base * width)
+    integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
+    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - integral
+    return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
+
+
+def across_gaps(o: Operator, weight: Array) -> Array:
+    """Σ weight/d(x, e) over the nodes x of each gap and all edges e, (N - 1, 2N)."""
+    P, k = o.patches, o.gaps
     e = P.edges
-    across = np.zeros((N - 1, 2 * N))
-    starts = np.flatnonzero(np.diff(k.gap, prepend=-1))
-    rows = max((1 << 20) // max(k.dx.shape[1] * 2 * N, 1), 1)
-    parts = np.empty((len(k.gap), 2 * N))
-    for start in range(0, len(k.gap), rows):
-        some = slice(start, start + rows)
-        away = P.chord.apart(k.points.anchor[some, :, None] - e, k.points.offset[some, :, None])
-        parts[some] = np.einsum("pn,pne->pe", T[some] * k.dx[some], 1.0 / away)
-    across[k.gap[starts]] = np.add.reduceat(parts, starts)
-    return K, -across * ratio[: N - 1] / np.pi
+    out = np.zeros((P.number - 1, len(e)))
+    for some in parts(len(k.gap), k.dx.shape[1] * len(e)):
+        step = P.chord.apart(
+            k.points.anchor[some, :, None] - e[:, None], k.points.offset[some, None, :]
+        )
+        sums = np.reciprocal(step, out=step) @ weight[some, :, None]
+        add(out, k.gap[some], sums[..., 0])
+    return out
 
 
-def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array, Array]:
-    """The reference value of H, S_i, T_i and D_i on the nodes of gap panels.
+def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array]:
+    """The reference value of H, T_i and D_i on the nodes of gap panels.
 
     i is the patch to the left; outside on the left the first one.
     """
@@ -156,33 +159,20 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
     at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
     continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
     reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
-    owner = np.maximum(panels.gap, 0)
-    nearer = (panels.gap + panels.right) % P.number
-    anchors = np.broadcast_to(panels.points.anchor, shape)
-    flat = Points(anchors.ravel(), panels.points.offset.ravel())
-    T, S = (np.asarray(v).reshape(shape) for v in o.root(np.repeat(owner, shape[1]), flat))
-    D = np.empty(shape)
-    starts = np.append(np.flatnonzero(np.diff(panels.gap, prepend=-2)), len(panels.gap))
-    for start, stop in itertools.pairwise(starts):
-        some = slice(start, stop)
-        x = Points(anchors[some].ravel(), panels.points.offset[some].ravel())
-        i = int(owner[start])
-        place = (
-            P.chord.difference(x.anchor - P.c[i], x.offset) + P.c[i] if P.chord.periodic else x.x
-        )
-        piece = np.where(panels.follows[some], panels.piece[some], -1)
-        group = o.group(i, float(place.min()), float(place.max()))
-        values = group.D(
-            Targets(
-                x,
-                reference[some].ravel(),
-                np.repeat(piece, shape[1]),
-                S[some].ravel(),
-                np.repeat(nearer[some], shape[1]),
-            )
-        )
-        D[some] = values.reshape(stop - start, shape[1])
-    return reference, S, T, D
+    i = np.maximum(panels.gap, 0)
+    T, S = o.root(i, panels.points, panels.gap)
+    piece = np.where(panels.follows, panels.piece, -1)[:, None]
+    nearer = ((panels.gap + panels.right) % P.number)[:, None]
+    targets = Targets(
+        i,
+        panels.gap,
+        panels.points,
+        reference,
+        np.broadcast_to(piece, shape),
+        np.broadcast_to(nearer, shape),
+        S,
+    )
+    return reference, T, np.asarray(o.D(targets))
 
 
 def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | None, int]:
