@@ -68,7 +68,7 @@ def near(o: Measure, panel: Index, x: Points) -> NDArray[np.bool_]:
 
 
 def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
-    """∫_panel (H - reference)/d(t, x) dν_i at places (m,) of panels (m,) with nodes' dν_i (m, n)."""
+    """∫_panel (H - reference)/d(t, x) dν_i of panels (m,) at places (m,); nu (m, n) is dν_i."""
     k = o.panels
     own = k.piece[panel]
     same = own == t.piece

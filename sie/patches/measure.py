@@ -10,6 +10,7 @@ Far patches act on ln S_i through the charges of a tree.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -17,16 +18,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics import chebyshev
+
 from .chord import Chord, Points
 from .panels import GapPanels, Patches, PatchPanels, gap_panels, patch_panels
 from .pieces import Pieces
-from .tree import CHARGES, CHUNK, Separation, Tree
+from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 # half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
 NEAR = 2.5
+# places of a group: sums of so many are interpolated
+SEVERAL = 30
+
+
+FarSums = Callable[[Level, Index, Index, Points], Any]
 
 
 class Groups(NamedTuple):
@@ -105,20 +113,18 @@ class Measure:
             every = np.arange(len(groups.i))
             near = Separation([], np.tile(np.arange(N), len(every)), np.repeat(every, N))
         else:
-            extent = groups.wide
-            near = self._tree_of_roots.separated(self.patches.chord, groups.i, extent, extent)
-            for level, node, at in near.far:
-                block, pair = groups.blocks(at)
-                for some in parts(len(block), CHARGES * out.shape[1]):
-                    q = level.points(node[pair[some]])
-                    step = steps(self.patches.chord, q, x[block[some]])
-                    ln = np.log(np.abs(step, out=step), out=step)
-                    total = (ln @ level.charges[0, node[pair[some]], :, None])[..., 0]
-                    _multiply(out, block[some], np.exp(total))
+            chord, extent = self.patches.chord, groups.wide
+            near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
+            out *= np.exp(far_sums(self.patches, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
         for some in parts(len(block), out.shape[1]):
             _multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
         return out
+
+    def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
+        """ln S of far nodes at places, (m, n, 1)."""
+        step = steps(self.patches.chord, level.points(node), x)
+        return np.log(np.abs(step, out=step), out=step) @ level.charges[0, node, :, None]
 
     def _factor(self, j: Index, i: Index, x: Points, block: Index) -> Any:
         """What patch j contributes to S_i at blocks."""
@@ -226,6 +232,53 @@ class Measure:
         c = P.c[i[first]]  # b/d(t, c_i) of other patches has a pole there
         wide = np.minimum(lo, c), np.maximum(hi, c)
         return Groups(np.append(first, len(i)), i[first], (lo, hi), wide)
+
+
+def far_sums(
+    patches: Patches, groups: Groups, separation: Separation, x: Points, at: FarSums
+) -> Any:
+    """Sums over far nodes at blocks of points, (B, n, sets).
+
+    Those far from all points of a group are interpolated within it, where they are many.
+    """
+    lo, hi = groups.narrow
+    middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
+    shape = x.offset.shape
+    many = (np.diff(groups.starts) * shape[1] > SEVERAL) & np.isrealobj(x.offset)
+    nodes = Points(middle[:, None], half[:, None] * POINTS)
+    total: Any = np.zeros((*shape, 1))
+    field: Any = np.zeros((len(lo), CHARGES, 1))
+    for level, node, group in separation.far:
+        away = patches.chord.distance(level.middle[node], lo[group], hi[group])
+        smooth = many[group] & (away - level.half[node] >= (FAR - 1.0) * half[group])
+        block, pair = groups.blocks(group[~smooth])
+        field = _summed(field, at, level, (node[smooth], group[smooth], groups.i), nodes)
+        of_block = np.repeat(groups.i, np.diff(groups.starts))
+        total = _summed(total, at, level, (node[~smooth][pair], block, of_block), x)
+    if not many.any():
+        return total
+    g = np.repeat(np.arange(len(lo)), np.diff(groups.starts))
+    some = np.flatnonzero(many[g])
+    g, x, c = g[some], x[some], patches.c[groups.i[g[some]], None]
+    place = patches.chord.difference(x.anchor - c, x.offset) + (c - middle[g, None])
+    T = chebyshev.polynomials(CHARGES, place / half[g, None])
+    series = chebyshev.transform(np.moveaxis(field, 1, 2))[g]
+    total = total + np.zeros(series.shape[1])
+    total[some] += T.transpose(1, 2, 0) @ series.transpose(0, 2, 1)
+    return total
+
+
+def _summed(
+    total: Any, at: FarSums, level: Level, pairs: tuple[Index, Index, Index], x: Points
+) -> Any:
+    """The sums with those of pairs (node, row) of a level, i of all rows."""
+    node, row, i = pairs
+    for some in parts(len(node), CHARGES * x.offset.shape[1]):
+        value = at(level, node[some], i[row[some]], x[row[some]])
+        if total.shape[-1] < value.shape[-1] or np.iscomplexobj(value):
+            total = total + np.zeros(value.shape[-1:], dtype=value.dtype)
+        add(total, row[some], value)
+    return total
 
 
 def edge_ratio(patches: Patches, i: Any) -> Array:

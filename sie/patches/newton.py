@@ -16,7 +16,7 @@ charge itself.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,9 @@ TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
+QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
+ULPS = 8.0  # of the largest edge: no step tells less
+GROWTH = 4.0  # of the last move, to which the next is held after one that went too far
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
@@ -62,6 +65,11 @@ class State:
     charge: Array  # (2N,)
     tilt: float
 
+    @property
+    def outward(self) -> Array:
+        """-1 at a, 1 at b."""
+        return np.tile([-1.0, 1.0], self.patches.number)
+
 
 class Event(NamedTuple):
     """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
@@ -79,6 +87,12 @@ class Linear(NamedTuple):
     missed: Array
     matrix: Array
     intensity: Array
+
+    @property
+    def solution(self) -> Array:
+        """Charges at the edges, and the change of the tilt, that meet the conditions."""
+        size = np.abs(self.matrix).max(axis=1)
+        return np.asarray(np.linalg.solve(self.matrix / size[:, None], -self.missed / size))
 
 
 def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
@@ -175,71 +189,131 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
     return reference, T, np.asarray(o.D(targets))
 
 
-def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | None, int]:
-    """Edges that meet the conditions, or the event that stopped the search on its way; and the
-    steps.
+class Damping(NamedTuple):
+    """What limits the next moves of the edges, (2N,) each.
+
+    trust      the most that an edge moves after it was asked back
+    moved      its last move
+    insists    steps in a row in which it was asked for more than is allowed
     """
-    low, high = (np.repeat(v, 2) for v in pieces.solid_around(state.patches.c))
-    outward = np.where(np.arange(2 * state.patches.number) % 2 == 0, -1.0, 1.0)
-    before, insists = np.inf, np.zeros(2 * state.patches.number, dtype=int)
-    for step in range(MOST_STEPS):
-        P = state.patches
-        N = P.number
-        _o, linear = conditions(state, pieces, given)
-        size = np.abs(linear.matrix).max(axis=1)
-        y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
-        mean = np.abs(linear.intensity[~state.sharp]).mean() if (~state.sharp).any() else 1.0
-        D = np.where(state.sharp, 1.0, np.maximum(linear.intensity, SMALL * mean + TINY))
-        k = np.repeat(np.arange(N), 2)
-        asked = np.where(state.sharp, 0.0, 2.0 * y[: 2 * N] / D)
-        # where the pressure beside an edge is negative the edge has to move in
-        pulls = linear.intensity < -SMALL * mean
-        asked = np.where(pulls & ~state.sharp, -INWARD * outward * P.r[k], asked)
+
+    trust: Array
+    moved: Array
+    insists: Array
+
+    def limited(self, state: State, asked: Array) -> Damping:
+        P, outward = state.patches, state.outward
+        r = np.repeat(P.r, 2)
         gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
-        r = P.r[k]
         most = np.where(
             asked * outward > 0.0,
             np.minimum(OUTWARD * r, INTO_GAP * gaps),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
-        unknown = (
-            state.sharp.any() and not state.charge.any()
-        )  # D depends on the charges: they first
-        move = np.zeros(2 * N) if unknown else np.clip(asked, -most, most)
-        insists = np.where((np.abs(asked) > most) & ~unknown, insists + 1, 0)
-        charge = np.where(state.sharp, state.charge + y[: 2 * N], 0.0)
-        e = P.edges + move
-        largest = float(np.max(np.abs(asked) / r)) if (~state.sharp).any() else 0.0
-        charges = np.abs(y[: 2 * N][state.sharp]).max(initial=0.0) / max(
-            np.abs(charge).max(initial=0.0), 1e-300
+        back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
+        trust = np.where(
+            back, 0.5 * np.abs(self.moved), np.maximum(GROWTH * np.abs(self.moved), self.trust)
         )
-        largest = max(largest, charges)
-        sharp = state.sharp
-        ends = ((e <= low) & (outward < 0.0)) | ((e >= high) & (outward > 0.0))
-        if (ends & ~sharp).any():
-            e, sharp = np.where(ends, np.where(outward < 0.0, low, high), e), sharp | ends
-            largest = np.inf
-        tilt = state.tilt + float(y[2 * N]) if given.moment is not None else state.tilt
-        state = State(Patches(e[::2], e[1::2], P.chord), sharp, charge, tilt)
-        wrong = sharp & (charge * outward < 0.0)
-        if largest < FINAL or (largest < SETTLED and largest >= 0.5 * before):
-            return (
-                state,
-                (Event("smooth", int(np.flatnonzero(wrong)[0])) if wrong.any() else None),
-                step + 1,
-            )
-        before = largest
-        if insists.max() >= INSISTS:
-            worst = int(np.argmax(insists))
-            if asked[worst] * outward[worst] <= 0.0:
-                shrinking = (2 * insists >= INSISTS) & (asked * outward <= 0.0)
-                return state, Event("vanish", worst // 2, tuple(k[shrinking].tolist())), step + 1
-            gap = worst // 2 if worst % 2 else (worst // 2 - 1) % N
-            closed = state.patches.gaps[gap] < CLOSED * state.patches.r.min()
-            if closed or gap not in held_open(state.patches, pieces):
-                return state, Event("merge", gap), step + 1
-            insists[:] = 0
+        allowed = np.minimum(most, trust)
+        insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
+        return Damping(trust, np.clip(asked, -allowed, allowed), insists)
+
+
+def solve(
+    state: State, pieces: Pieces, given: Given, enough: float = FINAL
+) -> tuple[State, Event | None, int]:
+    """Edges that meet the conditions up to steps of `enough` half-widths, or the event that stopped
+    the search on its way; and the steps.
+    """
+    ends = pieces.solid_around(state.patches.c)
+    none = np.zeros(2 * state.patches.number)
+    damping = Damping(none + np.inf, none, none)
+    sizes: list[float] = []
+    for step in range(MOST_STEPS):
+        _, linear = conditions(state, pieces, given)
+        y = linear.solution
+        asked = wished(state, linear, y)
+        # D depends on the charges: they first
+        unknown = state.sharp.any() and not state.charge.any()
+        damping = damping.limited(state, none if unknown else asked)
+        size = relative_size(state, y, asked)
+        state, clipped = moved(state, damping.moved, y, (ends, given.moment is not None))
+        sizes.append(np.inf if clipped else size)
+        if _settled(sizes, enough):
+            wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
+            return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
+        event = _event(state, asked, damping.insists, pieces)
+        if event is not None:
+            return state, event, step + 1
+        if damping.insists.max() >= INSISTS:
+            damping.insists[:] = 0
     return state, Event("stall", -1), MOST_STEPS
+
+
+def wished(state: State, linear: Linear, y: Array) -> Array:
+    """The moves that the edges are asked for, (2N,)."""
+    N = state.patches.number
+    smooth = ~state.sharp
+    mean = np.abs(linear.intensity[smooth]).mean() if smooth.any() else 1.0
+    D = np.where(smooth, np.maximum(linear.intensity, SMALL * mean + TINY), 1.0)
+    # where the pressure beside an edge is negative the edge has to move in
+    pulls = (linear.intensity < -SMALL * mean) & smooth
+    inward = -INWARD * state.outward * np.repeat(state.patches.r, 2)
+    return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
+
+
+def relative_size(state: State, y: Array, asked: Array) -> float:
+    """The largest move over its half-width, of what edges in doubles can tell, or the largest
+    change of a charge over the largest charge.
+    """
+    P, sharp = state.patches, state.sharp
+    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges).max()), 0.0)
+    change = y[: len(sharp)][sharp]
+    largest = np.abs(state.charge[sharp] + change).max(initial=0.0)
+    return max(
+        float((told / np.repeat(P.r, 2)).max()),
+        float(np.abs(change).max(initial=0.0) / max(largest, TINY)),
+    )
+
+
+def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tuple[State, bool]:
+    """The state after a step, and whether edges became sharp at the ends of the indenter."""
+    (low, high), turns = limits
+    low, high = np.repeat(low, 2), np.repeat(high, 2)
+    n, outward, sharp = len(move), state.outward, state.sharp
+    e = state.patches.edges + move
+    charge = np.where(sharp, state.charge + y[:n], 0.0)
+    ends = ((e <= low) & (outward < 0.0)) | ((e >= high) & (outward > 0.0))
+    clipped = bool((ends & ~sharp).any())
+    if clipped:
+        e, sharp = np.where(ends, np.where(outward < 0.0, low, high), e), sharp | ends
+    tilt = state.tilt + float(y[n]) if turns else state.tilt
+    return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
+
+
+def _settled(sizes: list[float], enough: float) -> bool:
+    """Whether the last step is small enough, what follows is by the steps' quadratic decrease, or
+    only rounding is left.
+    """
+    last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
+    if last < enough:
+        return True
+    decreased = last < QUADRATIC and before < QUADRATIC and last * (last / before) ** 2 < enough
+    return decreased or (last < SETTLED and last >= 0.5 * before)
+
+
+def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
+    if insists.max() < INSISTS:
+        return None
+    worst, outward = int(np.argmax(insists)), state.outward
+    if asked[worst] * outward[worst] <= 0.0:
+        shrinking = (2 * insists >= INSISTS) & (asked * outward <= 0.0)
+        return Event("vanish", worst // 2, tuple((np.flatnonzero(shrinking) // 2).tolist()))
+    gap = worst // 2 if worst % 2 else (worst // 2 - 1) % state.patches.number
+    closed = state.patches.gaps[gap] < CLOSED * state.patches.r.min()
+    if closed or gap not in held_open(state.patches, pieces):
+        return Event("merge", gap)
+    return None
 
 
 def punch(o: Operator) -> Array:

@@ -21,13 +21,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
-
 from . import close
 from .chord import Points
 from .close import Targets
-from .measure import Groups, Measure, add, edge_ratio, parts, steps
-from .tree import CHARGES, FAR, POINTS, Level, Separation
+from .measure import Groups, Measure, add, edge_ratio, far_sums, parts, steps
+from .tree import Level, Separation
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -42,7 +40,10 @@ class Operator(Measure):
         t = t._replace(reference=t.reference - self.H0)
         groups = self.groups(t.i, t.x, t.group)
         near = self.tree.separated(self.patches.chord, groups.i, groups.narrow, groups.wide)
-        total = self._near(t, *self._blocks(groups, near)) + self._far(t, groups, near)
+        total = self._near(t, *self._blocks(groups, near))
+        if near.far:
+            far = far_sums(self.patches, groups, near, t.x, self._charges_at)
+            total += far[..., 0] - t.reference * far[..., 1]
         return total - self._charged(t)
 
     def _blocks(self, groups: Groups, near: Separation) -> tuple[Index, Index]:
@@ -79,47 +80,6 @@ class Operator(Measure):
                 )
             add(total, row, value)
         return total
-
-    def _far(self, t: Targets, groups: Groups, separation: Separation) -> Any:
-        """The sums over far nodes; those far from all of a group are interpolated within it."""
-        shape = t.x.offset.shape
-        real = not np.iscomplexobj(t.x.offset)
-        total = np.zeros(shape, dtype=np.result_type(t.x.offset, t.reference))
-        if not separation.far:
-            return total
-        many = (np.diff(groups.starts) * shape[1] > 2 * CHARGES) & real
-        lo, hi = groups.narrow
-        middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
-        nodes = Points(middle[:, None], half[:, None] * POINTS)
-        field_ = np.zeros((len(lo), CHARGES, 2))
-        for level, node, group in separation.far:
-            away = self.patches.chord.distance(level.middle[node], lo[group], hi[group])
-            smooth = many[group] & (away - level.half[node] >= (FAR - 1.0) * half[group])
-            self._by_charges(field_, level, node[smooth], group[smooth], groups.i, nodes)
-            block, pair = groups.blocks(group[~smooth])
-            node = node[~smooth][pair]
-            for some in parts(len(block), CHARGES * shape[1]):
-                sums = self._charges_at(level, node[some], t.i[block[some]], t.x[block[some]])
-                value = sums[..., 0] - t.reference[block[some]] * sums[..., 1]
-                add(total, block[some], value)
-        if many.any():
-            of_block = np.repeat(np.arange(len(lo)), np.diff(groups.starts))
-            some = np.flatnonzero(many[of_block])
-            g, x = of_block[some], t.x[some]
-            c = self.patches.c[t.i[some], None]
-            place = self.patches.chord.difference(x.anchor - c, x.offset) + (c - middle[g, None])
-            T = chebyshev.polynomials(CHARGES, place / half[g, None])
-            series = chebyshev.transform(field_.transpose(0, 2, 1))[g]
-            value = np.einsum("nbt,bsn->bts", T, series)
-            total[some] += value[..., 0] - t.reference[some] * value[..., 1]
-        return total
-
-    def _by_charges(
-        self, out: Array, level: Level, node: Index, group: Index, i: Index, x: Points
-    ) -> None:
-        for some in parts(len(node), CHARGES * CHARGES):
-            g = group[some]
-            add(out, g, self._charges_at(level, node[some], i[g], x[g]))
 
     def _charges_at(self, level: Level, node: Index, i: Index, x: Points) -> Any:
         """Σ H dν_i/d(t, x) and Σ dν_i/d(t, x) of far nodes, (m, n, 2)."""

@@ -54,7 +54,7 @@ class Separation(NamedTuple):
 
 
 class Tree:
-    """The tree of rows [lo, hi] (K,), each with sources (K, n), charges (sets, K, n) and an owner."""
+    """The tree of rows [lo, hi] (K,) with owners, sources (K, n) and charges (sets, K, n)."""
 
     def __init__(self, ends: tuple[Array, Array], owner: Index, sources: Points, charges: Array):
         lo, hi = ends
