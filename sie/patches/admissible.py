@@ -82,7 +82,7 @@ class Found:
 
 
 def findings(o: Operator) -> Findings:
-    tension, lowest = _tensions(o)
+    tension, lowest = tensions(o)
     return Findings(tension, _overlaps(o), lowest)
 
 
@@ -105,7 +105,8 @@ def lower_bound(values: Array) -> Array:
 # -- on the patches --------------------------------------------------------------------------------
 
 
-def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+    """Where the patches pull, and the lowest bound of D over the largest D."""
     k = o.panels
     parts = np.stack((k.lo, k.hi), axis=1)
     panel = np.arange(len(k.lo))

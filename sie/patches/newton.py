@@ -43,8 +43,9 @@ SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, a
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of the largest edge: no step tells less
-GROWTH = 4.0  # of the last move, to which the next is held after one that went too far
+GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
+TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
 
@@ -78,7 +79,7 @@ class Event(NamedTuple):
 
     kind: str
     number: int
-    others: tuple[int, ...] = ()  # patches that vanish as well
+    others: tuple[int, ...] = ()  # all patches that vanish, all gaps that merge
 
 
 class Linear(NamedTuple):
@@ -195,11 +196,13 @@ class Damping(NamedTuple):
     trust      the most that an edge moves after it was asked back
     moved      its last move
     insists    steps in a row in which it was asked for more than is allowed
+    turns      how often it was asked back
     """
 
     trust: Array
     moved: Array
     insists: Array
+    turns: Array
 
     def limited(self, state: State, asked: Array) -> Damping:
         P, outward = state.patches, state.outward
@@ -211,25 +214,26 @@ class Damping(NamedTuple):
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
         back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
-        trust = np.where(
-            back, 0.5 * np.abs(self.moved), np.maximum(GROWTH * np.abs(self.moved), self.trust)
-        )
+        turns, last = self.turns + back, np.abs(self.moved)
+        growth = 1.0 + GROWTH / (1.0 + turns**2)
+        trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))
         allowed = np.minimum(most, trust)
         insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
-        return Damping(trust, np.clip(asked, -allowed, allowed), insists)
+        return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
 
 
 def solve(
-    state: State, pieces: Pieces, given: Given, enough: float = FINAL
+    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
 ) -> tuple[State, Event | None, int]:
-    """Edges that meet the conditions up to steps of `enough` half-widths, or the event that stopped
-    the search on its way; and the steps.
+    """Edges that meet the conditions, or the event that stopped the search on its way; and the
+    number of steps. `accuracy`: half-widths that the last step may have, and the most steps.
     """
+    enough, most = accuracy
     ends = pieces.solid_around(state.patches.c)
     none = np.zeros(2 * state.patches.number)
-    damping = Damping(none + np.inf, none, none)
+    damping = Damping(none + np.inf, none, none, none)
     sizes: list[float] = []
-    for step in range(MOST_STEPS):
+    for step in range(most):
         _, linear = conditions(state, pieces, given)
         y = linear.solution
         asked = wished(state, linear, y)
@@ -247,7 +251,7 @@ def solve(
             return state, event, step + 1
         if damping.insists.max() >= INSISTS:
             damping.insists[:] = 0
-    return state, Event("stall", -1), MOST_STEPS
+    return state, Event("stall", -1), most
 
 
 def wished(state: State, linear: Linear, y: Array) -> Array:
@@ -303,16 +307,28 @@ def _settled(sizes: list[float], enough: float) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    if insists.max() < INSISTS:
-        return None
-    worst, outward = int(np.argmax(insists)), state.outward
-    if asked[worst] * outward[worst] <= 0.0:
-        shrinking = (2 * insists >= INSISTS) & (asked * outward <= 0.0)
-        return Event("vanish", worst // 2, tuple((np.flatnonzero(shrinking) // 2).tolist()))
-    gap = worst // 2 if worst % 2 else (worst // 2 - 1) % state.patches.number
-    closed = state.patches.gaps[gap] < CLOSED * state.patches.r.min()
-    if closed or gap not in held_open(state.patches, pieces):
-        return Event("merge", gap)
+    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
+    row; or what a single edge insists on.
+    """
+    P, out = state.patches, asked * state.outward > 0.0
+    single, inner = insists >= INSISTS, P.chord.periodic or P.number > 1
+    both = (insists >= TOGETHER).reshape(-1, 2) & ~out.reshape(-1, 2)
+    shrinking = both.all(axis=1) | (single & ~out).reshape(-1, 2).any(axis=1)
+    growing = out & (insists >= TOGETHER)
+    closing = growing[1::2] & np.roll(growing[::2], -1)
+    outward = single & out
+    closing |= outward[1::2] | np.roll(outward[::2], -1)
+    closed = P.gaps < CLOSED * P.r.min()
+    if not P.chord.periodic:
+        closing[-1] = closed[-1] = False
+    kept = np.flatnonzero(closing & ~closed)
+    if kept.size:
+        closing[sorted(held_open(P, pieces).intersection(kept.tolist()))] = False
+    vanished, merged = np.flatnonzero(shrinking), np.flatnonzero((closing | closed) & inner)
+    if merged.size:
+        return Event("merge", int(merged[0]), tuple(merged.tolist()))
+    if vanished.size:
+        return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))
     return None
 
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Findings, Found, Overlap, findings, gap
+from .admissible import Findings, Found, Overlap, findings, gap, tensions
 from .chord import Chord
-from .newton import Event, State
+from .newton import FINAL, MOST_STEPS, Event, State
 from .of_scene import Problem
 from .operator import Operator
 from .panels import Patches
@@ -28,7 +28,10 @@ from .start import FEW, Grid, Patch, grid_pressure, patches_on
 Array = NDArray[np.float64]
 
 ROUNDS = 30
-FEWEST_CELLS, MOST_CELLS = 2048, 65536
+SEVERAL = 12  # patches: of more than these, cuts are looked for ...
+EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
+FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
+ATTEMPTS = 2  # grids that are tried as a start, the next one 8 times finer
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
 COARSE = 512  # cells of a grid that looks for the window
@@ -63,12 +66,12 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
         tilt = _level(problem, window)
     cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
-    while cells < min(CELLS * inside, MOST_CELLS // 4):
+    while cells < min(CELLS * inside, MOST_CELLS):
         cells *= 2
     last: ContactError | None = None
     pieces = problem.pieces(window)
     height = problem.tilted(tilt, window)
-    while cells <= MOST_CELLS:
+    for _ in range(ATTEMPTS):
         grid = grid_pressure(height, window, cells, problem.given.load, problem.chord.periodic)
         try:
             found = settled(start_of(grid, pieces, problem, tilt), pieces, problem)
@@ -77,7 +80,7 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
         else:
             refuse_unknown_ends(found.state, problem)
             return found
-        cells *= 8
+        cells = min(8 * cells, MOST_CELLS)
     assert last is not None
     raise last
 
@@ -335,17 +338,25 @@ def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
 
 def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     """The certified answer near a start."""
-    steps = 0
-    nearly: Found | None = None
+    steps, nearly = 0, None
+    # before the edges of many patches are exact, most patches that have to be cut show it
+    early = EARLY if state.patches.number > SEVERAL else 0
     for round_ in range(ROUNDS):
         if not state.patches.number:
             break
-        state, event, count = newton.solve(state, pieces, problem.given)
+        accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
+        state, event, count = newton.solve(state, pieces, problem.given, accuracy)
         steps += count
-        if event is not None:
+        if event is not None and (round_ >= early or event.kind != "stall"):
             state = after(event, state, pieces, problem)
-            continue
+            if round_ >= early:
+                continue
         o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        if round_ < early:
+            pulled, lowest = tensions(o)
+            early = early if pulled or event is not None else 0
+            state = mended(state, Findings(pulled, (), lowest), o) if pulled else state
+            continue
         found = Found(state, o, findings(o), round_ + 1, steps)
         if found.findings.ok:
             return found
@@ -384,13 +395,13 @@ def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State
             keep[np.argmax(P.r)] = True
         return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
     if event.kind == "merge" and P.number > 1:
-        k = event.number
-        if k == P.number - 1:  # across the cut of the period
-            a[0] = a[k] - P.chord.period
+        gaps = np.array(event.others)
+        if P.number - 1 in gaps:  # across the cut of the period
+            a[0] = a[-1] - P.chord.period
             a, b = a[:-1], b[:-1]
-        else:
-            a, b = np.delete(a, k + 1), np.delete(b, k)
-        return bounded(a, b, pieces, P.chord, state.tilt)
+            gaps = gaps[gaps < P.number - 1]
+        gaps = gaps[gaps < len(a) - 1]
+        return bounded(np.delete(a, gaps + 1), np.delete(b, gaps), pieces, P.chord, state.tilt)
     return state
 
 
