@@ -21,7 +21,7 @@ from sie.traction.base import Density, in_order, on_surface, reflected, refuse_s
 
 from .chord import Points
 from .close import Targets
-from .intensity import blocks, intensities, on_patches
+from .intensity import at_edges, blocks, intensities, on_patches
 from .operator import Operator
 
 Array = NDArray[np.float64]
@@ -231,6 +231,20 @@ class PatchPressure(Density):
         points, k, _ = self.placed(z.real)
         return np.asarray(self._potential(Points(points.anchor, points.offset + 1j * z.imag), k))
 
+    @cached_property
+    def steepness(self) -> PatchPressure | None:
+        """p' as a traction of its own; None where p has jumps of the slope or is infinite.
+
+        Shifting the profile and all edges shifts F: F' is that of H' with the point charges by
+        which moving edges change F.
+        """
+        o = self.operator
+        P = o.patches
+        if o.Y.any() or o.pieces.jumps(P.a, P.b).any():
+            return None
+        derived = Operator(P, o.pieces.derivative, -0.5 * at_edges(o))
+        return PatchPressure(derived, self.half_modulus, 0.0, 0.0)
+
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)
         z = arguments.complexes("z", z)
@@ -240,6 +254,16 @@ class PatchPressure(Density):
         )
 
     def _derivative(self, z: Complex, side: int) -> Complex:
+        points, _, inside = self.placed(z.real)
+        at_edge = inside & (z.imag == 0.0) & (points.offset == 0.0)
+        out = np.full(z.shape, complex(np.inf, np.inf))
+        if self.steepness is not None:
+            out[~at_edge] = self.steepness._cauchy(z[~at_edge], side)
+        else:
+            out[~at_edge] = self._around(z[~at_edge], side)
+        return out
+
+    def _around(self, z: Complex, side: int) -> Complex:
         """By Cauchy's formula on a circle that touches no traction; in contact from the values of p
         beside it.
         """
@@ -263,22 +287,12 @@ class PatchPressure(Density):
         o = self.operator
         piece = o.pieces.locate(points.x)
         steep = self.half_modulus * o.pieces.curvature(piece, points.x)
-        room = np.minimum(
-            np.abs(points.offset),
-            np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x),
-        )
-        room = np.maximum(
-            np.where(room > 0.0, room, np.abs(points.offset)), np.spacing(np.abs(points.x))
-        )
-        step = 0.05 * room
+        room = np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x)
+        room = np.minimum(np.abs(points.offset), np.where(room > 0.0, room, np.inf))
+        step = 0.05 * np.maximum(room, np.spacing(np.abs(points.x)))
         weights = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
         places = points.x[:, None] + step[:, None] * np.array([-2.0, -1.0, 1.0, 2.0])
-        slope = (self(places) @ weights) / step
-        out = np.empty(x.shape, dtype=complex)
-        out.real, out.imag = steep, -side * slope
-        edges = points.offset == 0.0
-        out[edges] = complex(np.inf, np.inf)
-        return out
+        return np.asarray(steep - 1j * side * (self(places) @ weights) / step)
 
     def _of_force(self, z: Any) -> Any:
         if self.period < np.inf:

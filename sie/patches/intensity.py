@@ -40,6 +40,15 @@ def on_patches(o: Operator, i: Index, x: Points, piece: Index) -> Array:
     return np.asarray(o.D(Targets(i, group, x, reference, piece, owner, o.others(i, x, group))))
 
 
+def at_edges(o: Operator) -> Array:
+    """D at all edges (2N,); a smooth edge is that of no other charge."""
+    P, N = o.patches, o.patches.number
+    piece = np.stack((o.pieces.locate(P.a), o.pieces.locate(P.b, "left")), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
+        return on_patches(o, np.arange(N), x, piece).ravel()
+
+
 def blocks(i: Index, x: Array) -> Index:
     """Places of the patches i (m,) as blocks (B, n) of neighbours; the last of a patch fills up."""
     order = np.lexsort((x, i))

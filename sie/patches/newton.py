@@ -21,9 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Points
 from .close import Targets
-from .intensity import on_patches
+from .intensity import at_edges
 from .measure import add, edge_ratio, parts
 from .operator import Operator
 from .panels import GapPanels, Patches
@@ -43,6 +42,7 @@ SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, a
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of the largest edge: no step tells less
+TURNS = 3  # times that an edge is asked back
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
@@ -123,15 +123,6 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     charged[2 * N] *= given.moment is not None
     intensity = np.where(state.sharp, 0.0, at_edges(o))
     return o, Linear(missed + charged, matrix, intensity)
-
-
-def at_edges(o: Operator) -> Array:
-    """D at all edges (2N,); a smooth edge is that of no other charge."""
-    P, N = o.patches, o.patches.number
-    piece = np.stack((o.pieces.locate(P.a), o.pieces.locate(P.b, "left")), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
-        return on_patches(o, np.arange(N), x, piece).ravel()
 
 
 def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
@@ -236,7 +227,7 @@ def solve(
     for step in range(most):
         _, linear = conditions(state, pieces, given)
         y = linear.solution
-        asked = wished(state, linear, y)
+        asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, none if unknown else asked)
@@ -254,14 +245,14 @@ def solve(
     return state, Event("stall", -1), most
 
 
-def wished(state: State, linear: Linear, y: Array) -> Array:
+def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     """The moves that the edges are asked for, (2N,)."""
     N = state.patches.number
     smooth = ~state.sharp
     mean = np.abs(linear.intensity[smooth]).mean() if smooth.any() else 1.0
     D = np.where(smooth, np.maximum(linear.intensity, SMALL * mean + TINY), 1.0)
-    # where the pressure beside an edge is negative the edge has to move in
-    pulls = (linear.intensity < -SMALL * mean) & smooth
+    # where the pressure beside an edge is negative the edge has to move in, unless that was tried
+    pulls = (linear.intensity < -SMALL * mean) & smooth & (turns < TURNS)
     inward = -INWARD * state.outward * np.repeat(state.patches.r, 2)
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
