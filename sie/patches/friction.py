@@ -33,8 +33,8 @@ from .answer import SeveralPatches, answered, whole
 from .full import FullContact
 from .measure import edge_ratio
 from .newton import punch
-from .of_scene import problem_of
-from .solver import changed, contact
+from .of_scene import changed, problem_of
+from .solver import contact
 
 Array = NDArray[np.float64]
 
