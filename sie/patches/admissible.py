@@ -19,10 +19,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .intensity import intensities
-from .newton import State, gap_values
-from .operator import Operator
+from .operator import Operator, gap_values, intensities
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
+from .state import Findings, Overlap, State, Tension
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -31,43 +30,6 @@ NODES = 8  # on a part of a panel
 DEEPEST = 30  # halvings
 TENSION = 1e-13  # of the largest D: rounding
 OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
-
-
-class Tension(NamedTuple):
-    """An interval with tension: [lo, hi] of patch k."""
-
-    patch: int
-    lo: float
-    hi: float
-
-
-class Overlap(NamedTuple):
-    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the
-    largest g of that gap.
-    """
-
-    gap: int
-    lo: float
-    hi: float
-    x: float
-    depth: float
-    largest: float
-
-
-@dataclass(frozen=True)
-class Findings:
-    """The violations of the inequalities; none if the patches are the answer.
-
-    lowest      the lowest bound of D over the largest D
-    """
-
-    tension: tuple[Tension, ...]
-    overlap: tuple[Overlap, ...]
-    lowest: float
-
-    @property
-    def ok(self) -> bool:
-        return not self.tension and not self.overlap
 
 
 @dataclass(frozen=True, eq=False)

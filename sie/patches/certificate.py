@@ -19,9 +19,10 @@ from sie.numerics import chebyshev
 
 from .admissible import Found
 from .density import PatchPressure
-from .newton import Given, State, conditions
+from .newton import conditions
 from .panels import PatchPanels
 from .result import GRADING, LEAST, PatchCertificate
+from .state import Given, State
 
 Array = NDArray[np.float64]
 

@@ -20,9 +20,8 @@ from sie import arguments
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
 from .chord import Points
-from .close import Targets
-from .intensity import at_edges, blocks, intensities, on_patches
-from .operator import Operator
+from .measure import Targets
+from .operator import Operator, at_edges, blocks, intensities, on_patches
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -5,12 +5,18 @@
     T_i(z) = sqrt(d(z, a_i) d(z, b_i)) S_i(z)
     dν_i = dt/|T_i|, on patch k with the sign of d(t, c_k)/d(t, c_i)
 
-Far patches act on ln S_i through the charges of a tree.
+Far patches act on ln S_i through the charges of a tree. Over a panel that a place is close to, the
+difference quotient of the same piece of H is exact, and of another piece k the pole at x is
+integrated in closed form,
+
+    ∫_panel (H_k(t) - H(x))/d(t, x) dν_i = Gauss' sum + (H_k(x) - H(x)) f(x) (J - Gauss' sum of J)
+    J = ∫_panel dt/(W_k d(t, x)),          f = dν_i W_k/dt
+
+as what (H_k(x) - H(x))/d(t, x) leaves in Gauss' rule is known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -18,41 +24,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
-
-from .chord import Chord, Points
+from .chord import Points
 from .panels import GapPanels, Patches, PatchPanels, gap_panels, patch_panels
 from .pieces import Pieces
-from .tree import CHARGES, CHUNK, FAR, POINTS, Level, Separation, Tree
+from .sums import Groups, far_sums, multiply, parts, steps
+from .tree import Level, Separation, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 # half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
 NEAR = 2.5
-# places of a group: sums of so many are interpolated
-SEVERAL = 30
-
-
-FarSums = Callable[[Level, Index, Index, Points], Any]
-
-
-class Groups(NamedTuple):
-    """Groups of blocks: their first blocks and the ends (G + 1,), patches and extents."""
-
-    starts: Index
-    i: Index
-    narrow: tuple[Array, Array]
-    wide: tuple[Array, Array]
-
-    def blocks(self, group: Index) -> tuple[Index, Index]:
-        """(block, pair) of pairs (source, group) in the order of groups, ordered by blocks."""
-        count = np.bincount(group, minlength=len(self.i))
-        first = np.cumsum(count) - count
-        of_block = np.repeat(np.arange(len(self.i)), np.diff(self.starts))
-        number = count[of_block]
-        block = np.repeat(np.arange(len(of_block)), number)
-        return block, ranges(first[of_block], number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,10 +97,10 @@ class Measure:
         else:
             chord, extent = self.patches.chord, groups.wide
             near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
-            out *= np.exp(far_sums(self.patches, groups, near, x, self._logarithms)[..., 0])
+            out *= np.exp(far_sums(self.patches.chord, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
         for some in parts(len(block), out.shape[1]):
-            _multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
+            multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
         return out
 
     def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
@@ -231,54 +213,7 @@ class Measure:
         hi = np.maximum.reduceat(place.max(axis=1), first)
         c = P.c[i[first]]  # b/d(t, c_i) of other patches has a pole there
         wide = np.minimum(lo, c), np.maximum(hi, c)
-        return Groups(np.append(first, len(i)), i[first], (lo, hi), wide)
-
-
-def far_sums(
-    patches: Patches, groups: Groups, separation: Separation, x: Points, at: FarSums
-) -> Any:
-    """Sums over far nodes at blocks of points, (B, n, sets).
-
-    Those far from all points of a group are interpolated within it, where they are many.
-    """
-    lo, hi = groups.narrow
-    middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
-    shape = x.offset.shape
-    many = (np.diff(groups.starts) * shape[1] > SEVERAL) & np.isrealobj(x.offset)
-    nodes = Points(middle[:, None], half[:, None] * POINTS)
-    total: Any = np.zeros((*shape, 1))
-    field: Any = np.zeros((len(lo), CHARGES, 1))
-    for level, node, group in separation.far:
-        away = patches.chord.distance(level.middle[node], lo[group], hi[group])
-        smooth = many[group] & (away - level.half[node] >= (FAR - 1.0) * half[group])
-        block, pair = groups.blocks(group[~smooth])
-        field = _summed(field, at, level, (node[smooth], group[smooth], groups.i), nodes)
-        of_block = np.repeat(groups.i, np.diff(groups.starts))
-        total = _summed(total, at, level, (node[~smooth][pair], block, of_block), x)
-    if not many.any():
-        return total
-    g = np.repeat(np.arange(len(lo)), np.diff(groups.starts))
-    some = np.flatnonzero(many[g])
-    g, x, c = g[some], x[some], patches.c[groups.i[g[some]], None]
-    place = patches.chord.difference(x.anchor - c, x.offset) + (c - middle[g, None])
-    T = chebyshev.polynomials(CHARGES, place / half[g, None])
-    series = chebyshev.transform(np.moveaxis(field, 1, 2))[g]
-    total = total + np.zeros(series.shape[1])
-    total[some] += T.transpose(1, 2, 0) @ series.transpose(0, 2, 1)
-    return total
-
-
-def _summed(
-    total: Any, at: FarSums, level: Level, pairs: tuple[Index, Index, Index], x: Points
-) -> Any:
-    """The sums with those of pairs (node, row) of a level, i of all rows."""
-    node, row, i = pairs
-    for some in parts(len(node), CHARGES * x.offset.shape[1]):
-        value = at(level, node[some], i[row[some]], x[row[some]])
-        if total.shape[-1] < value.shape[-1] or np.iscomplexobj(value):
-            total = total + np.zeros(value.shape[-1:], dtype=value.dtype)
-        add(total, row[some], value)
-    return total
+        return Groups(np.append(first, len(i)), i[first], c, (lo, hi), wide)
 
 
 def edge_ratio(patches: Patches, i: Any) -> Array:
@@ -290,33 +225,137 @@ def edge_ratio(patches: Patches, i: Any) -> Array:
     return np.asarray(np.where(k == np.asarray(i)[..., None], 1.0, rho))
 
 
-def steps(chord: Chord, t: Points, x: Points) -> Any:
-    """d(t, x) of sources (m, s) and places (m, n): (m, n, s)."""
-    return chord.apart(
-        t.anchor[:, None, :] - x.anchor[:, :, None], t.offset[:, None, :] - x.offset[:, :, None]
+# -- integrals over panels that a place is close to ------------------------------------------------
+
+
+class Targets(NamedTuple):
+    """Blocks of places at which D_i is evaluated.
+
+    i            (B,) the patch of each block
+    group        (B,) ascending numbers; blocks of a group are neighbours that share i
+    x            (B, n) places
+    reference    (B, n) the value of H that is taken out: H_piece(x), or any value where piece < 0
+    piece        (B, n) index of a piece, or -1
+    owner        (B, n) the patch that x is on, or the nearer one: beyond the middle of a gap no
+                 pole is taken out of the other's panels, whose f is not smooth up to there
+    S            (B, n) S_i
+    """
+
+    i: Index
+    group: Index
+    x: Points
+    reference: Any
+    piece: Any
+    owner: Any
+    S: Any
+
+    def flat(self, block: Index, place: Index) -> Targets:
+        """Single places, as arrays (m,)."""
+        x = Points(np.broadcast_to(self.x.anchor, self.x.offset.shape), self.x.offset)
+        values = (self.x[block, place] if v is self.x else v[block, place] for v in self[3:])
+        return Targets(self.i[block], self.group[block], x[block, place], *values)
+
+
+def close(o: Measure, panel: Index, x: Points) -> NDArray[np.bool_]:
+    """Whether places (m, n) are close to the panels (m,)."""
+    k, P = o.panels, o.patches
+    right = k.right[panel, None]
+    inward = P.chord.difference(x.anchor - k.points.anchor[panel], x.offset)
+    inward = np.where(right, -inward, inward)
+    if not np.iscomplexobj(inward):
+        lo, hi = o.beside
+        return np.asarray((lo[panel, None] < inward) & (inward < hi[panel, None]))
+    lo, hi = k.lo[panel, None], k.hi[panel, None]
+    angle = 2.0 * np.arcsin(np.sqrt(inward / (2.0 * P.r[k.patch[panel], None])))
+    # a square root may have either sign: the nearer image counts
+    middle, reach = 0.5 * (lo + hi), NEAR * 0.5 * (hi - lo)
+    return np.asarray(np.minimum(np.abs(angle - middle), np.abs(angle.conj() - middle)) < reach)
+
+
+def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
+    """∫_panel (H - reference)/d(t, x) dν_i of panels (m,) at places (m,); nu (m, n) is dν_i."""
+    k = o.panels
+    own = k.piece[panel]
+    same = own == t.piece
+    sums = np.empty(len(panel), dtype=np.result_type(t.x.offset, t.reference))
+    sums[same] = _quotients(o, panel[same], nu[same], t.x[same])
+    other = np.flatnonzero(~same)
+    if not other.size:
+        return sums
+    q, x, ref = panel[other], t.x[other], t.reference[other]
+    points = k.points[q]
+    step = o.patches.chord.apart(
+        points.anchor - x.anchor[:, None], points.offset - x.offset[:, None]
     )
+    step = np.where(step == 0.0, np.inf, step)
+    sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
+    residue = o.pieces.value(own[other], x.anchor, x.offset) - o.H0 - ref
+    lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
+    real = np.real(x.x)
+    beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(x.offset)))
+    counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
+    # not beside a repetition of the panel: of one patch per period both sides of a gap are it
+    here = np.abs(x.anchor - points.anchor[:, 0]) <= 0.5 * o.patches.chord.period
+    counts &= here & (k.patch[q] == t.owner[other])
+    if counts.any():
+        q, x, residue, at = q[counts], x[counts], residue[counts], other[counts]
+        gauss = (o.weight[q] / step[counts]).sum(axis=1)
+        pole = _pole(o, q, x)
+        rounding = ~np.isfinite(pole) & (np.abs(residue) < 1e-12)
+        pole = np.where(rounding, gauss, pole)
+        sums[at] += residue * _f(o, q, x, t.i[at], t.S[at]) * (pole - gauss)
+    return sums
 
 
-def ranges(first: Index, count: Index) -> Index:
-    """first, first + 1, ... of each run."""
-    return np.repeat(first - (np.cumsum(count) - count), count) + np.arange(count.sum())
+def _quotients(o: Measure, panel: Index, nu: Array, x: Points) -> Any:
+    """The same where H at the place is that of the panel's piece."""
+    t = o.panels.points[panel]
+    xs = x.anchor[:, None], x.offset[:, None]
+    exact = o.pieces.divided(o.panels.piece[panel, None], (t.anchor, t.offset), xs)
+    if o.patches.chord.periodic:
+        plain = (t.anchor - xs[0]) + (t.offset - xs[1])
+        step = o.patches.chord.apart(t.anchor - xs[0], t.offset - xs[1])
+        zero = step == 0.0
+        exact = exact * np.where(zero, 1.0, plain / np.where(zero, 1.0, step))
+    return (nu * exact).sum(axis=1)
 
 
-def add(total: Any, row: Index, value: Any) -> None:
-    """total[row] += value, rows in runs."""
-    if not row.size:
-        return
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    total[row[first]] += np.add.reduceat(value, first)
+def _f(o: Measure, panel: Index, x: Points, i: Index, S: Any) -> Any:
+    """dν_i/(dt/W_k) of the panel's patch k, continued to x."""
+    P = o.patches
+    patch = o.panels.patch[panel]
+    f = 1.0 / S
+    other = patch != i
+    if not other.any():
+        return f
+    x, k, i, S = x[other], patch[other], i[other], S[other]
+    d = P.chord.apart
+    ratio = d(x.anchor - P.c[k], x.offset) / d(x.anchor - P.c[i], x.offset)
+    own, theirs = (d(x.anchor - P.a[j], x.offset) * d(x.anchor - P.b[j], x.offset) for j in (i, k))
+    if np.iscomplexobj(ratio):
+        f[other] = np.sqrt(theirs / own / ratio**2) * ratio / S
+    else:
+        f[other] = np.sign(ratio) * np.sqrt(np.abs(theirs / own)) / S
+    return f
 
 
-def _multiply(total: Any, row: Index, value: Any) -> None:
-    if not row.size:
-        return
-    first = np.flatnonzero(np.diff(row, prepend=-1))
-    total[row[first]] *= np.multiply.reduceat(value, first)
-
-
-def parts(rows: int, columns: int) -> list[slice]:
-    size = max(CHUNK // columns, 1)
-    return [slice(start, start + size) for start in range(0, rows, size)]
+def _pole(o: Measure, panel: Index, x: Points) -> Any:
+    """∫_panel dt/(W_k(t) d(t, x)), a principal value on the panel."""
+    P, k = o.patches, o.panels
+    patch, right = k.patch[panel], k.right[panel]
+    inward = P.chord.difference(x.anchor - k.points.anchor[panel, 0], x.offset)
+    inward = np.where(right, -inward, inward)
+    near, far = P.chord.apart(0.0, inward), P.chord.apart(2.0 * P.r[patch], -inward)
+    t1, t2 = o.tau[0][panel], o.tau[1][panel]
+    square = near / far
+    size = np.where(right, -2.0, 2.0) / far
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if np.iscomplexobj(square):
+            tau = np.sqrt(square)
+            return size * np.arctanh(tau * (t2 - t1) / (t1 * t2 - square)) / tau
+        tau = np.sqrt(np.abs(square))
+        outside = np.arctan2(tau * (t2 - t1), t1 * t2 + np.abs(square))
+        u = tau * (t2 - t1) / (t1 * t2 - square)
+        inside = np.arctanh(np.where(np.abs(u) > 1.0, 1.0 / u, u))
+        value = np.where(square < 0.0, outside, inside) / tau
+        return size * np.where(tau == 0.0, 1.0 / t1 - 1.0 / t2, value)

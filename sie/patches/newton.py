@@ -15,18 +15,17 @@ charge itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .close import Targets
-from .intensity import at_edges
-from .measure import add, edge_ratio, parts
-from .operator import Operator
-from .panels import GapPanels, Patches
+from .measure import edge_ratio
+from .operator import Operator, at_edges, gap_values
+from .panels import Patches
 from .pieces import Pieces
+from .state import Event, Given, State
+from .sums import add, parts
 
 Array = NDArray[np.float64]
 
@@ -47,39 +46,6 @@ GROWTH = 3.0  # of moves after one that went too far: slower after every such on
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
-
-
-class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2."""
-
-    load: float
-    tilt: float
-    moment: float | None
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Patches, charges of sharp edges (0 at smooth ones), and the tilt."""
-
-    patches: Patches
-    sharp: NDArray[np.bool_]  # (2N,)
-    charge: Array  # (2N,)
-    tilt: float
-
-    @property
-    def outward(self) -> Array:
-        """-1 at a, 1 at b."""
-        return np.tile([-1.0, 1.0], self.patches.number)
-
-
-class Event(NamedTuple):
-    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
-    "smooth" and edge k.
-    """
-
-    kind: str
-    number: int
-    others: tuple[int, ...] = ()  # all patches that vanish, all gaps that merge
 
 
 class Linear(NamedTuple):
@@ -152,33 +118,6 @@ def across_gaps(o: Operator, weight: Array) -> Array:
         sums = np.reciprocal(step, out=step) @ weight[some, :, None]
         add(out, k.gap[some], sums[..., 0])
     return out
-
-
-def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array]:
-    """The reference value of H, T_i and D_i on the nodes of gap panels.
-
-    i is the patch to the left; outside on the left the first one.
-    """
-    panels = o.gaps if panels is None else panels
-    P, pieces = o.patches, o.pieces
-    shape = panels.dx.shape
-    at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
-    continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
-    reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
-    i = np.maximum(panels.gap, 0)
-    T, S = o.root(i, panels.points, panels.gap)
-    piece = np.where(panels.follows, panels.piece, -1)[:, None]
-    nearer = ((panels.gap + panels.right) % P.number)[:, None]
-    targets = Targets(
-        i,
-        panels.gap,
-        panels.points,
-        reference,
-        np.broadcast_to(piece, shape),
-        np.broadcast_to(nearer, shape),
-        S,
-    )
-    return reference, T, np.asarray(o.D(targets))
 
 
 class Damping(NamedTuple):
@@ -302,7 +241,7 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     row; or what a single edge insists on.
     """
     P, out = state.patches, asked * state.outward > 0.0
-    single, inner = insists >= INSISTS, P.chord.periodic or P.number > 1
+    single = insists >= INSISTS
     both = (insists >= TOGETHER).reshape(-1, 2) & ~out.reshape(-1, 2)
     shrinking = both.all(axis=1) | (single & ~out).reshape(-1, 2).any(axis=1)
     growing = out & (insists >= TOGETHER)
@@ -315,8 +254,8 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     kept = np.flatnonzero(closing & ~closed)
     if kept.size:
         closing[sorted(held_open(P, pieces).intersection(kept.tolist()))] = False
-    vanished, merged = np.flatnonzero(shrinking), np.flatnonzero((closing | closed) & inner)
-    if merged.size:
+    vanished, merged = np.flatnonzero(shrinking), np.flatnonzero(closing | closed)
+    if merged.size and P.number > 1:  # full contact is no event: it is ruled out before
         return Event("merge", int(merged[0]), tuple(merged.tolist()))
     if vanished.size:
         return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from sie.problem.scene import Scene
 
 from .chord import Chord
-from .newton import Given
 from .pieces import Pieces
 from .profile_pieces import of_profile
+from .state import Given
 
 Array = NDArray[np.float64]
 

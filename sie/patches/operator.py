@@ -9,8 +9,8 @@
     p = (G/π) |T_i| D_i on patch i                g' = (1/π) T_i D_i in a gap
 
 Everything is evaluated in blocks of places that share the patch i, all blocks at once. Nodes of
-panels near a block are summed as they are, what is near a place in `close`; far panels act through
-the charges of a `tree`, and so do far patches on ln S_i.
+panels near a block are summed as they are, those close to a place in closed form (`measure`); far
+panels act through the charges of a `tree`.
 """
 
 from __future__ import annotations
@@ -21,14 +21,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import close
 from .chord import Points
-from .close import Targets
-from .measure import Groups, Measure, add, edge_ratio, far_sums, parts, steps
+from .measure import Measure, Targets, close, edge_ratio, integrals
+from .panels import GapPanels
+from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+
+
+BLOCK = 16  # places in a block
+SHARED = 16  # blocks of a patch that share their far sums
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +46,7 @@ class Operator(Measure):
         near = self.tree.separated(self.patches.chord, groups.i, groups.narrow, groups.wide)
         total = self._near(t, *self._blocks(groups, near))
         if near.far:
-            far = far_sums(self.patches, groups, near, t.x, self._charges_at)
+            far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at)
             total += far[..., 0] - t.reference * far[..., 1]
         return total - self._charged(t)
 
@@ -69,15 +73,13 @@ class Operator(Measure):
             local = np.real(t.reference[row, :1])
             nu = self.measure(t.i[row], q)
             step = steps(chord, k.points[q], t.x[row])
-            pair, place = np.nonzero(close.near(self, q, t.x[row]))
+            pair, place = np.nonzero(close(self, q, t.x[row]))
             step[pair, place] = np.inf
             kernel = np.reciprocal(step, out=step)
             sums = kernel @ np.stack((nu * (self.H[q] - local), nu), axis=2)
             value = sums[..., 0] - (t.reference[row] - local) * sums[..., 1]
             if pair.size:
-                value[pair, place] += close.integrals(
-                    self, q[pair], nu[pair], t.flat(row[pair], place)
-                )
+                value[pair, place] += integrals(self, q[pair], nu[pair], t.flat(row[pair], place))
             add(total, row, value)
         return total
 
@@ -124,3 +126,77 @@ class Operator(Measure):
         x = t.x
         step = P.chord.apart(x.anchor[..., None] - P.edges[sharp], x.offset[..., None])
         return ((1.0 / step) @ charge[..., None])[..., 0]
+
+
+# -- D at points of the patches and in the gaps ----------------------------------------------------
+
+
+def intensities(o: Operator, panel: Index, angle: Array) -> tuple[Array, Array]:
+    """D at angles (m, n) on panels (m,), and where that is."""
+    k, P = o.panels, o.patches
+    right = k.right[panel, None]
+    inward = 2.0 * P.r[k.patch[panel], None] * np.sin(0.5 * angle) ** 2
+    x = Points(k.points.anchor[panel], np.where(right, -inward, inward))
+    piece = np.broadcast_to(k.piece[panel, None], inward.shape)
+    order = np.argsort(k.patch[panel], kind="stable")
+    D = np.empty(inward.shape)
+    D[order] = on_patches(o, k.patch[panel[order]], x[order], piece[order])
+    return D, x.x
+
+
+def on_patches(o: Operator, i: Index, x: Points, piece: Index) -> Array:
+    """D_i at blocks of points x (B, n) on patches i (B,), ascending, on these pieces of H."""
+    starts = np.flatnonzero(np.diff(i, prepend=-1))
+    count = np.diff(np.append(starts, len(i)))
+    group = np.cumsum(ranges(np.zeros_like(count), count) % SHARED == 0)
+    owner = np.broadcast_to(i[:, None], x.offset.shape)
+    reference = o.pieces.value(piece, x.anchor, x.offset)
+    return np.asarray(o.D(Targets(i, group, x, reference, piece, owner, o.others(i, x, group))))
+
+
+def at_edges(o: Operator) -> Array:
+    """D at all edges (2N,); a smooth edge is that of no other charge."""
+    P, N = o.patches, o.patches.number
+    piece = np.stack((o.pieces.locate(P.a), o.pieces.locate(P.b, "left")), axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = Points(P.edges.reshape(N, 2), np.zeros((N, 2)))
+        return on_patches(o, np.arange(N), x, piece).ravel()
+
+
+def blocks(i: Index, x: Array) -> Index:
+    """Places of the patches i (m,) as blocks (B, n) of neighbours; the last of a patch fills up."""
+    order = np.lexsort((x, i))
+    starts = np.flatnonzero(np.diff(i[order], prepend=-1))
+    stops = np.append(starts[1:], len(i))
+    count = -(-(stops - starts) // BLOCK)
+    first = np.repeat(starts, count) + BLOCK * ranges(np.zeros_like(count), count)
+    return order[
+        np.minimum(first[:, None] + np.arange(BLOCK), np.repeat(stops, count)[:, None] - 1)
+    ]
+
+
+def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array]:
+    """The reference value of H, T_i and D_i on the nodes of gap panels.
+
+    i is the patch to the left; outside on the left the first one.
+    """
+    panels = o.gaps if panels is None else panels
+    P, pieces = o.patches, o.pieces
+    shape = panels.dx.shape
+    at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
+    continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
+    reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
+    i = np.maximum(panels.gap, 0)
+    T, S = o.root(i, panels.points, panels.gap)
+    piece = np.where(panels.follows, panels.piece, -1)[:, None]
+    nearer = ((panels.gap + panels.right) % P.number)[:, None]
+    targets = Targets(
+        i,
+        panels.gap,
+        panels.points,
+        reference,
+        np.broadcast_to(piece, shape),
+        np.broadcast_to(nearer, shape),
+        S,
+    )
+    return reference, T, np.asarray(o.D(targets))

@@ -1,79 +1,23 @@
-"""Newton's method and repairs, from a start to patches that are certified.
-
-Where the inequalities fail, a patch is cut where it pulls, added where the bodies overlap, or
-merged with the next where a whole gap overlaps, and Newton's method starts again.
-"""
+"""Changes of patches: after an event of the search, and where they are not admissible."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import LoadError
-
-from . import newton
-from .admissible import Findings, Found, Overlap, findings, tensions
 from .chord import Chord
-from .newton import FINAL, MOST_STEPS, Event, State
-from .of_scene import Problem
-from .operator import Operator
 from .panels import Patches
 from .pieces import Pieces
+from .state import Event, Findings, Overlap, State
 
 Array = NDArray[np.float64]
 
-ROUNDS = 30
-SEVERAL = 12  # patches: of more than these, cuts are looked for ...
-EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
-# of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
-NEARLY = 1e-7
 
-
-def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
-    """The certified answer near a start."""
-    steps, nearly = 0, None
-    # before the edges of many patches are exact, most patches that have to be cut show it
-    early = EARLY if state.patches.number > SEVERAL else 0
-    for round_ in range(ROUNDS):
-        if not state.patches.number:
-            break
-        accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
-        state, event, count = newton.solve(state, pieces, problem.given, accuracy)
-        steps += count
-        if event is not None and (round_ >= early or event.kind != "stall"):
-            state = after(event, state, pieces, problem)
-            if round_ >= early:
-                continue
-        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
-        if round_ < early:
-            pulled, lowest = tensions(o)
-            early = early if pulled or event is not None else 0
-            state = mended(state, Findings(pulled, (), lowest), o) if pulled else state
-            continue
-        found = Found(state, o, findings(o), round_ + 1, steps)
-        if found.findings.ok:
-            return found
-        if not found.findings.overlap and found.findings.lowest > -NEARLY:
-            nearly = found
-        state = mended(state, found.findings, o)
-    if nearly is not None:
-        return nearly
-    raise LoadError(
-        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
-        f"{problem.given.load:.6g}: "
-        "two of them are about to merge, or one to appear; change the load a little"
-    )
-
-
-def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State:
+def after(event: Event, state: State, pieces: Pieces) -> State:
     """The patches after an event."""
     P = state.patches
     a, b, sharp = P.a.copy(), P.b.copy(), state.sharp.copy()
     if event.kind == "smooth":
-        o = Operator(P, pieces, np.where(sharp, state.charge, 0.0))
-        found = findings(o)
-        if found.tension:  # a cut may leave the end without pull
-            return mended(state, found, o)
         k = event.number // 2
         sharp[event.number] = False
         if event.number % 2:
@@ -98,9 +42,9 @@ def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State
     return state
 
 
-def mended(state: State, found: Findings, o: Operator) -> State:
+def mended(state: State, found: Findings, pieces: Pieces) -> State:
     """The patches cut where they pull, born and merged where the bodies overlap."""
-    P, pieces = state.patches, o.pieces
+    P = state.patches
     ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
     cut: list[tuple[float, float]] = []
     for k, (a, b) in enumerate(ends):

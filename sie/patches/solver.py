@@ -3,25 +3,47 @@
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
 they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
 where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
+
+At fixed tilt the patches only grow, appear and merge with the load: dp/dP is the pressure of the
+flat punch on the patches, and positive. So the patches of a smaller load are a start for a larger
+one. At a fixed moment that is not so: then the whole load at some tilt comes first, and after it
+the tilt, along which the moment of the pressure falls.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError, LoadError
 
-from .admissible import Found, gap
-from .continuation import continued
-from .newton import State
-from .of_scene import Problem
-from .repairs import settled
+from . import newton
+from .admissible import Found, findings, gap, tensions
+from .newton import FINAL, MOST_STEPS
+from .of_scene import Problem, changed
+from .operator import Operator
+from .pieces import Pieces
+from .repairs import after, mended
 from .start import grid_pressure
 from .start_state import start_of
+from .state import Event, Findings, State
 
 Array = NDArray[np.float64]
 
+ROUNDS = 30
+SEVERAL = 12  # patches: of more than these, cuts are looked for ...
+EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
+# of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
+NEARLY = 1e-7
+LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
+FIRST = 2.0  # the first step of the load, as a factor
+FINEST = 1.0 + 1e-4  # a step of the load; ...
+NARROWEST = 1e-4  # ... and of the tilt, of what is left to go
+STEPS = 200
+
+Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
@@ -133,6 +155,111 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
                 "is like beyond is not known: lower the load or the tilt, or measure further out",
                 end=end,
             )
+
+
+# -- Newton's method and repairs -------------------------------------------------------------------
+
+
+def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
+    """The certified answer near a start."""
+    steps, nearly = 0, None
+    # before the edges of many patches are exact, most patches that have to be cut show it
+    early = EARLY if state.patches.number > SEVERAL else 0
+    for round_ in range(ROUNDS):
+        if not state.patches.number:
+            break
+        accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
+        state, event, count = newton.solve(state, pieces, problem.given, accuracy)
+        steps += count
+        if event is not None and (round_ >= early or event.kind != "stall"):
+            state = _after(event, state, pieces)
+            if round_ >= early:
+                continue
+        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        if round_ < early:
+            pulled, lowest = tensions(o)
+            early = early if pulled or event is not None else 0
+            state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
+            continue
+        found = Found(state, o, findings(o), round_ + 1, steps)
+        if found.findings.ok:
+            return found
+        if not found.findings.overlap and found.findings.lowest > -NEARLY:
+            nearly = found
+        state = mended(state, found.findings, pieces)
+    if nearly is not None:
+        return nearly
+    raise LoadError(
+        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
+        f"{problem.given.load:.6g}: "
+        "two of them are about to merge, or one to appear; change the load a little"
+    )
+
+
+def _after(event: Event, state: State, pieces: Pieces) -> State:
+    if event.kind == "smooth":  # a cut may leave the end without pull
+        found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
+        if found.tension:
+            return mended(state, found, pieces)
+    return after(event, state, pieces)
+
+
+# -- continuation ----------------------------------------------------------------------------------
+
+
+def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Found:
+    """The contact of a problem, from those of smaller loads at this tilt. Raises ContactError."""
+    level = changed(problem, tilt=tilt, moment=None)
+    found, load = _light(level, pieces, start)
+    factor = FIRST
+    for _ in range(STEPS):
+        if load >= problem.given.load:
+            break
+        wanted = min(load * factor, problem.given.load)
+        try:
+            found = settled(found.state, pieces, changed(level, load=wanted))
+        except ContactError:
+            factor **= 0.5
+            if factor < FINEST:
+                raise
+        else:
+            load, factor = wanted, min(factor**2, FIRST)
+    return found if problem.given.moment is None else _turned(problem, pieces, found)
+
+
+def _light(problem: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
+    """The contact of the largest load, by quarters, that is found from a start of its own."""
+    load = problem.given.load
+    for _ in range(LIGHTEST):
+        load *= 0.25
+        lighter = changed(problem, load=load)
+        try:
+            return settled(start(lighter), pieces, lighter), load
+        except ContactError as error:
+            last = error
+    raise last
+
+
+def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
+    """The contact under the moment of a problem, from one of the same load, by steps of it."""
+    asked = problem.given.moment
+    assert asked is not None
+    o = found.operator
+    now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
+    step = asked - now
+    for _ in range(STEPS):
+        wanted = asked if abs(asked - now) <= abs(step) else now + step
+        try:
+            found = settled(found.state, pieces, changed(problem, moment=wanted))
+        except ContactError:
+            step *= 0.5
+            if abs(step) < NARROWEST * abs(asked - now):
+                raise
+        else:
+            if wanted == asked:
+                break
+            now, step = wanted, 2.0 * step
+    return found
 
 
 # -- the window ------------------------------------------------------------------------------------

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from sie.errors import LoadError
 
 from .chord import Chord
-from .newton import State
 from .of_scene import Problem
 from .pieces import Pieces
 from .repairs import apart, bounded, one_period
 from .start import FEW, Grid, Patch, patches_on
+from .state import State
 
 Array = NDArray[np.float64]
 
