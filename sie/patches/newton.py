@@ -41,7 +41,8 @@ SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, a
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
 ULPS = 8.0  # of the largest edge: no step tells less
-TURNS = 3  # times that an edge is asked back
+# times that an edge is asked back, and the part of the mean: only clear tension counts from then on
+TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
@@ -190,8 +191,9 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     smooth = ~state.sharp
     mean = np.abs(linear.intensity[smooth]).mean() if smooth.any() else 1.0
     D = np.where(smooth, np.maximum(linear.intensity, SMALL * mean + TINY), 1.0)
-    # where the pressure beside an edge is negative the edge has to move in, unless that was tried
-    pulls = (linear.intensity < -SMALL * mean) & smooth & (turns < TURNS)
+    # where the pressure beside an edge is negative the edge has to move in
+    threshold = np.where(turns < TURNS, SMALL, CLEARLY) * mean
+    pulls = (linear.intensity < -threshold) & smooth
     inward = -INWARD * state.outward * np.repeat(state.patches.r, 2)
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 

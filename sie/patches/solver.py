@@ -32,7 +32,7 @@ from .state import Event, Findings, State
 
 Array = NDArray[np.float64]
 
-ROUNDS = 30
+ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts are looked for ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
@@ -162,7 +162,7 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
 
 def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     """The certified answer near a start."""
-    steps, nearly = 0, None
+    steps, stalls, nearly = 0, 0, None
     # before the edges of many patches are exact, most patches that have to be cut show it
     early = EARLY if state.patches.number > SEVERAL else 0
     for round_ in range(ROUNDS):
@@ -171,6 +171,9 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
         state, event, count = newton.solve(state, pieces, problem.given, accuracy)
         steps += count
+        stalls += event is not None and event.kind == "stall" and round_ >= early
+        if stalls > STALLS:
+            break
         if event is not None and (round_ >= early or event.kind != "stall"):
             state = _after(event, state, pieces)
             if round_ >= early:

@@ -331,11 +331,11 @@ def test_many_narrow_patches_are_summed_as_by_one_product_over_all():
     measure = Operator(Patches(a, b, Chord()), pieces)
     middle = 0.5 * (b[:-1] + a[1:])
     i = np.arange(len(middle))
-    S = measure.others(i, Points(middle[:, None], np.zeros((len(middle), 1))))[:, 0]
+    product = measure.others(i, Points(middle[:, None], np.zeros((len(middle), 1))))[:, 0]
     c, r = 0.5 * (a + b), 0.5 * (b - a)
     factor = np.sqrt(np.abs(1.0 - (r / (middle[:, None] - c)) ** 2))
     factor[i, i] = 1.0
-    assert S == pytest.approx(factor.prod(axis=1), rel=1e-11)
+    assert product == pytest.approx(factor.prod(axis=1), rel=1e-11)
 
 
 def test_the_wave_in_full_contact():
