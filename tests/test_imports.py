@@ -22,7 +22,17 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 # From the ground up: a folder or a module at the top imports only from its own row and from rows
 # before it.
 LAYERS = (
-    ("interrupt", "errors", "messages", "files", "streams", "arguments", "workers"),
+    (
+        "interrupt",
+        "errors",
+        "messages",
+        "files",
+        "streams",
+        "arguments",
+        "workers",
+        "progress_bar",
+        "sweep_result",
+    ),
     ("numerics",),
     ("profiles",),
     ("problem", "traction"),
@@ -30,7 +40,7 @@ LAYERS = (
     ("friction",),
     ("patches",),
     ("certificate",),
-    ("plan",),
+    ("plan", "kept_stages"),
     ("solution",),
     ("smoothing_search", "history"),
     ("sweep", "charts"),

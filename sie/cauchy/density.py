@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import FAINT, Weight
 from sie.traction.base import Density, zero_or_nan
 
 from .interval_map import Affine, Map
@@ -155,7 +155,7 @@ class Part:
         Its Cauchy integrals then keep their digits.
         """
         w, n = self.weight, len(self.coefficients)
-        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= jacobi.FAINT:
+        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= FAINT:
             return self
         rises = abs(w.alpha) < abs(w.beta)
         faint = Weight(w.alpha, -w.alpha, 0) if rises else Weight(-w.beta, w.beta, 0)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.errors import ContactError
 from sie.numerics import jacobi
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 
 from .interval_map import Affine, Map
 

@@ -144,7 +144,7 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
 
 
 def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
-    """Which cuts bound a piece that is shorter than the grading towards the ends makes it."""
+    """Whether each cut bounds a piece that is shorter than the grading towards the ends."""
     k = np.searchsorted(ends, cut, side="right").clip(1, len(ends) - 1)
     distance = np.minimum(cut - ends[k - 1], ends[k] - cut)
     beside = np.diff(cut, prepend=-np.inf, append=np.inf)
@@ -188,8 +188,8 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
 
 
 def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
-    """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1)
-    ln|x - e| is then rounding.
+    """The number of gradings at each break inside, after which the error of NODES nodes for
+    (x - e)^(m+1) ln|x - e| is rounding.
     """
     b = slope.breaks[1:-1]
     inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)

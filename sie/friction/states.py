@@ -11,11 +11,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import moments
+from sie.contact.edge_integrals import edge_integrals
 from sie.contact.gap import gap
 from sie.contact.inequalities import verify_inequalities
 from sie.contact.pressure import Normal
@@ -99,6 +100,18 @@ class Slip(ABC):
     @property
     @abstractmethod
     def shear(self) -> Density: ...
+
+    @property
+    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
+        """q as a multiple of the pressure and the other densities, each times a factor."""
+        return 0.0, ((1.0, self.shear),)
+
+    @property
+    def contacts(self) -> tuple[Any, ...]:
+        """The contacts in several patches, beside that of the pressure, that the shear is made
+        of.
+        """
+        return ()
 
     @abstractmethod
     def slip(self, x: Array) -> Array:
@@ -360,6 +373,13 @@ class OneSignedSlip(Slipping):
         )
 
     @property
+    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
+        if self.short is not None:
+            return super().parts
+        scale = self.sign * self.friction
+        return scale, ((-scale, self.corrective),)
+
+    @property
     def signs(self) -> tuple[float, float]:
         return self.sign, self.sign
 
@@ -485,7 +505,7 @@ def _guess(step: Step, sign: float) -> tuple[float, float]:
     """Lengths of short zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
     contact, G, f = step.pressure.contact, step.pressure.half_modulus, step.scene.friction
     slope = refined(step.slope, contact.x1, contact.x2, EPS)
-    k = moments(slope, contact)
+    k = edge_integrals(slope, contact)
     Q, strain = sign * step.Q, sign * math.pi * contact.r * step.tau
     tiny = EPS * abs(Q)
     return max(Q + strain, tiny) / (f * G * contact.r * k.JL), max(Q - strain, tiny) / (

@@ -190,7 +190,9 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     N = state.patches.number
     smooth = ~state.sharp
     mean = np.abs(linear.intensity[smooth]).mean() if smooth.any() else 1.0
-    D = np.where(smooth, np.maximum(linear.intensity, SMALL * mean + TINY), 1.0)
+    # next to a concave corner D is larger by orders than elsewhere: one floor is not for all
+    D = np.where(linear.intensity > 0.0, linear.intensity, SMALL * mean) + TINY
+    D = np.where(smooth, D, 1.0)
     # where the pressure beside an edge is negative the edge has to move in
     threshold = np.where(turns < TURNS, SMALL, CLEARLY) * mean
     pulls = (linear.intensity < -threshold) & smooth

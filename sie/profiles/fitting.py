@@ -162,7 +162,7 @@ def line(x: Array, h: Array) -> tuple[float, float]:
 
 
 def reason_at_an_end(x: Array, h: Array) -> str:
-    """Why a contact with the trace may reach its end, and what helps; "" if there is no reason."""
+    """A reason why contact may reach the end of the trace, and a remedy; "" if none is found."""
     offset, slope = line(x, h)
     left = h - (offset + slope * x)
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():
@@ -170,7 +170,7 @@ def reason_at_an_end(x: Array, h: Array) -> str:
     if _arched(x, left):
         return (
             "the trace arches upwards: heights of a surface have the other sign, "
-            "scale = (1, -1) turns them over"
+            "scale = (1, -1) turns them over; if h is the gap, the surface is hollow in the middle"
         )
     if int(np.argmin(h)) in (0, len(h) - 1):
         return (

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.errors import ContactError
 
 from . import fitting
-from .base import Derived, Placed, Profile, of_any_x
+from .base import Profile, of_any_x
 from .slope import Slope
 from .splines import cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
@@ -281,6 +278,7 @@ class Sampled(Profile):
         Returns
         -------
         Sampled
+            A new trace with the same heights.
 
         Raises
         ------
@@ -292,7 +290,25 @@ class Sampled(Profile):
         >>> Sampled([0, 1, 2, 3], [0, 1, 4, 9]).smoothed(0.5).lam
         0.5
         """
-        return self._remade(self.heights, smoothing)
+        return self._remade(self.points, self.heights, smoothing, f"smoothed({smoothing!r})")
+
+    def without_outliers(self) -> Sampled:
+        """The trace without the points that stand out of its noise, `outliers`.
+
+        Returns
+        -------
+        Sampled
+
+        Examples
+        --------
+        >>> x = np.linspace(-1.0, 1.0, 101)
+        >>> spiked = Sampled(x, np.where(x == 0.5, 0.3, x**2))
+        >>> len(spiked.without_outliers().points)
+        100
+        """
+        kept = np.delete(np.arange(len(self.points)), self.outliers)
+        call = "without_outliers()"
+        return self._remade(self.points[kept], self.heights[kept], self.smoothing, call)
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less a least-squares line.
@@ -306,6 +322,7 @@ class Sampled(Profile):
         Returns
         -------
         Sampled
+            A new trace with the same smoothing.
 
         Raises
         ------
@@ -326,7 +343,9 @@ class Sampled(Profile):
                 "a line needs at least 2"
             )
         offset, slope = fitting.line(self.points[part], self.heights[part])
-        return self._remade(self.heights - (offset + slope * self.points), self.smoothing)
+        heights = self.heights - (offset + slope * self.points)
+        call = "levelled()" if between is None else f"levelled({between!r})"
+        return self._remade(self.points, heights, self.smoothing, call)
 
     def fit_rounded_flat(self) -> fitting.RoundedFlatFit:
         """The rounded flat nearest to the measured points, by least squares.
@@ -360,47 +379,9 @@ class Sampled(Profile):
         """
         return fitting.rounded_flat(self.points, self.heights)
 
-    def _remade(self, heights: Array, smoothing: Smoothing) -> Sampled:
-        made = Sampled(self.points, heights, smoothing)
+    def _remade(self, x: Array, h: Array, smoothing: Smoothing, call: str) -> Sampled:
+        """Another trace made by a call of a method, which is how one from a file is printed."""
+        made = Sampled(x, h, smoothing)
         object.__setattr__(made, "mended", self.mended)
+        object.__setattr__(made, "source", f"{self.source}.{call}" if self.source else "")
         return made
-
-
-# -- traces in other profiles --------------------------------------------------------------------
-
-
-class PlacedTrace(NamedTuple):
-    """A trace in a profile.
-
-    The position x of the profile is direction x + origin in the trace. The slope of the profile is
-    direction times the slope of the trace, plus tilt.
-    """
-
-    trace: Sampled
-    direction: float = 1.0
-    origin: float = 0.0
-    tilt: float = 0.0
-
-    def x(self, points: Array) -> Array:
-        """The places of the trace's points in the profile."""
-        return self.direction * (points - self.origin)
-
-
-def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
-    """The traces in a profile that may be tilted, shifted, mirrored and added."""
-    parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
-    for part, sign, shift, tilt in parts:
-        if isinstance(part, Sampled):
-            yield PlacedTrace(part, sign, -sign * shift, tilt)
-
-
-def explained(error: ContactError, profile: Profile) -> ContactError:
-    """The refusal of a contact, with the reason and the remedy if the profile has a trace."""
-    trace = next((placed.trace for placed in traces_in(profile)), None)
-    if trace is None or not error.reached:
-        return error
-    if "end" in error.reached:
-        advice = fitting.reason_at_an_end(trace.points, trace.heights)
-    else:
-        advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
-    return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error

@@ -15,13 +15,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.numerics.interval import EPS
+
+from .slope_row import Row
 
 Array = NDArray[np.float64]
 Vectorised = Callable[[Array], Any]
@@ -36,29 +38,6 @@ FEW, LOW = 6, 4
 JUMP = 256.0 * EPS
 # The same for a function: its pieces are resolved one by one, and do not match to rounding.
 SEEN_JUMP = 1e-9
-
-
-class Row(NamedTuple):
-    """One piece of a slope as plain floats; coefficients high order first."""
-
-    lo: float
-    hi: float
-    origin: float
-    coefficients: tuple[float, ...]
-
-    def at(self, x: float) -> float:
-        value = 0.0
-        for c in self.coefficients:
-            value = value * (x - self.origin) + c
-        return value
-
-    def steepness(self, x: float) -> float:
-        """H'."""
-        value = slope = 0.0
-        for c in self.coefficients:
-            slope = slope * (x - self.origin) + value
-            value = value * (x - self.origin) + c
-        return slope
 
 
 @dataclass(frozen=True)
@@ -259,15 +238,10 @@ class Slope:
             k = np.array([j - 1, j])
             start = np.array([x, x])
             ulp = np.spacing(abs(x)) if self.functions else 0.0
-            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[
-                :, 0
-            ].tolist()
-            curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
-            kink = (
-                float(curvature[1, 0] - curvature[0, 0])
-                if isinstance(curvature, np.ndarray)
-                else 0.0
-            )
+            beside = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))
+            below, above = beside[:, 0].tolist()
+            steep = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
+            kink = float(steep[1, 0] - steep[0, 0]) if isinstance(steep, np.ndarray) else 0.0
         rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
         return (float(above - below) if abs(above - below) > rounding else 0.0), kink
 
@@ -370,18 +344,9 @@ class Slope:
         mine, theirs = (
             np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other)
         )
-        origins = np.where(
-            other.is_zero[theirs]
-            | (
-                ~self.is_zero[mine]
-                & (
-                    _distance(self.origins[mine], breaks)
-                    <= _distance(other.origins[theirs], breaks)
-                )
-            ),
-            self.origins[mine],
-            other.origins[theirs],
-        )
+        one, two = self.origins[mine], other.origins[theirs]
+        nearer = _distance(one, breaks) <= _distance(two, breaks)
+        origins = np.where(other.is_zero[theirs] | (~self.is_zero[mine] & nearer), one, two)
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
         c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])

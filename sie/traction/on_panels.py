@@ -273,7 +273,7 @@ class SlidingDensity(PanelDensity):
     """The pressure in full sliding."""
 
     def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
-        """As H and p are conjugate, 1/π PV∫p/(x - t) + p tan πε = H is met with H sin πε cos πε."""
+        """The same with H sin πε cos πε added: then 1/π PV∫p/(x - t) dt + p tan πε = H."""
         slope = np.sum([law.slope_at(y) for law in laws], axis=0)
         cos, sin = self.panels.edge.cos, math.sin(math.pi * self.epsilon)
         return cos * cos * super()._of_powers(laws, y, b) + sin * cos * slope
