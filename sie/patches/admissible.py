@@ -127,9 +127,8 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
         room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
         width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
         corner = np.broadcast_to(corners[:, None], width.shape)
-        owner, which = (np.broadcast_to(v[:, None], width.shape) for v in (patch, piece))
-        x = Points(corner[:, None], (-width if side == "left" else width)[:, None])
-        D = on_patches(o, owner, x, which[:, None])[:, 0]
+        which = np.broadcast_to(piece[:, None], width.shape)
+        D = on_patches(o, patch, Points(corner, -width if side == "left" else width), which)
         widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
         deepest = np.minimum(deepest, D.min(axis=1))
     left, right = widths
