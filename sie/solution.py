@@ -20,7 +20,7 @@ from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import shear_certificate
-from .certificate.trace_noise import TraceReport, trace_reports
+from .certificate.trace_noise import TraceReport, patch_trace_reports, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
@@ -334,6 +334,19 @@ class Solution:
     def patch_loads(self) -> tuple[float, ...]:
         """∫p over each patch, force per length."""
         return (self.normal_load,) if self._several is None else self._several.pressure.loads
+
+    @property
+    def contact_length(self) -> float:
+        """The real length of contact, of all patches together; per period that of one period."""
+        return sum(x2 - x1 for x1, x2 in self.patches)
+
+    @property
+    def gap_volume(self) -> float:
+        """∫ of the gap between the patches, or over one period, where there is an indenter: what a
+        fluid would fill, volume per length of the line of contact.
+        """
+        several = self._several
+        return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
 
     @property
     def half_width(self) -> float:
@@ -684,7 +697,10 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        if self.scene.bonded or self.scene.coupled or self._several is not None:
+        several = self._several
+        if isinstance(several, SeveralPatches):
+            return patch_trace_reports(self.scene, several.edges, several)
+        if self.scene.bonded or self.scene.coupled or several is not None:
             return ()
         return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 

@@ -67,11 +67,18 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
     loads = solution.patch_loads
     most = max(range(len(patches)), key=lambda k: loads[k])
     lo, hi = (_number(x, solution.half_width) for x in patches[most])
-    length = sum(b - a for a, b in patches)
+    length, period = solution.contact_length, solution.scene.profile.period
+    whole = period if math.isfinite(period) else 2.0 * solution.half_width
+    of_what = "of the period" if math.isfinite(period) else "from x1 to x2"
     share = 100.0 * loads[most] / solution.normal_load
     return (
-        ("patches", f"{len(patches)}, together {_number(length)} {units.length} long"),
+        ("patches", f"{len(patches)}"),
+        (
+            "in contact",
+            f"{_number(length)} {units.length}, {100.0 * length / whole:.3g} % {of_what}",
+        ),
         ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}"),
+        ("gap volume", f"{_number(solution.gap_volume)} {units.length}² between them"),
     )
 
 
@@ -81,7 +88,7 @@ def pressure_summary(solution: Solution, units: Units) -> str:
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
-    mean = solution.normal_load / sum(b - a for a, b in solution.patches)
+    mean = solution.normal_load / solution.contact_length
     rows = _rows(
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),

@@ -16,7 +16,7 @@ from sie.profiles.base import Derived, Profile
 from sie.profiles.row import Row
 from sie.profiles.slope import Slope
 
-from .admissible import Found, gap
+from .admissible import Found, gap, gap_volume
 from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
@@ -62,6 +62,10 @@ class SeveralPatches:
     def window(self) -> tuple[float, float]:
         return self.found.operator.pieces.domain
 
+    @property
+    def gap_volume(self) -> float:
+        return gap_volume(self.found.operator)
+
     def certificate(self, tol: float) -> PatchCertificate:
         return certificate(self.found, self.pressure, self.problem.given, tol)
 
@@ -85,7 +89,12 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
             problem = problem_of(scene)
             return whole(problem, scene) or answered(problem, contact(problem), scene)
-    except (ArithmeticError, np.linalg.LinAlgError):
+    except np.linalg.LinAlgError:
+        raise LoadError(
+            "the conditions of the edges became singular on the way to this load, as they are "
+            "where patches merge: change the load a little"
+        ) from None
+    except ArithmeticError:
         raise LoadError(
             f"the search for the patches left the range of doubles: {arguments.REMEDY}"
         ) from None
