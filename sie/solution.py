@@ -267,14 +267,18 @@ class Solution:
         return self.first_loading(self._loads, self.patches_under)
 
     def first_loading(
-        self, loads: tuple[float, float], under: PatchesUnder, near: Interval | None = None
+        self,
+        loads: tuple[float, float],
+        under: PatchesUnder,
+        near: Interval | None = None,
+        one_sign: bool = False,
     ) -> Slip:
         """The state after Q and τ on this contact without shear; `under` gives it under other
-        loads and tilts, `near` is as of `load_step`.
+        loads and tilts, `near` is as of `load_step`, `one_sign` as of `slip`.
         """
         if self._several is None:
             try:
-                return slip(self.load_step(*loads, near))
+                return slip(self.load_step(*loads, near), one_sign)
             except (InequalityError, LoadError):  # the stick zones may be several
                 if self.scene.profile.convex:
                     raise
