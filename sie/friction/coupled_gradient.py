@@ -35,6 +35,7 @@ RESOLVED = 1e-12  # of the size of the functions: the last coefficients of a pan
 FAINT = 1e-16  # of that size times the interval: what a short panel may miss
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
 ROUGH, SAME = 1e-8, 0.8
+SHORTEST = 1e-11  # of the interval: no panel is cut that is as short; a corner's p is infinite
 HALVINGS = 14  # of the last panel, before its functions are looked at
 APART = 1e-9  # of the interval: marks that are nearer are one
 
@@ -162,7 +163,7 @@ def tabulated(
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=(0, 2)) / size
         settled = (tail <= RESOLVED) | (tail * (hi - lo) <= FAINT * b)
-        settled |= (tail < ROUGH) & (tail > SAME * before)
+        settled |= (tail < ROUGH) & (tail > SAME * before) | (hi - lo <= SHORTEST * b)
         done += [(lo[k], hi[k], series[0, k]) for k in np.flatnonzero(settled)]
         todo = []
         for k in np.flatnonzero(~settled).tolist():
