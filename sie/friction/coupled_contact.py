@@ -37,7 +37,6 @@ LOOKS, EVEN = (
 ENERGY_NODES = 24
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9
-NARROWEST = 64.0 * EPS  # half-widths: a zone that narrow is no panel of the tractions
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,9 +110,7 @@ class CoupledContact:
     def marks(self) -> tuple[float, ...]:
         """y where p or q is not smooth, up to b: kinks of the profile, and c times them."""
         places = (*self.kinks, self.b, self.flat_base)
-        # Nearer to the edge no panel fits between doubles
-        end = self.b * (1.0 - NARROWEST)
-        inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < end}
+        inside = {y for place in places for y in (place, self.flat.c * place) if 0.0 < y < self.b}
         return (*sorted(inside), self.b)
 
     def relative_slip(self, x: ArrayLike) -> Array:
