@@ -25,99 +25,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
 from sie.numerics.elliptic import elliptic_functions
 from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
 from .coupled_flat import NEARER, SPARE, FlatPunch, double_exponential, flat_punch
+from .coupled_tables import DEGREE, Points, Table, joined, panel_cuts
 
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Array]
 
-DEGREE = 20  # of a panel as far from every singularity as it is long: (3 + sqrt(8))^-20 is rounding
-LEAST = 1e-320
-ROUNDING = 1e-9  # of a panel: no shorter one ends a table
-CHOP = 2e-17  # of the largest coefficient
 ACROSS = 36.0  # -ln of the error of a rule that is not even
-
-
-class Points(NamedTuple):
-    """Places of t, with 1 - t and |t - c|, and a weight each."""
-
-    t: Array
-    rest: Array
-    from_c: Array
-    weight: Array
-
-    def times(self, values: Array) -> Points:
-        return self._replace(weight=self.weight * values)
-
-
-class Table:
-    """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both
-    ends."""
-
-    def __init__(self, cuts: list[tuple[float, float]], function: Function) -> None:
-        ends = np.array(cuts)
-        lo, hi = ends[:-1], ends[1:]
-        self._in_t = hi[:, 0] <= 0.5
-        self._keys = _key(lo[:, 0], lo[:, 1])
-        column = np.where(self._in_t, 0, 1)
-        rows = np.arange(len(lo))
-        self._start, self._scale = lo[rows, column], 2.0 / (hi - lo)[rows, column]
-        part = 0.5 * (1.0 + chebyshev.points(DEGREE))
-        t, e = (lo[:, [k]] + (hi - lo)[:, [k]] * part for k in (0, 1))
-        series = chebyshev.transform(function(t.ravel(), e.ravel()).reshape(t.shape))
-        self.series = [chopped(row) for row in series]
-
-    def __call__(self, t: Array, e: Array) -> Array:
-        if len(self.series) == 1:
-            return self._on(0, t if self._in_t[0] else e)
-        k = np.searchsorted(self._keys, _key(t, e), side="right") - 1
-        values = np.empty(k.shape)
-        k = np.maximum(k, 0)
-        for j in np.unique(k).tolist():
-            here = k == j
-            values[here] = self._on(j, (t if self._in_t[j] else e)[here])
-        return values
-
-    def _on(self, k: int, place: Array) -> Array:
-        return summed(self.series[k], self._scale[k] * (place - self._start[k]) - 1.0)
-
-
-def chopped(c: Array) -> Array:
-    """A series without the last coefficients that are below rounding."""
-    kept = np.flatnonzero(np.abs(c) > CHOP * np.abs(c).max())
-    return c[: kept[-1] + 1] if kept.size else c[:1]
-
-
-def summed(c: Array, y: Array) -> Array:
-    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the
-    time."""
-    twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
-    spare = np.empty_like(y)
-    for a in c[-2:0:-1].tolist():
-        np.multiply(twice, high, out=spare)
-        spare -= higher
-        spare += a
-        higher, high, spare = high, spare, higher
-    high *= y
-    high -= higher
-    high += c[0]
-    return high
-
-
-def _key(t: Array, e: Array) -> Array:
-    """A function that grows with t and keeps the relative distances from 0 and 1."""
-    low = t < 0.5
-    size = np.log2(np.maximum(np.where(low, t, e), LEAST))
-    key: Array = np.where(low, size, -size)
-    return key
 
 
 class FlatFunctions:
@@ -238,19 +160,21 @@ class FlatFunctions:
 
     @cached_property
     def _outside_table(self) -> Table:
-        cuts = _cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: 0.5 * (e + self.rest))
+        cuts = panel_cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: 0.5 * (e + self.rest))
         return Table(cuts, self._potential_outside)
 
     @property
     def _lower_cuts(self) -> list[tuple[float, float]]:
         """Panels of 0 <= t <= c^(1/2), as far from -c as from 1 as they are long, as (t, 1 - t)."""
-        return _cuts((0.0, 1.0), (self.middle, self.beyond), lambda t, e: min(t + self.c, 0.5 * e))
+        return panel_cuts(
+            (0.0, 1.0), (self.middle, self.beyond), lambda t, e: min(t + self.c, 0.5 * e)
+        )
 
     @property
     def _upper_cuts(self) -> list[tuple[float, float]]:
         """Panels of c^(1/2) <= t <= 1, as far from c."""
         start = self.middle, self.beyond
-        return _cuts(start, (1.0, 0.0), lambda t, e: float(self._beyond_c(t, e)))
+        return panel_cuts(start, (1.0, 0.0), lambda t, e: float(self._beyond_c(t, e)))
 
     def _beyond_c(self, t: Any, e: Any) -> Any:
         return self.rest - e if self.c > 0.5 else t - self.c
@@ -409,7 +333,7 @@ class FlatFunctions:
         deviating = self._slip_points(0.0, 2.0 - 2.0 * theta, hi=0.5)
         edge = self._slip_points(2.0 * theta, 0.0, lo=0.5)
         S = self._difference(deviating.t, deviating.rest)
-        return _joined(
+        return joined(
             stick.times(self._A(stick.t, stick.rest)),
             slip.times(self._A(slip.t, slip.rest)),
             deviating.times(-self.sine * self.weight(*deviating[:3]) * S),
@@ -426,7 +350,7 @@ class FlatFunctions:
         coupled = beta / (1.0 - beta * beta)
         S = self._difference(self._stick.t, self._stick.rest)
         J = self._J(acting.t, acting.rest, S)
-        return _joined(
+        return joined(
             near_c.times(self._A(near_c.t, near_c.rest) / self.weight(*near_c[:3])),
             edge.times(
                 (1.0 + coupled * beta * (1.0 + f * f)) * self.sine * self._Psi(edge.t, edge.rest)
@@ -446,10 +370,6 @@ class FlatFunctions:
         return J
 
 
-def _joined(*parts: Points) -> Points:
-    return Points(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-
 def _poles(t: Array, e: Array, remainder: Array, a: Array) -> Array:
     """Σ a/(1 - t² s), s = 1 - remainder."""
     total: Array = (1.0 / ((e * (1.0 + t))[:, None] + (t * t)[:, None] * remainder)) @ a
@@ -467,25 +387,6 @@ def _between(t: Array, e: Array, s: Array, rest: Array) -> Array:
     """1/(1 - t s) - 1/(1 + t s)."""
     values: Array = 2.0 * t[:, None] * s * _inverse(t, e, s, rest)
     return values
-
-
-def _cuts(
-    start: tuple[float, float],
-    end: tuple[float, float],
-    longest: Callable[[float, float], float],
-) -> list[tuple[float, float]]:
-    """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest`
-    at their start."""
-    cuts = [start]
-    while cuts[-1] != end:
-        t, e = cuts[-1]
-        length = longest(t, e)
-        if t < 0.5:
-            length = min(length, 0.5 - t)
-        t, e = (t + length, 1.0 - (t + length)) if t < 0.5 else (1.0 - (e - length), e - length)
-        left = end[0] - t if end[0] <= 0.5 else e - end[1]
-        cuts.append((t, e) if left > ROUNDING * length else end)
-    return cuts
 
 
 @lru_cache(maxsize=8)

@@ -25,16 +25,17 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .coupled_functions import Table, _cuts
 from .coupled_profile import GrowthPanel, Kernel, Superposition, _graded, _rules
+from .coupled_tables import Table, panel_cuts
 
 Array = NDArray[np.float64]
 
 DEGREE = 16
 RESOLVED = 1e-12  # of the size of the functions: the last coefficients of a panel
-FAINT = 1e-13  # of that size times the interval: what a short panel may miss
+FAINT = 1e-16  # of that size times the interval: what a short panel may miss
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
-ROUGH, SAME = 1e-8, 0.5
+ROUGH, SAME = 1e-8, 0.8
+SHORTEST = 1e-11  # of the interval: no panel is cut that is as short; a corner's p is infinite
 HALVINGS = 14  # of the last panel, before its functions are looked at
 APART = 1e-9  # of the interval: marks that are nearer are one
 
@@ -85,7 +86,7 @@ class SlipGradient:
 
         # J is not smooth at τ = c and at τ = -1, the other edge
         ahead = f.beyond / f.middle
-        cuts = _cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: min(0.5 * (e + ahead), t + f.middle))
+        cuts = panel_cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: min(0.5 * (e + ahead), t + f.middle))
         return Table(cuts, J)
 
     def _beside_shear(self, y: Array, top: Array) -> Array:
@@ -96,17 +97,21 @@ class SlipGradient:
             end = np.minimum(np.minimum(far, top), panel.hi)
             k = np.flatnonzero(end > panel.lo)
             if k.size:
-                total[k] += self._on_panel(panel, y[k], end[k])
+                total[k] += self._on_panel(panel, y[k], end[k], (far - end)[k])
         return total
 
-    def _on_panel(self, panel: GrowthPanel, y: Array, end: Array) -> Array:
+    def _on_panel(self, panel: GrowthPanel, y: Array, end: Array, before: Array) -> Array:
+        """The same on one panel up to `end`, which lies `before` y/c^(1/2)."""
         f, z = self.flat, panel.origin
         to_c = np.maximum(y * (f.beyond / f.c), (y / f.c - z) - end)
-        owner, start, size, _, kind = _graded(end - panel.lo, y + (z + panel.lo), to_c)
-        x, _, w = _rules(panel.power, 0.0)
+        owner, start, size, left, kind = _graded(end - panel.lo, y + (z + panel.lo), to_c)
+        x, rest, w = _rules(panel.power, 0.0)
         ahead = start[:, None] + size[:, None] * x[kind]
-        part = (f.middle / y[owner])[:, None] * ((z + panel.lo) + ahead)
-        values = self._J(part, np.maximum(1.0 - part, 0.0)) * panel(ahead) * w[kind]
+        scale = (f.middle / y[owner])[:, None]
+        # Next to its end J varies over distances as short as the slip zone: 1 - part would lose
+        # their digits
+        remaining = scale * ((before[owner] + left)[:, None] + size[:, None] * rest[kind])
+        values = self._J(scale * ((z + panel.lo) + ahead), remaining) * panel(ahead) * w[kind]
         integral = size / y[owner] * values.sum(axis=1)
         total: Array = np.bincount(owner, integral, minlength=len(y)).astype(float)
         return total
@@ -158,7 +163,7 @@ def tabulated(
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=(0, 2)) / size
         settled = (tail <= RESOLVED) | (tail * (hi - lo) <= FAINT * b)
-        settled |= (tail < ROUGH) & (tail > SAME * before)
+        settled |= (tail < ROUGH) & (tail > SAME * before) | (hi - lo <= SHORTEST * b)
         done += [(lo[k], hi[k], series[0, k]) for k in np.flatnonzero(settled)]
         todo = []
         for k in np.flatnonzero(~settled).tolist():

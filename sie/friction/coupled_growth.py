@@ -175,7 +175,8 @@ def load_slope(
     for panel in growth:
         length = min(panel.hi, ahead) - panel.lo
         if length > 0.0:
-            beyond = (x - panel.origin) - (panel.lo + length)
+            # Next to the edge rounding may leave x on it, or behind it
+            beyond = np.maximum((x - panel.origin) - (panel.lo + length), EPS * x)
             total += _up_to(flat, panel, length, x - panel.origin, beyond)
     return total / x
 

@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
-from .coupled_functions import FlatFunctions, chopped, summed
+from .coupled_functions import FlatFunctions
+from .coupled_tables import chopped, summed
 
 Array = NDArray[np.float64]
 

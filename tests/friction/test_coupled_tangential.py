@@ -86,6 +86,40 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(beta, fri
     assert max(certificate.error, certificate.shear.equilibrium) < 1e-11
 
 
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction", "part"),
+    [
+        (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 0.5),
+        (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 1e-3),
+        (sie.RoundedFlat(0.2, 1.0), 0.13, 0.36, -0.026),
+        (sie.Parabola(1.0), 0.0015, 0.031, 8e-5),
+        (sie.FromFunction(slope="sinh(x)"), 0.0022, 0.037, 2.5e-5),
+        (sie.Power(4.0, 0.4), -0.024, 1.42, -6.4e-6),
+    ],
+)
+def test_slip_gradient_is_kept_where_slip_zones_are_narrow(profile, beta, friction, part):
+    certificate = solved(profile, beta, friction, part, load=0.3).check()
+    assert certificate.ok
+    assert certificate.shear.residual < 2e-10
+
+
+def test_gradient_in_its_table_is_that_of_its_integrals_beside_a_kink():
+    search = solved(sie.RoundedFlat(0.5, 1.0), -0.07, 0.3).tangential_search
+    state = search.normal
+    y = 0.5 + np.array([-7.5e-6, -5e-6, -1e-6, 1e-7, 1e-5, 1e-3])
+    direct = SlipGradient(state.superposition, state.ahead)(y, search.H(y))
+    assert search.gamma(y) == pytest.approx(direct, abs=1e-11 * search.limit / state.b)
+
+
+@pytest.mark.parametrize("flat_base", [0.1, 0.31324513067413756, 0.4185286779378688, 0.7])
+def test_slope_of_the_surface_is_finite_one_double_beside_the_contact(flat_base):
+    state = solved(sie.RoundedFlat(flat_base, 1.0), -0.0023, 0.0408, 0.0).coupled[1]
+    y = state.b * (1.0 + np.finfo(float).eps * np.arange(1.0, 9.0))
+    H = state.hilbert_outside(y)
+    assert np.isfinite(H).all()
+    assert pytest.approx(float(state.half_modulus * (state.b - flat_base)), rel=1e-6) == H
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     right = solved()
     wrong = sheared_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
