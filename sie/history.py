@@ -13,7 +13,7 @@ each point to the next all loads change in proportion to time. What is exact, an
                                        P changing
 
 `friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
-single step, and `friction.moving_work` the energy where the pressure changes meanwhile.
+single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.
 
 Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
 at (0, 0, 0).
@@ -22,11 +22,9 @@ at (0, 0, 0).
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import accumulate, pairwise
 from typing import Any, overload
 
 import numpy as np
@@ -34,26 +32,24 @@ from numpy.typing import NDArray
 
 from .contact.inequalities import slope_rises
 from .contact.pressure import Normal
-from .errors import ContactError, LoadError
-from .friction.dissipation import Dissipation, dissipated
+from .errors import LoadError
+from .friction.dissipation import Dissipation
+from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
 from .friction.load_steps import turning_points
-from .friction.memory import SlippedLayer
-from .friction.moving_work import work
+from .friction.path_slip import PathSlip
 from .friction.states import NoSlip, OneSignedSlip, Slip
 from .friction.turning_point import Loads, TurningPoint
 from .numerics.interval import EPS, Interval
-from .numerics.zones import left_over, within
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
-from .patches.friction import PatchSlip
 from .patches.full import FullContact
+from .patches.path_energy import PathEnergy
 from .problem.load_path import Path
+from .problem.path_scene import refuse_uncovered, unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene, refuse_no_scene
 from .solution import Solution, solve
-from .traction.base import ZERO, Density
-from .traction.combination import superposed
 from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
@@ -110,23 +106,6 @@ def follow(
     return History(scene, path, tol, economy)
 
 
-def refuse_uncovered(scene: Scene) -> None:
-    """Raises ValueError or ContactError for a scene without load paths."""
-    refuse_no_scene(scene)
-    if scene.bonded:
-        raise ValueError(
-            "a bonded contact never slips, so its path does not matter: give a finite friction, "
-            "or solve the last point as a scene"
-        )
-    if scene.beta and scene.friction and not scene.sliding:
-        raise ContactError(
-            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: what "
-            "sticks again after unloading of P or a reversal of Q keeps a slip gradient that "
-            "depends on every state before; solve P, then a Q that grows, as scenes, or give "
-            "dundurs = 0 to neglect β"
-        )
-
-
 # -- the sequence ----------------------------------------------------------------------------------
 
 
@@ -160,35 +139,16 @@ class History(Sequence[Solution]):
         economy: Collection[str],
         steps: Callable[[Scene, Path, Contacts], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
-        for turned, held, name in (
-            (path.tilt, scene.moment is not None, "moment"),
-            (path.moment, scene.tilt != 0.0, "tilt"),
-        ):
-            if turned and held:
-                raise ValueError(
-                    f"the scene has a {name}, which what the path turns by would change: give both "
-                    "as tilt or both as moment"
-                )
-        first, turn = next(
-            (P, turn) for (P, _, _), turn in zip(path.points, path.turns, strict=True) if P > 0.0
-        )
-        self.scene = replace(
-            scene,
-            normal_load=first,
-            half_width=None,
-            tangential_load=0.0,
-            sliding=0,
-            bulk_stress=0.0,
-        )
+        self._first = path.first_contact
+        self.scene = unsheared(scene, path)
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
-        self._first = first, turn
         self._plain: dict[Under, Solution] = {}
         self._first_loadings: dict[tuple[Under, complex], Slip] = {}
         self.largest = max(P for P, _, _ in path.points)
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
         self._points: dict[int, PathSolution] = {}
-        self._energy: list[float] = []
+        self._energy = PathEnergy(self)
         self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
         self._known: dict[Under, KnownZones] = {}
         self._dissipation: dict[float, Dissipation] = {}
@@ -282,6 +242,13 @@ class History(Sequence[Solution]):
             self._first_loadings[key] = found
         return self._first_loadings[key]
 
+    def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
+        """The same between two turning points; it is not kept."""
+        plain = self._frictionless(*normal)
+        if not depth:
+            return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
+        return self._loaded(plain, depth, turned)
+
     def _loaded(
         self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
     ) -> Slip:
@@ -333,77 +300,7 @@ class History(Sequence[Solution]):
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
-        known = len(self._energy)
-        if index >= known:
-            lost = self._step_energies(range(known, index + 1))
-            self._energy += list(accumulate(lost, initial=self._energy[-1] if known else 0.0))[1:]
-        return self._energy[index]
-
-    def _step_energies(self, steps: range) -> list[float]:
-        """The energies lost in the steps that end at these points."""
-        lost = dict.fromkeys(steps, 0.0)
-        upright: dict[float, list[tuple[int, SlippedLayer]]] = {}
-        for k in steps:
-            state = self.turning_points[k]
-            for event in state.slips:
-                for o in event.layers:
-                    depths = o.upper, o.lower, *o.surface
-                    if state.turned or self.curved or any(depth.imag for depth in depths):
-                        lost[k] += o.jump * self._heat(k, o, event.timed)
-                        continue
-                    upright.setdefault(state.loads.turn, []).append((k, o))
-        for turn, fronts in upright.items():
-            owners, layers = zip(*fronts, strict=True)
-            loads = [self.turning_points[k].loads.P for k in owners]
-            work_of = self.dissipation(turn) if self.in_one_patch else self.work_in_patches(turn)
-            heats = np.array(work_of.of_fronts(loads, layers, self.scene.friction))
-            for k, o, heat in zip(owners, layers, heats.tolist(), strict=True):
-                lost[k] += o.jump * heat
-        return list(lost.values())
-
-    def _heat(self, index: int, o: SlippedLayer, timed: bool) -> float:
-        """The energy that an overwritten layer dissipated, per jump, on a path with bulk stress or
-        tilt.
-        """
-        state = self.turning_points[index]
-        if not any(o.surface):
-            upper, lower = (self._depth_energy(state, depth) for depth in (o.upper, o.lower))
-            return lower - upper
-        if not timed:
-            raise ContactError(
-                f"step {index} of the path, to {state.loads}: one end of the stick zone is held up "
-                "or passes an earlier one before the other while P or the tilt changes, and the "
-                "energy lost meanwhile depends on the way; the state at its end does not",
-                step=index,
-            )
-        if self.curved:
-            raise ContactError(
-                f"step {index} of the path, to {state.loads}: the tilt follows from the moment, "
-                "and the energy lost while it changes is not covered; give tilt in place of moment",
-                step=index,
-            )
-        start, end = self.turning_points[index - 1].loads, state.loads
-        rise = self.level(end) - self.level(start)
-        times = [1.0 - (surface / rise).real for surface in o.surface]
-
-        def on_the_way(share: float) -> Slip:
-            time = times[0] + share * (times[1] - times[0])
-            surface = o.surface[0] + share * (o.surface[1] - o.surface[0])
-            depth = o.upper + share * (o.lower - o.upper) - surface
-            plain = self._frictionless(*start.towards(end, time).normal)
-            if not depth:
-                return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
-            return self._loaded(plain, depth, state.turned)
-
-        part = times[1] - times[0]
-        strain = 0.5 * self.scene.Estar * (end.turn - start.turn)
-        return work(on_the_way, part * (end.P - start.P), part * strain)
-
-    def _depth_energy(self, state: TurningPoint, depth: complex) -> float:
-        if not depth:
-            return 0.0
-        found = self.first_loading(state.loads.normal, depth, state.turned)
-        return found.energy if isinstance(found, PatchSlip) else dissipated(found)
+        return self._energy.until(index)
 
     def dissipation(self, turn: float) -> Dissipation:
         """The dissipated energy, and the contacts under all loads of the path, at one tilt."""
@@ -425,40 +322,6 @@ class History(Sequence[Solution]):
 
             self._work_in_patches[turn] = PatchDissipation(under, self.largest, self.period)
         return self._work_in_patches[turn]
-
-
-class KnownZones:
-    """Stick zones already computed under one P, by depth.
-
-    A cubic through the nearest four estimates the next one.
-    """
-
-    def __init__(self) -> None:
-        self._depths: list[float] = []
-        self._contacts: list[Interval] = []
-
-    def add(self, depth: float, contact: Interval) -> None:
-        k = bisect_left(self._depths, depth)
-        self._depths.insert(k, depth)
-        self._contacts.insert(k, contact)
-
-    def guess(self, depth: float) -> Interval | None:
-        if not self._depths:
-            return None
-        first = max(min(bisect_left(self._depths, depth) - 2, len(self._depths) - 4), 0)
-        at, zones = self._depths[first : first + 4], self._contacts[first : first + 4]
-        base = zones[0]
-        # Neville's scheme for the distances of both edges from those of the first zone
-        moves = [
-            (c.x1 - base.x1 + (c.tail1 - base.tail1), c.x2 - base.x2 + (c.tail2 - base.tail2))
-            for c in zones
-        ]
-        for order in range(1, len(at)):
-            for k in range(len(at) - order):
-                t = (depth - at[k]) / (at[k + order] - at[k])
-                (a, b), (c, d) = moves[k], moves[k + 1]
-                moves[k] = (a + t * (c - a), b + t * (d - b))
-        return base.moved(*moves[0])
 
 
 class PathSolution(Solution):
@@ -522,205 +385,3 @@ class PathSolution(Solution):
 
     def __repr__(self) -> str:
         return f"sie.follow({self.history.scene!r}, {self.history.path!r})[{self.index}]"
-
-
-# -- one point -------------------------------------------------------------------------------------
-
-
-class PathSlip(Slip):
-    """Stick, slip and shear at a point of a path.
-
-    The shear is Σ weight × first loading over the corners of the memory.
-    """
-
-    kind = "after a path"
-
-    def __init__(self, history: History, index: int) -> None:
-        self.history, self.index = history, index
-        self.state = history.turning_points[index]
-        self.normal = self.state.loads.normal
-        self.friction = history.scene.friction
-        if self.state.straight:
-            self._refuse_retreat()
-
-    def _refuse_retreat(self) -> None:
-        """Refuse a return from loads under which slip zones have retreated.
-
-        A scene means one monotonic loading and has an answer; after a return the state depends on
-        the path.
-        """
-        depth, returned = self.state.memory.deepest
-        if returned and depth.imag and not self._loading(depth).advancing:
-            Q, sigma = depth.real, depth.imag / self.history.shear(Loads(0.0, 0.0, 1.0)).imag
-            raise ContactError(
-                f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
-                f"{sigma:.6g}, zones of slip have "
-                "retreated on the way, and what they left depends on that way; lower Q or σ",
-                step=self.index,
-            )
-
-    @property
-    def advancing(self) -> bool:  # type: ignore[override]
-        memory = self.state.memory
-        if not (self.state.straight and memory.total.imag):
-            return True
-        return all(loading.advancing for _, loading in self._terms)
-
-    def _loading(self, depth: complex) -> Slip:
-        return self.history.first_loading(self.normal, depth, self.state.turned)
-
-    @property
-    def contact(self) -> Interval:  # type: ignore[override]
-        return self._plain.normal.edges.contact
-
-    @property
-    def _plain(self) -> Solution:
-        return self.history.plain(*self.normal)
-
-    @property
-    def _terms(self) -> list[tuple[float, Slip]]:
-        return [
-            (weight, self._loading(depth)) for depth, weight in self.state.memory.corners if depth
-        ]
-
-    @property
-    def _now(self) -> Slip | None:
-        """The first loading whose depth is that of the last step's slip."""
-        return (
-            self._loading(self.state.memory.top.thickness)
-            if self.state.last and self.state.memory.top
-            else None
-        )
-
-    @property
-    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        now = self._now
-        return self._plain.patches if now is None else now.stick
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        now, last = self._now, self.state.last
-        zones = (
-            ()
-            if now is None or last is None
-            else tuple((lo, hi, sign * last.sign) for lo, hi, sign in now.slipped)
-        )
-        return *self._slipped_and_gone, *zones
-
-    @property
-    def _slipped_and_gone(self) -> tuple[tuple[float, float, float], ...]:
-        """Zones that slipped while P fell, and where slip reversed or stopped as they left."""
-        zones: list[tuple[float, float, float]] = []
-        for gone in self.state.slips:
-            if gone is not self.state.last:
-                start, end = (
-                    self.normal[0] - depth.real / self.friction
-                    for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
-                )
-                outer, inner = (self.history.patches(load, self.normal[1]) for load in (start, end))
-                left = left_over(outer, inner, self.history.period)
-                zones += [(lo, hi, gone.sign) for lo, hi in left]
-        return tuple(zones)
-
-    @property
-    def untouched(self) -> tuple[float, float]:
-        terms = self._terms
-        if not terms:
-            return self.contact.x1, self.contact.x2
-        return terms[-1][1].stick[0] if terms[-1][1].stick else (0.0, 0.0)
-
-    @property
-    def levels(self) -> tuple[float, ...]:
-        return tuple(end for _, loading in self._terms for zone_ in loading.stick for end in zone_)
-
-    @property
-    def condition(self) -> float:  # type: ignore[override]
-        return max((loading.condition for _, loading in self._terms), default=1.0)
-
-    @cached_property
-    def shear(self) -> Density:
-        terms = self._terms
-        if not terms:
-            return ZERO
-        if len(terms) == 1 and terms[0][0] == 1.0:
-            return terms[0][1].shear
-        full = 0.0  # times the pressure, which is taken once
-        rest: list[tuple[float, Density]] = []
-        for weight, loading in terms:
-            scale, others = loading.parts
-            full += weight * scale
-            rest += [(weight * factor, density) for factor, density in others]
-        return superposed((full, self._plain.pressure), *rest)
-
-    @property
-    def contacts(self) -> tuple[Any, ...]:
-        return tuple(contact for _, loading in self._terms for contact in loading.contacts)
-
-    def slip(self, x: Array) -> Array:
-        """Relative slip since x came into contact."""
-        past = self.history.turning_points[: self.index + 1]
-        if all(state.loads.normal == self.normal for state in past):
-            return sum(
-                (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
-            )
-        total = np.zeros(x.shape)
-        for index, (before, state) in enumerate(pairwise((past[0], *past))):
-            if state.loads.P == 0.0:
-                continue
-            if state.slips and index:
-                self._refuse_new(x, index, before.loads, state.loads)
-            stayed = self._touches(x, before.loads) & self._touches(x, state.loads)
-            total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
-        return total
-
-    def _touches(self, x: Array, loads: Loads) -> NDArray[np.bool_]:
-        if loads.P == 0.0:
-            return np.zeros(x.shape, dtype=bool)
-        return within(x, self.history.plain(*loads.normal).patches, self.history.period)
-
-    def _refuse_new(self, x: Array, index: int, before: Loads, loads: Loads) -> None:
-        new = self._touches(x, loads) & ~self._touches(x, before)
-        if new.any():
-            raise ContactError(
-                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it "
-                "slips: how far it slipped since is not "
-                f"covered; ask for points within the contact under P = {before.P:.6g}",
-                step=index,
-            )
-
-    def slip_now(self, x: Array) -> Array:
-        return step_slip(self.history, self.index, x)
-
-    @cached_property
-    def shift(self) -> float:
-        past = self.history.turning_points[: self.index + 1]
-        loads = [
-            (state.loads.normal, before.loads.normal)
-            for before, state in pairwise((past[0], *past))
-            if state.memory.top
-        ]
-        if any(normal != self.normal for pair in loads for normal in pair):
-            raise ContactError(
-                "the rigid-body shift is counted against a contact of constant width: P changed "
-                "while it was sheared"
-            )
-        return sum(weight * loading.shift for weight, loading in self._terms)
-
-
-def step_slip(history: History, index: int, x: Array) -> Array:
-    """The slip in one step, where x was in contact all along it."""
-    state = history.turning_points[index]
-    normal, out = state.loads.normal, np.zeros(x.shape)
-    if state.last is not None:  # zones that slipped before have left the contact
-        for o in state.last.layers:
-            for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
-                if sign < 0.0 and depth == o.surface[0]:
-                    continue  # slip began at the edges
-                at, under = depth, normal
-                if state.turned and sign < 0.0 and any(o.surface):
-                    at = depth - o.surface[0]
-                    under = history.turning_points[index - 1].loads.normal
-                if at.real > 0.0 or at.imag:
-                    loading = history.first_loading(under, at, state.turned)
-                    out += sign * o.jump * state.last.sign * loading.slip(x)
-    return out

@@ -25,9 +25,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .errors import ContactError
 from .friction.load_steps import steady_points
+from .friction.path_slip import step_slip
 from .friction.states import Slip
-from .history import History, refuse_uncovered, step_slip
+from .history import History
 from .problem.load_path import Path
+from .problem.path_scene import refuse_uncovered
 from .problem.request import ECONOMY
 from .problem.scene import Scene
 from .solution import Solution

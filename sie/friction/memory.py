@@ -76,6 +76,12 @@ class SlipEvent(NamedTuple):
     layers: tuple[SlippedLayer, ...]
     timed: bool = True
 
+    def moved(self, depth: complex) -> SlipEvent:
+        """The same, counted from a surface that is so much higher."""
+        if not depth:
+            return self
+        return self._replace(layers=tuple(o.moved(depth) for o in self.layers))
+
 
 class Layer(NamedTuple):
     """A layer: thickness, κ, the layer below, and S and depth of it with all below.
@@ -187,8 +193,7 @@ class LoadMemory:
             memory, taken, event = memory._followed(direction, moves, pulls, within)
             left *= 1.0 - taken
             if event.layers:
-                moved = tuple(o.moved(left * rise) for o in event.layers)
-                slips.append(event._replace(layers=moved))
+                slips.append(event.moved(left * rise))
         return memory, tuple(slips)
 
     def raised(self, thickness: complex, k: float) -> LoadMemory:

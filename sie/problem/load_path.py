@@ -74,6 +74,12 @@ class Path:
         """What is added to the scene's tilt or moment at each point."""
         return self.tilt or self.moment or (0.0,) * len(self.points)
 
+    @property
+    def first_contact(self) -> tuple[float, float]:
+        """P, and the tilt or moment added, at the first point at which the bodies touch."""
+        loads = zip(self.points, self.turns, strict=True)
+        return next((P, turn) for (P, _, _), turn in loads if P > 0.0)
+
     def __len__(self) -> int:
         return len(self.points)
 

@@ -25,9 +25,9 @@ from analytic import (
     rounded_flat,
     sliding_rounded_flat,
 )
-from sie import history
 from sie.friction import memory, partial_slip
 from sie.numerics import cauchy_sums
+from sie.patches import path_energy
 from sie.profiles import sampled
 from sie.stress import half_plane
 from sie.traction import piece_quadrature, potential
@@ -264,8 +264,8 @@ PARTS: tuple[tuple[str, str, Callable[[bool], float]], ...] = (
         partial(
             number,
             _instead(
-                history.History,
-                "_step_energies",
+                path_energy.PathEnergy,
+                "_in_steps",
                 lambda right, self, k: [W / (2 if j else 1) for j, W in zip(k, right(self, k))],
             ),
             _cycle,

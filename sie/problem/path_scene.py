@@ -1,0 +1,51 @@
+"""The scene that a load path starts from, and scenes without load paths."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from sie.errors import ContactError
+
+from .load_path import Path
+from .scene import Scene, refuse_no_scene
+
+
+def refuse_uncovered(scene: Scene) -> None:
+    """Raises ValueError or ContactError for a scene without load paths."""
+    refuse_no_scene(scene)
+    if scene.bonded:
+        raise ValueError(
+            "a bonded contact never slips, so its path does not matter: give a finite friction, "
+            "or solve the last point as a scene"
+        )
+    if scene.beta and scene.friction and not scene.sliding:
+        raise ContactError(
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: what "
+            "sticks again after unloading of P or a reversal of Q keeps a slip gradient that "
+            "depends on every state before; solve P, then a Q that grows, as scenes, or give "
+            "dundurs = 0 to neglect β"
+        )
+
+
+def unsheared(scene: Scene, path: Path) -> Scene:
+    """The scene under the first normal load of a path alone.
+
+    Raises ValueError where one of them turns the indenter by tilt and the other by moment.
+    """
+    for turned, held, name in (
+        (path.tilt, scene.moment is not None, "moment"),
+        (path.moment, scene.tilt != 0.0, "tilt"),
+    ):
+        if turned and held:
+            raise ValueError(
+                f"the scene has a {name}, which what the path turns by would change: give both "
+                "as tilt or both as moment"
+            )
+    return replace(
+        scene,
+        normal_load=path.first_contact[0],
+        half_width=None,
+        tangential_load=0.0,
+        sliding=0,
+        bulk_stress=0.0,
+    )
