@@ -135,8 +135,11 @@ class Solution:
         if isinstance(found, Normal):
             return found
         raise ContactError(
-            f"contact in {len(found.patches)} patches: this is covered for one patch only; give a "
-            "load under which the patches have merged"
+            "a contact that repeats: this is covered for one patch on the line only; give the "
+            "profile without its period"
+            if np.isfinite(self.scene.profile.period)
+            else f"contact in {len(found.patches)} patches: this is covered for one patch only; "
+            "give a load under which the patches have merged"
         )
 
     @cached_property

@@ -62,6 +62,8 @@ def _edges(solution: Solution) -> dict[str, float]:
 
 QUANTITIES: dict[str, Wanted] = {
     **{name: attrgetter(name) for name in DEFAULT},
+    **{name: attrgetter(name) for name in ("contact_length", "gap_volume")},
+    "patches": lambda s: float(len(s.patches)),
     "edges": _edges,
     "shear_load": lambda s: s.shear.resultant,
     "elastic_limit": _elastic_limit,

@@ -10,7 +10,7 @@ JSON always holds
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
     patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
-    several patches
+    several patches, or of one period of a contact that repeats; and there the period
 
 and, where they are wanted,
 
@@ -137,8 +137,11 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def _patches(solution: Solution) -> dict[str, Any]:
-    """The patches [[x1, x2], ..], their loads, length and gaps, where there are several."""
-    if len(solution.patches) < 2:
+    """The patches [[x1, x2], ..], their loads, length and gaps, where there are several or the
+    contact repeats.
+    """
+    period = solution.scene.profile.period
+    if len(solution.patches) < 2 and math.isinf(period):
         return {}
     patches = [list(patch) for patch in solution.patches]
     return {
@@ -146,7 +149,7 @@ def _patches(solution: Solution) -> dict[str, Any]:
         "patch_loads": list(solution.patch_loads),
         "contact_length": solution.contact_length,
         "gap_volume": solution.gap_volume,
-    }
+    } | ({"period": period} if math.isfinite(period) else {})
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:

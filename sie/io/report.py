@@ -11,7 +11,7 @@ from sie.history import PathSolution
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
-from .sample_points import SAME_PEAK, ceiling, peak
+from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
@@ -44,15 +44,26 @@ def summary(solution: Solution, file: SceneFile) -> str:
 
 def edges_summary(solution: Solution, units: Units) -> str:
     """Edges, width, load, moment and tilt."""
-    r, P = solution.half_width, solution.normal_load
+    r = solution.half_width
     x1, x2 = (
         f"{_number(x, r)} {units.length}, {'sharp' if s else 'smooth'}"
         for x, s in zip(solution.edges, solution.sharp, strict=True)
     )
+    edges = f"x1 = {x1};  x2 = {x2}"
     return _rows(
-        ("edges", f"x1 = {x1};  x2 = {x2}"),
+        ("edges", "none: all of the period is in contact" if full(solution) else edges),
         *_patches(solution, units),
         ("half-width", f"{_number(r)} {units.length}, centre at x = {_number(solution.centre, r)}"),
+        *_loads(solution, units),
+    )
+
+
+def _loads(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
+    """Load, moment and tilt; of a contact that repeats, which keeps level, the load of a period."""
+    r, P = solution.half_width, solution.normal_load
+    if math.isfinite(solution.scene.profile.period):
+        return (("normal load", f"{_number(P)} {units.force} for each period"),)
+    return (
         ("normal load", f"{_number(P)} {units.force}"),
         ("moment", f"{_number(solution.moment, P * r)} {units.moment}, about x = 0"),
         ("tilt", _number(solution.tilt, P / (r * solution.scene.Estar))),
@@ -60,25 +71,30 @@ def edges_summary(solution: Solution, units: Units) -> str:
 
 
 def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
-    """The number of patches, the length in contact, and the largest share of the load."""
-    patches = solution.patches
-    if len(patches) < 2:
+    """The number of patches, the length in contact, the largest share of the load, and the gaps."""
+    patches, repeats = solution.patches, math.isfinite(solution.scene.profile.period)
+    if len(patches) < 2 and not repeats:
         return ()
     loads = solution.patch_loads
     most = max(range(len(patches)), key=lambda k: loads[k])
     lo, hi = (_number(x, solution.half_width) for x in patches[most])
     length, period = solution.contact_length, solution.scene.profile.period
-    whole = period if math.isfinite(period) else 2.0 * solution.half_width
-    of_what = "of the period" if math.isfinite(period) else "from x1 to x2"
+    whole = period if repeats else 2.0 * solution.half_width
+    of_what = "of the period" if repeats else "from x1 to x2"
     share = 100.0 * loads[most] / solution.normal_load
+    biggest = ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}")
     return (
-        ("patches", f"{len(patches)}"),
+        ("patches", f"{len(patches)}{' in each period' * repeats}"),
         (
             "in contact",
             f"{_number(length)} {units.length}, {100.0 * length / whole:.3g} % {of_what}",
         ),
-        ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}"),
-        ("gap volume", f"{_number(solution.gap_volume)} {units.length}² between them"),
+        *[biggest] * (len(patches) > 1),
+        (
+            "gap volume",
+            f"{_number(solution.gap_volume)} {units.length}²"
+            f" {'in each period' if repeats else 'between them'}",
+        ),
     )
 
 
@@ -97,9 +113,13 @@ def pressure_summary(solution: Solution, units: Units) -> str:
 
 
 def gap_summary(solution: Solution, units: Units) -> str:
-    """The gap half a half-width beyond each edge."""
-    (x1, x2), r = solution.edges, solution.half_width
-    x = np.array([x1 - 0.5 * r, x2 + 0.5 * r])
+    """The gap half a half-width beyond each edge, or in the middle of the way to the contact of the
+    next period where that is nearer.
+    """
+    if full(solution):
+        return _rows(("gap", "none"))
+    (x1, x2), step = solution.edges, min(0.5 * solution.half_width, reach(solution))
+    x = np.array([x1 - step, x2 + step])
     values = (
         f"{_number(g)} {units.length}" if math.isfinite(g) else "no indenter"
         for g in solution.gap(x).tolist()

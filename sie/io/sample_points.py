@@ -56,16 +56,26 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
 def beside(solution: Solution, points: int = POINTS) -> tuple[Array, Array]:
     """Positions left and right of the contact, ascending, without the edges.
 
-    They end REACH half-widths away, or where the indenter ends.
+    They end at a distance `reach`, or where the indenter ends.
     """
     (x1, x2), (lo, hi) = solution.edges, solution.scene.profile.domain
-    reach = REACH * solution.half_width
-    left, right = max(x1 - reach, lo), min(x2 + reach, hi)
+    left, right = max(x1 - reach(solution), lo), min(x2 + reach(solution), hi)
     t = np.linspace(0.0, 1.0, max(round(BESIDE * points), 2) + 1) ** 2
     x = np.unique(
         np.concatenate((x1 + (left - x1) * t, x2 + (right - x2) * t, _corners(solution, points)))
     )
     return x[(x >= left) & (x < x1)], x[(x > x2) & (x <= right)]
+
+
+def reach(solution: Solution) -> float:
+    """REACH half-widths, or half the way to the contact of the next period if that is less."""
+    (x1, x2), period = solution.edges, solution.scene.profile.period
+    return min(REACH * solution.half_width, max(0.5 * (period - (x2 - x1)), 0.0))
+
+
+def full(solution: Solution) -> bool:
+    """Whether all of a period is in contact, so that the contact has no edges."""
+    return solution.contact_length >= solution.scene.profile.period
 
 
 def _corners(solution: Solution, points: int) -> tuple[float, ...]:

@@ -120,7 +120,7 @@ def _draw_curves(
     style.curve(lower, both.x * factor, both.percent, style.VERMILLION, 0.9, zorder=2)
     lower.set_ylabel(DIFFERENCE, fontproperties=style.font())
     for axes in panels:
-        style.edge_lines(axes, solution.edges, factor, zorder=0.5)
+        style.edge_lines(axes, solution.patches, factor, zorder=0.5)
 
 
 def _draw_points(

@@ -6,10 +6,12 @@
                     indenter that just touches, h(x) + tilt x less its lowest value, and the gap
                     under load, 0 in contact; neither depends on the approach of the bodies, which
                     plane elasticity leaves undetermined
-    with shear      q(x) between the limits ± f p, the stick zones shaded; and after a path the loop
-                    of Q over the shift that slip allows, with a dot on each turning point
+    with shear      q(x) between the limits ± f p, and the slip of the indenter, the stick zones
+                    shaded in both; and after a path the loop of Q over the shift that slip allows,
+                    with a dot on each turning point
 
-Dotted lines through both panels are the edges x1 and x2. Matplotlib is imported by the modules of
+Dotted lines through the panels are the edges x1 and x2, and those of the patches between them where
+these are few. Matplotlib is imported by the modules of
 this folder, and they are imported when a picture is asked for; `pyplot` is not used, and no global
 setting is changed.
 """
@@ -27,7 +29,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from sie.history import PathSolution, follow
-from sie.io.sample_points import REACH, abscissae, ceiling, peak, summits
+from sie.io.answers import slip_of
+from sie.io.sample_points import abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
 from sie.problem.load_path import Path
 from sie.solution import Solution
@@ -52,7 +55,7 @@ GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the
 
 
 def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure:
-    """A Matplotlib figure of the pressure and the gap, and of the shear if there is any.
+    """A Matplotlib figure of the pressure and the gap, and of shear and slip if there are any.
 
     `units` are labels. The figure is not registered with pyplot: save it with
     figure.savefig("contact.pdf"), or leave it as the last line of a notebook's cell.
@@ -60,21 +63,23 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     view = _View(solution, units)
     sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
     looped = _has_loop(solution)
-    count = 2 + sheared + looped
+    draw = [_draw_pressure, _draw_gap, *[_draw_shear] * sheared]
+    draw += [_draw_slip] * (sheared and bool(view.slip.any()))
+    count = len(draw) + looped
     figure = Figure(figsize=(style.WIDTH, HEIGHT * count), dpi=style.DPI, layout="constrained")
     grid = figure.add_gridspec(count, 1, height_ratios=[1.2, *[1.0] * (count - 1)])
     upper = figure.add_subplot(grid[0])
-    panels = [upper, *(figure.add_subplot(grid[k], sharex=upper) for k in range(1, 2 + sheared))]
-    _draw_pressure(upper, view)
-    _draw_gap(panels[1], view)
-    if sheared:
-        _draw_shear(panels[2], view)
+    lower = [figure.add_subplot(grid[k], sharex=upper) for k in range(1, len(draw))]
+    panels = [upper, *lower]
+    for axes, drawn in zip(panels, draw, strict=True):
+        drawn(axes, view)
     if looped:
         loop = figure.add_subplot(grid[-1])
         _draw_loop(loop, solution, units)
         style.plain(loop)
     for axes in panels:
-        style.edge_lines(axes, solution.edges, view.factor, zorder=2.5)
+        if not full(solution):
+            style.edge_lines(axes, solution.patches, view.factor, zorder=2.5)
         style.plain(axes)
     panels[-1].set_xlim(view.left * view.factor, view.right * view.factor)
     style.x_axis(panels[-1], view.length)
@@ -104,6 +109,22 @@ class _View:
         return abscissae(self.solution, style.POINTS)
 
     @cached_property
+    def inside(self) -> Array:
+        """The sample points on the patches, with a nan between two, which interrupts a curve."""
+        solution = self.solution
+        zones = solution.stick if solution.carries_shear else ()
+        x = np.unique(np.concatenate((self.x, np.ravel(zones))))
+        parts = [x[(lo <= x) & (x <= hi)] for lo, hi in solution.patches]
+        return np.concatenate([np.append(part, np.nan) for part in parts])[:-1]
+
+    @cached_property
+    def slip(self) -> Array:
+        """The slip on `inside`; 0 where a path does not determine it, or nothing sticks."""
+        x = self.inside
+        slips = slip_of(self.solution, x) if self.solution.stick else {}
+        return np.where(np.isfinite(x), slips.get("slip", 0.0 * x), 0.0)
+
+    @cached_property
     def unloaded(self) -> Array:
         """The gap of the indenter that just touches, on x."""
         h = self.solution.scene.profile.height(self.x) + self.solution.tilt * self.x
@@ -125,16 +146,19 @@ class _View:
 
     @cached_property
     def highest(self) -> float:
-        """The largest gap to be drawn; of a flat punch P/E*, the scale of displacements."""
-        return float(self.unloaded.max()) or self.solution.normal_load / self.solution.scene.Estar
+        """The largest gap to be drawn, where there is an indenter; of a flat punch P/E*, the scale
+        of displacements.
+        """
+        largest = float(self.unloaded[np.isfinite(self.unloaded)].max())
+        return largest or self.solution.normal_load / self.solution.scene.Estar
 
     @property
     def left(self) -> float:
-        return self.solution.edges[0] - REACH * self.solution.half_width
+        return self.solution.edges[0] - reach(self.solution)
 
     @property
     def right(self) -> float:
-        return self.solution.edges[1] + REACH * self.solution.half_width
+        return self.solution.edges[1] + reach(self.solution)
 
     @property
     def factor(self) -> float:
@@ -147,19 +171,20 @@ class _View:
 
 
 def _draw_pressure(axes: Axes, view: _View) -> None:
-    (x1, x2), (scale, stress) = view.solution.edges, style.scaled(view.shown, view.units.stress)
-    x = view.x[(view.x >= x1) & (view.x <= x2)]
+    x, (scale, stress) = view.inside, style.scaled(view.shown, view.units.stress)
     # What rises above the panel is cut off by it, but an infinite value would not be drawn at all.
     p = np.minimum(view.solution.pressure(x), 4.0 * view.shown)
     top = style.HEADROOM * view.shown * scale
     axes.fill_between(x * view.factor, p * scale, color=style.PALE_BLUE, linewidth=0.0, zorder=2)
-    style.curve(axes, x * view.factor, p * scale, style.BLUE, 1.2, zorder=3, label="pressure")
+    width = 1.2 if len(view.solution.patches) <= style.FEW else 0.5
+    style.curve(axes, x * view.factor, p * scale, style.BLUE, width, zorder=3, label="pressure")
     axes.set_ylim(0.0, top)
     axes.set_yticks(style.ticks(top))
     axes.set_ylabel(f"$p$ ({stress})", fontproperties=style.font())
     _mark_peak(axes, view, scale)
     _label_peak(axes, view)
-    _label_edges(axes, view)
+    if not full(view.solution):
+        _label_edges(axes, view)
 
 
 def _draw_gap(axes: Axes, view: _View) -> None:
@@ -189,19 +214,14 @@ def _draw_gap(axes: Axes, view: _View) -> None:
 
 def _draw_shear(axes: Axes, view: _View) -> None:
     """q between ± f p; where |q| leaves the panel (sharp edges) it is cut like the pressure."""
-    solution, (x1, x2) = view.solution, view.solution.edges
+    solution, x = view.solution, view.inside
     f, largest = solution.scene.friction, solution.scene.friction * view.shown
     scale, stress = style.scaled(largest, view.units.stress)
-    inner = [end for lo, hi in solution.stick for end in (lo, hi)]
-    x = np.unique(np.concatenate((view.x[(view.x >= x1) & (view.x <= x2)], inner)))
     limit = np.minimum(f * solution.pressure(x), 4.0 * largest)
     q = np.clip(solution.shear(x), -4.0 * largest, 4.0 * largest)
-    for k, zone in enumerate(solution.stick):
-        ends = np.array(zone) * view.factor
-        label = "" if k else "stick"
-        axes.axvspan(*ends, color=style.PALE_BLUE, linewidth=0.0, zorder=0, label=label)
+    _shade_stick(axes, view)
     # Below an axis that ends under 0 the other limit would show two stubs.
-    both = bool(q.min() < -1e-9 * largest)
+    both = bool(np.nanmin(q) < -1e-9 * largest)
     for sign, label in ((1.0, r"$\pm f p$" if both else "$f p$"), (-1.0, ""))[: 1 + both]:
         dashed: dict[str, Any] = {"linestyle": style.DASHED, "zorder": 2, "label": label}
         style.curve(axes, x * view.factor, sign * limit * scale, style.INK, 0.8, **dashed)
@@ -211,6 +231,22 @@ def _draw_shear(axes: Axes, view: _View) -> None:
     axes.set_ylim(-top if both else min(-0.1 * top, 0.0), top)
     axes.set_ylabel(f"$q$ ({stress})", fontproperties=style.font())
     style.legend(axes, columns=3)
+
+
+def _draw_slip(axes: Axes, view: _View) -> None:
+    scale, length = style.scaled(float(np.abs(view.slip).max()), view.units.length)
+    _shade_stick(axes, view)
+    style.zero_line(axes)
+    slip = np.where(np.isfinite(view.inside), view.slip, np.nan) * scale
+    style.curve(axes, view.inside * view.factor, slip, style.BLUE, 1.3, zorder=3, label="slip")
+    axes.set_ylabel(f"slip ({length})", fontproperties=style.font())
+
+
+def _shade_stick(axes: Axes, view: _View) -> None:
+    for k, zone in enumerate(view.solution.stick):
+        ends = np.array(zone) * view.factor
+        label = "" if k else "stick"
+        axes.axvspan(*ends, color=style.PALE_BLUE, linewidth=0.0, zorder=0, label=label)
 
 
 def _has_loop(solution: Solution) -> bool:
@@ -305,6 +341,7 @@ def _label_peak(axes: Axes, view: _View) -> None:
         va="top",
         color=style.BLUE,
         fontproperties=style.font(style.SMALL),
+        bbox=style.opaque("white"),
     )
 
 
@@ -329,7 +366,10 @@ def _name_bodies(axes: Axes, view: _View) -> None:
     centre = view.solution.centre
     places = centre + view.solution.half_width * np.array([0.0, -0.6, 0.6])
     freest = places[int(np.argmin(np.interp(places, view.x, view.unloaded)))]
-    for text, x, y in (("half-plane", centre, 0.5 * bottom), ("indenter", freest, 0.72 * top)):
+    for text, x, y, ground in (
+        ("half-plane", centre, 0.5 * bottom, HALF_PLANE),
+        ("indenter", freest, 0.72 * top, INDENTER),
+    ):
         axes.text(
             x * view.factor,
             y,
@@ -339,5 +379,6 @@ def _name_bodies(axes: Axes, view: _View) -> None:
             color=style.INK,
             style="italic",
             fontproperties=style.font(style.SMALL),
+            bbox=style.opaque(ground),
             zorder=5,
         )

@@ -75,10 +75,10 @@ def _caption(ratio: float) -> str:
 
 
 def _mark(axes: Any, solution: Solution, factor: float, depth: float) -> None:
-    """The surface, and above it the contact and where it sticks."""
+    """The surface, and above it the patches of contact and where they stick."""
     level = -0.4 * ABOVE * depth
     axes.axhline(0.0, color=style.INK, linewidth=0.6)
-    bars = [(solution.edges, style.INK, BAR, "contact")]
+    bars = [(patch, style.INK, BAR, "contact") for patch in solution.patches]
     bars += [
         (zone, style.VERMILLION, STICK_BAR, "stick") for zone in getattr(solution, "stick", ())
     ]

@@ -17,9 +17,11 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Patches = tuple[tuple[float, float], ...]
 
 WIDTH, DPI = 3.4, 300  # inches, one column of a journal
 POINTS = 1201  # of a curve
+FEW = 6  # patches, of which every edge is marked
 # Suffixes that need a TeX installation, or that no program opens.
 NOT_OFFERED = {"pgf", "raw", "rgba"}
 UNDATED: dict[str, dict[str, Any]] = {
@@ -77,10 +79,16 @@ def zero_line(axes: Axes, zorder: float = 1) -> None:
     axes.axhline(0.0, color=INK, linewidth=0.6, zorder=zorder)
 
 
-def edge_lines(axes: Axes, edges: tuple[float, float], factor: float, zorder: float) -> None:
-    """Dotted lines at the edges of the contact."""
-    for edge in edges:
+def edge_lines(axes: Axes, patches: Patches, factor: float, zorder: float) -> None:
+    """Dotted lines at the edges of the patches; of many patches, at the outermost two."""
+    edges = np.ravel(patches)
+    for edge in edges if len(patches) <= FEW else edges[[0, -1]]:
         axes.axvline(edge * factor, color=INK, linewidth=0.7, linestyle=DOTTED, zorder=zorder)
+
+
+def opaque(color: str) -> dict[str, Any]:
+    """The ground of a label that lines pass behind."""
+    return {"facecolor": color, "edgecolor": "none", "pad": 0.8}
 
 
 def legend(axes: Axes, columns: int, length: float = 2.0) -> None:

@@ -606,3 +606,60 @@ def test_a_picture_is_written(scene, tmp_path, capsys):
     assert main(["solve", scene, "--plot", "out.PNG"]) == 0
     assert (tmp_path / "out.PNG").read_bytes().startswith(b"\x89PNG")
     assert capsys.readouterr().out.endswith("wrote out.PNG\n")
+
+
+# -- several patches, and contacts that repeat ----------------------------------------
+
+WAVE = """
+[profile]
+kind = "function"
+slope = "0.003*sin(pi*x)"
+period = 2.0
+[body]
+young = 210e3
+poisson = 0.3
+[load]
+normal_load = {load}
+"""
+
+
+def test_the_row_of_the_examples_touches_in_several_patches(tmp_path, capsys):
+    assert main(["solve", example("row", tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "patches         3\n" in out and "% of the load on [" in out
+
+
+def wave(load, tmp_path):
+    path = tmp_path / "wave.toml"
+    path.write_text(WAVE.format(load=load))
+    return str(path)
+
+
+def test_the_report_of_a_contact_that_repeats_is_for_one_period(tmp_path, capsys):
+    main(["solve", wave(100.0, tmp_path), "--want", "edges"])
+    out = capsys.readouterr().out
+    assert "patches         1 in each period" in out and "% of the period" in out
+    assert "normal load     100 N/mm for each period" in out
+    assert "moment" not in out and "tilt" not in out
+
+
+def test_the_json_of_a_contact_that_repeats_names_its_period_and_patches(tmp_path, capsys):
+    main(["solve", wave(100.0, tmp_path), "--json"])
+    held = strict(capsys.readouterr().out)
+    assert held["period"] == 2.0 and held["patches"] == [held["edges"]]
+    assert held["patch_loads"] == pytest.approx([100.0]) and held["gap_volume"] > 0.0
+
+
+def test_a_contact_without_edges_is_reported_without_edges(tmp_path, capsys):
+    main(["solve", wave(4e3, tmp_path)])
+    out = capsys.readouterr().out
+    assert "edges           none: all of the period is in contact" in out
+    assert "gap             none" in out
+
+
+@pytest.mark.parametrize("load", [10.0, 100.0, 300.0])
+def test_the_gap_beside_a_contact_that_repeats_is_reported_where_there_is_one(load, tmp_path):
+    file = scene_file.read(wave(load, tmp_path))
+    solution = sie.solve(file.scene)
+    words = report.gap_summary(solution, file.units).replace(";", "").split()
+    assert all(float(gap) > 0.0 for gap in (words[1], words[7]))

@@ -231,3 +231,112 @@ def test_a_picture_of_shear_can_be_written(solution):
     assert style.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(
         b"\x89PNG"
     )
+
+
+ROW = sie.Scene(
+    profile=sie.Row([sie.Parabola(1.0).shifted(3.0 * k) for k in range(3)]),
+    body=STEEL,
+    normal_load=9e3,
+    friction=0.4,
+    tangential_load=1e3,
+)
+WAVE = sie.Periodic(sie.FromFunction(lambda x: 1e-3 * np.pi * np.sin(np.pi * x)), period=2.0)
+
+
+def repeated(load):
+    return sie.solve(sie.Scene(profile=WAVE, body=STEEL, normal_load=load))
+
+
+def edge_lines(axes):
+    return sorted(
+        line.get_xdata()[0]
+        for line in axes.lines
+        if len(line.get_xdata()) == 2 and len(set(line.get_xdata())) == 1
+    )
+
+
+def test_the_pressure_of_several_patches_is_interrupted_between_them():
+    solution = sie.solve(ROW)
+    x, p = lines(plot.picture(solution).axes[0])["pressure"].get_data()
+    assert np.count_nonzero(np.isnan(x)) == len(solution.patches) - 1
+    inside = np.zeros(x.shape, dtype=bool)
+    for lo, hi in solution.patches:
+        inside |= (lo <= x) & (x <= hi)
+    assert inside[np.isfinite(x)].all() and np.isfinite(p[inside]).all()
+
+
+def test_every_edge_of_a_few_patches_is_marked():
+    solution = sie.solve(ROW)
+    for axes in plot.picture(solution).axes:
+        assert edge_lines(axes) == list(np.ravel(solution.patches))
+
+
+def test_of_many_patches_the_outermost_edges_are_marked():
+    row = sie.Row([sie.Parabola(1.0).shifted(3.0 * k) for k in range(style.FEW + 1)])
+    solution = sie.solve(sie.Scene(profile=row, body=STEEL, normal_load=9e3))
+    assert edge_lines(plot.picture(solution).axes[0]) == list(solution.edges)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [ROW, parse(example("dissimilar")).scene, parse(example("partial-slip")).scene],
+    ids=["row", "dissimilar", "partial slip"],
+)
+def test_the_slip_is_drawn_below_the_shear(scene):
+    solution = sie.solve(scene)
+    axes = plot.picture(solution).axes[3]
+    x, slip = lines(axes)["slip"].get_data()
+    there = np.isfinite(x)
+    exact = solution.slip(x[there])
+    assert slip[there] == pytest.approx(exact * (np.abs(slip[there]).max() / np.abs(exact).max()))
+    assert len(axes.patches) == len(solution.stick)
+
+
+def test_slip_that_a_path_does_not_determine_is_not_drawn():
+    scene = sie.Scene(profile=sie.Parabola(1.0), body=STEEL, normal_load=1e3, friction=0.4)
+    solution = sie.follow(scene, sie.Path([(1e3, 300.0), (2e3, 750.0)]))[-1]
+    with pytest.raises(sie.ContactError):
+        solution.slip(np.linspace(*solution.edges, 101))
+    assert len(plot.picture(solution).axes) == 3
+
+
+def test_a_contact_without_edges_has_none_in_its_picture():
+    solution = repeated(4e3)
+    assert solution.contact_length == WAVE.period
+    upper, lower = plot.picture(solution).axes
+    assert not edge_lines(upper) and not edge_lines(lower)
+    assert not any(word.startswith("$x_") for word in words(upper))
+
+
+@pytest.mark.parametrize("load", [10.0, 100.0, 300.0, 4e3])
+def test_the_picture_of_a_contact_that_repeats_ends_within_one_period(load):
+    solution = repeated(load)
+    factor, _ = style.scaled(solution.half_width, "mm")
+    left, right = plot.picture(solution).axes[0].get_xlim()
+    assert (right - left) / factor <= WAVE.period * (1.0 + 1e-12)
+
+
+def test_the_picture_of_the_stress_shows_every_patch():
+    contours = pytest.importorskip("sie.plots.stress_plot")
+    solution = sie.solve(ROW)
+    axes = contours.contours(solution).axes[0]
+    drawn = [tuple(line.get_xdata()) for line in axes.lines if line.get_label() == "contact"]
+    assert drawn == list(solution.patches)
+
+
+WITH_WALLS = {
+    "flats": sie.Row([sie.Flat(1.0), sie.Flat(0.5).shifted(3.0)]),
+    "flats that repeat": sie.Periodic(sie.Flat(1.0), period=4.0),
+    "a trace shorter than its period": sie.Periodic(
+        sie.Sampled(np.linspace(-1.0, 1.0, 41), 0.01 * np.linspace(-1.0, 1.0, 41) ** 2), period=2.2
+    ),
+}
+
+
+@pytest.mark.parametrize("profile", WITH_WALLS.values(), ids=WITH_WALLS)
+@pytest.mark.parametrize("load", [20.0, 2e3])
+def test_a_place_without_an_indenter_is_left_out_of_the_picture(profile, load):
+    solution = sie.solve(sie.Scene(profile=profile, body=STEEL, normal_load=load))
+    lower = plot.picture(solution).axes[1]
+    low, high = lower.get_ylim()
+    assert -np.inf < low < 0.0 < high < np.inf
