@@ -164,7 +164,7 @@ def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
     until = -np.inf
     for patch, start, lo, hi, stop in sorted(bad):
         if found and found[-1].patch == patch and start <= until:
-            found[-1] = Tension(patch, found[-1].lo, max(hi, found[-1].hi))
+            found[-1] = Tension(patch, min(lo, found[-1].lo), max(hi, found[-1].hi))
             until = max(until, stop)
         else:
             found.append(Tension(patch, lo, hi))
