@@ -47,15 +47,18 @@ def mended(state: State, found: Findings, pieces: Pieces) -> State:
     P = state.patches
     ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
     cut: list[tuple[float, float]] = []
+    corners = pieces.never_closed
     for k, (a, b) in enumerate(ends):
-        start = a
+        start, least = a, 0.01 * (b - a)
         for t in (t for t in found.tension if t.patch == k):
             middle, half = 0.5 * (t.lo + t.hi), max(0.5 * (t.hi - t.lo), 1e-3 * (b - a))
             lo, hi = middle - np.sqrt(2.0) * half, middle + np.sqrt(2.0) * half
-            if lo - start > 0.01 * (b - a):
+            # a short rest beside a cut is rounding, but not where a corner keeps it apart
+            apart_ = bool(((corners > lo) & (corners < hi)).any())
+            if lo - start > (0.0 if apart_ else least):
                 cut.append((start, lo))
-            start = max(hi, start)
-        if b - start > 0.01 * (b - a):
+            start, least = max(hi, start), 0.0 if apart_ else 0.01 * (b - a)
+        if b - start > least:
             cut.append((start, b))
     merged = set()
     born = []
