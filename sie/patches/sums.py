@@ -47,6 +47,7 @@ def far_sums(
     separation: Separation,
     x: Points,
     at: FarSums,
+    *,
     odd: bool = False,
 ) -> Any:
     """Sums over far nodes at blocks of points, (B, n, sets).

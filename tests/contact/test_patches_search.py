@@ -2,6 +2,8 @@
 short patches behind a concave corner, moments that another indenter carries.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -31,8 +33,9 @@ def by_integral(solution, x):
     total = profile.height(x)
     for a, b in solution.patches:
         inner = breaks[(breaks > a) & (breaks < b)]
-        angle = np.sort(np.arccos(np.clip((a + b - 2.0 * np.r_[a, inner, b]) / (b - a), -1.0, 1.0)))
-        for lo, hi in zip(angle, angle[1:], strict=False):
+        cosine = (a + b - 2.0 * np.r_[a, inner, b]) / (b - a)
+        angle = np.sort(np.arccos(np.clip(cosine, -1.0, 1.0)))
+        for lo, hi in pairwise(angle):
             s = lo + 0.5 * (hi - lo) * (1.0 + g)
             t = 0.5 * (a + b) - 0.5 * (b - a) * np.cos(s)
             weight = 0.25 * (hi - lo) * (b - a) * w * np.sin(s) * solution.pressure(t)
