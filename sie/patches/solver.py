@@ -32,6 +32,7 @@ from .state import Event, Findings, State
 
 Array = NDArray[np.float64]
 
+SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts are looked for ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
@@ -177,9 +178,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     steps, stalls, nearly = 0, 0, None
     # before the edges of many patches are exact, most patches that have to be cut show it
     early = EARLY if state.patches.number > SEVERAL else 0
+    seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        if not state.patches.number:
+        start = _rounded(state)
+        if not state.patches.number or start in seen:  # the same start ends the same again
             break
+        seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
         state, event, count = newton.solve(state, pieces, problem.given, accuracy)
         steps += count
@@ -210,6 +214,13 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         "two of them are about to merge, or one to appear; change the load a little",
         patches=state.patches.number,
     )
+
+
+def _rounded(state: State) -> tuple[object, ...]:
+    """What tells a start of Newton's method from another: edges, and which are sharp."""
+    P = state.patches
+    digits = SAME * np.repeat(P.r, 2)
+    return state.tilt, state.sharp.tobytes(), np.rint(P.edges / digits).tobytes()
 
 
 def _after(event: Event, state: State, pieces: Pieces) -> State:
