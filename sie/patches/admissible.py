@@ -283,7 +283,7 @@ def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Arr
     # ∫ (H - reference) from the edge
     lower, upper = np.minimum(anchor, x), np.maximum(anchor, x)
     shape = x.shape
-    rise = pieces.rises(lower.ravel(), upper.ravel()).reshape(shape)
+    rise = pieces.rises(lower.ravel(), upper.ravel(), walls=True).reshape(shape)
     rise -= _referenced(o, k, panel, distance, sign)
     here = pieces.value(pieces.locate(x), x, 0.0)
     follows = k.follows[panel, None]

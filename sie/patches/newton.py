@@ -103,7 +103,7 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - integral
+    K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
     return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
 
 
