@@ -78,7 +78,7 @@ def steady_cycle(
     >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0, friction=0.5)
     >>> cycle = sie.steady_cycle(scene, (55.0, 15.0, 30.0), (50.0, -5.0, -30.0))
     >>> [[round(end, 6) for end in zone] for zone in cycle.stick]
-    [[-0.20968, 0.23968]]
+    [[-0.189932, 0.264932]]
     """
     refuse_uncovered(scene)
     points, tilts = zip(*(_point(name, p) for name, p in (("A", A), ("B", B))), strict=True)
