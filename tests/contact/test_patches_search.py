@@ -83,3 +83,14 @@ def test_runs_of_tension_are_joined_to_their_hull():
     wide, inside = (0, 0.1, 0.5, 0.5, 0.9), (0, 0.2, 0.2, 0.4, 0.4)
     (tension,) = _joined([wide, inside])
     assert (tension.lo, tension.hi) == (0.2, 0.5)
+
+
+@pytest.mark.parametrize(("distance", "load"), [(3.0, 0.1), (3.0, 1.0), (1.0, 1.0)])
+def test_a_flat_in_a_bowl_is_at_its_own_height(distance, load):
+    """h jumps at both ends of the flat, without room for a gap between the indenters."""
+    flat = sie.Flat(0.3).shifted(distance)
+    whole = solved(profile=sie.Row([sie.Parabola(1.0), flat]), normal_load=load)
+    part = sie.FromFunction(lambda x: x, domain=(-1.5, distance - 0.4))
+    apart = solved(profile=sie.Row([part, flat]), normal_load=load)
+    assert np.array(whole.patches) == pytest.approx(np.array(apart.patches), rel=1e-10)
+    assert whole.check().ok
