@@ -202,8 +202,8 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
 
 
 def relative_size(state: State, y: Array, asked: Array) -> float:
-    """The largest move over its half-width or a narrower gap, of what edges in doubles can tell, or the largest
-    change of a charge over the largest charge.
+    """The largest move over its half-width or a narrower gap, of what edges in doubles can tell, or
+    the largest change of a charge over the largest charge.
     """
     P, sharp = state.patches, state.sharp
     told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges)), 0.0)
