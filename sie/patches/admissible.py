@@ -164,7 +164,7 @@ def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
     until = -np.inf
     for patch, start, lo, hi, stop in sorted(bad):
         if found and found[-1].patch == patch and start <= until:
-            found[-1] = Tension(patch, found[-1].lo, max(hi, found[-1].hi))
+            found[-1] = Tension(patch, min(lo, found[-1].lo), max(hi, found[-1].hi))
             until = max(until, stop)
         else:
             found.append(Tension(patch, lo, hi))
@@ -283,7 +283,7 @@ def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Arr
     # ∫ (H - reference) from the edge
     lower, upper = np.minimum(anchor, x), np.maximum(anchor, x)
     shape = x.shape
-    rise = pieces.rises(lower.ravel(), upper.ravel()).reshape(shape)
+    rise = pieces.rises(lower.ravel(), upper.ravel(), walls=True).reshape(shape)
     rise -= _referenced(o, k, panel, distance, sign)
     here = pieces.value(pieces.locate(x), x, 0.0)
     follows = k.follows[panel, None]

@@ -30,6 +30,11 @@ class Points:
         return Points(self.anchor[k], self.offset[k])
 
 
+def _parity(turns: Any) -> Any:
+    """-1 of odd numbers, 1 of even ones."""
+    return 1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))
+
+
 @dataclass(frozen=True)
 class Chord:
     """Differences and chords of places; `period` is inf on the line."""
@@ -46,8 +51,13 @@ class Chord:
             return step + offset
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
-        sign = 1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))
-        return (self.period / np.pi) * sign * np.sin(angle)
+        return (self.period / np.pi) * _parity(turns) * np.sin(angle)
+
+    def sign(self, step: Any) -> Any:
+        """-1 where `difference` takes an odd number of periods out of a step; 1 elsewhere."""
+        if not self.periodic:
+            return np.ones_like(step)
+        return _parity(np.rint(step / self.period))
 
     def cosine(self, step: Any, offset: Any = 0.0) -> Any:
         """cos(π(x - y)/λ); 1 on the line."""
@@ -55,7 +65,7 @@ class Chord:
             return np.ones_like(step + offset)
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
-        return (1.0 - 2.0 * np.abs(np.remainder(turns, 2.0))) * np.cos(angle)
+        return _parity(turns) * np.cos(angle)
 
     def difference(self, step: Any, offset: Any = 0.0) -> Any:
         """x - y, less whole periods of the anchors' difference."""

@@ -40,7 +40,8 @@ MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
-ULPS = 8.0  # of the largest edge: no step tells less
+ULPS = 8.0  # of an edge: no step tells less
+NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
@@ -103,7 +104,7 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - integral
+    K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
     return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
 
 
@@ -201,15 +202,18 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
 
 
 def relative_size(state: State, y: Array, asked: Array) -> float:
-    """The largest move over its half-width, of what edges in doubles can tell, or the largest
-    change of a charge over the largest charge.
+    """The largest move over its half-width or a narrower gap, of what edges in doubles can tell, or
+    the largest change of a charge over the largest charge.
     """
     P, sharp = state.patches, state.sharp
-    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges).max()), 0.0)
+    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges)), 0.0)
+    gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
+    r = np.repeat(P.r, 2)
+    size = np.clip(gaps, NARROW * r, r)
     change = y[: len(sharp)][sharp]
     largest = np.abs(state.charge[sharp] + change).max(initial=0.0)
     return max(
-        float((told / np.repeat(P.r, 2)).max()),
+        float((told / size).max()),
         float(np.abs(change).max(initial=0.0) / max(largest, TINY)),
     )
 

@@ -46,7 +46,11 @@ class Problem:
         if not self.by_slope:
             return lambda x: self.height(x) + tilt * x
         pieces = self.pieces(window)
-        return lambda x: pieces.rises(np.full(x.shape, window[0]), x) + tilt * x
+        return lambda x: np.where(
+            pieces.void[pieces.locate(x)],
+            np.inf,
+            pieces.rises(np.full(x.shape, window[0]), x) + tilt * x,
+        )
 
 
 def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:

@@ -46,7 +46,7 @@ class Operator(Measure):
         near = self.tree.separated(self.patches.chord, groups.i, groups.narrow, groups.wide)
         total = self._near(t, *self._blocks(groups, near))
         if near.far:
-            far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at)
+            far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at, odd=True)
             total += far[..., 0] - t.reference * far[..., 1]
         return total - self._charged(t)
 

@@ -174,9 +174,10 @@ class Pieces:
             slope = slope + _divided_series(series, k, st, sx) / self._half[k]
         return slope
 
-    def rises(self, x: Array, y: Array) -> Array:
-        """h(y) - h(x) for x <= y, over any number of pieces."""
-        kx, ky = self.locate(x), np.maximum(self.locate(y, "left"), self.locate(x))
+    def rises(self, x: Array, y: Array, *, walls: bool = False) -> Array:
+        """h(y) - h(x) for x <= y, over any number of pieces; `walls`: those at x and y as well."""
+        kx = self.locate(x, "left" if walls else "right")
+        ky = np.maximum(self.locate(y, "right" if walls else "left"), kx)
         same = kx == ky
         upper, lower = np.where(same, y, self.ends[kx + 1]), np.where(same, y, self.ends[ky])
         total = np.where(self.void[kx] & (y > x), self.across[kx], 0.0)

@@ -40,8 +40,12 @@ def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pie
 
 
 def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile: Profile) -> Pieces:
+    first_end, last_end = pieces.domain
     for lo, hi in walls:
-        if hi > pieces.ends[-1]:  # the rest of a period
+        repeated = profile.period < np.inf
+        if not repeated and (hi <= first_end or lo >= last_end):
+            continue  # beside the window
+        if repeated and hi > pieces.ends[-1]:  # the rest of a period
             pieces = _inserted(pieces, len(pieces.origin), hi)
             first, last = len(pieces.origin) - 1, 0
         elif lo == hi:
@@ -50,11 +54,13 @@ def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile:
             pieces = _inserted(pieces, k, lo)
             first, last = k, 0 if at_end else k + 1
         else:
-            first = int(np.searchsorted(pieces.ends, lo, "right")) - 1
-            last = int(np.searchsorted(pieces.ends, hi))
+            first = max(int(np.searchsorted(pieces.ends, lo, "right")) - 1, 0)
+            last = int(np.searchsorted(pieces.ends, min(hi, last_end)))
             if first == last:
                 continue
             pieces.void[first:last] = True
+            if lo < first_end or hi > last_end:
+                continue  # nothing solid is in the window on the other side
         pieces.across[first] = _height_after(pieces, last, profile) - _height_before(
             pieces, first, profile
         )

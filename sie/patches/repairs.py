@@ -12,6 +12,8 @@ from .state import Event, Findings, Overlap, State
 
 Array = NDArray[np.float64]
 
+SHORT = 0.1  # of a patch
+
 
 def after(event: Event, state: State, pieces: Pieces) -> State:
     """The patches after an event."""
@@ -47,15 +49,18 @@ def mended(state: State, found: Findings, pieces: Pieces) -> State:
     P = state.patches
     ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
     cut: list[tuple[float, float]] = []
+    corners = pieces.never_closed
     for k, (a, b) in enumerate(ends):
-        start = a
+        start, least = a, 0.01 * (b - a)
         for t in (t for t in found.tension if t.patch == k):
             middle, half = 0.5 * (t.lo + t.hi), max(0.5 * (t.hi - t.lo), 1e-3 * (b - a))
             lo, hi = middle - np.sqrt(2.0) * half, middle + np.sqrt(2.0) * half
-            if lo - start > 0.01 * (b - a):
+            # a short rest beside a cut is rounding, but not where a corner keeps it apart
+            apart_ = bool(((corners > lo) & (corners < hi)).any())
+            if lo - start > (0.0 if apart_ else least):
                 cut.append((start, lo))
-            start = max(hi, start)
-        if b - start > 0.01 * (b - a):
+            start, least = max(hi, start), 0.0 if apart_ else 0.01 * (b - a)
+        if b - start > least:
             cut.append((start, b))
     merged = set()
     born = []
@@ -129,7 +134,7 @@ def one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
 
 def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> State:
     """Patches whose edges stay on the indenter: sharp where they reach its ends."""
-    a, b = _at_walls(a, b, pieces)
+    a, b = _off_higher_sides(*_at_walls(a, b, pieces), pieces)
     lo, hi = pieces.solid_around(0.5 * (a + b))
     sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
     a, b = np.maximum(a, lo), np.minimum(b, hi)
@@ -153,3 +158,25 @@ def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
         )
     cut = np.array(ends)
     return cut[:, 0], cut[:, 1]
+
+
+def _off_higher_sides(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
+    """Patches of which no two meet at a wall: the higher side of it cannot touch there, and what
+    is short on it comes from a grid.
+    """
+    walls = np.flatnonzero(pieces.void & (np.diff(pieces.ends) == 0.0))
+    a, b = a.copy(), b.copy()
+    for x, rise in zip(pieces.ends[walls].tolist(), pieces.across[walls].tolist(), strict=True):
+        before, after = np.flatnonzero(b == x), np.flatnonzero(a == x)
+        if not (before.size and after.size):
+            continue
+        j, k = int(before[0]), int(after[0])
+        higher, other = (k, j) if rise > 0.0 else (j, k)
+        width = b[higher] - a[higher]
+        away = width if width < SHORT * (b[other] - a[other]) else SHORT * width
+        if rise > 0.0:
+            a[k] += away
+        else:
+            b[j] -= away
+    kept = b > a
+    return a[kept], b[kept]

@@ -25,13 +25,14 @@ from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
 from .operator import Operator
 from .pieces import Pieces
-from .repairs import after, mended
+from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, State
 
 Array = NDArray[np.float64]
 
+SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
 SEVERAL = 12  # patches: of more than these, cuts are looked for ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
@@ -40,7 +41,7 @@ NEARLY = 1e-7
 LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
 FIRST = 2.0  # the first step of the load, as a factor
 FINEST = 1.0 + 1e-4  # a step of the load; ...
-NARROWEST = 1e-4  # ... and of the tilt, of what is left to go
+LEAST_TURN = 1e-4  # ... and of the moment, of what is left to go
 STEPS = 200
 
 Start = Callable[[Problem], State]
@@ -73,19 +74,30 @@ def contact(problem: Problem) -> Found:
 
 
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
-    tilt = problem.given.tilt
+    tilts = (problem.given.tilt,) * 2
     if problem.given.moment is not None:
-        tilt = _level(problem, window)
+        tilts = _levels(problem, window)
+    tilt = 0.5 * (tilts[0] + tilts[1])
     cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
     while cells < min(CELLS * inside, MOST_CELLS):
         cells *= 2
     pieces = problem.pieces(window)
 
-    def start(asked: Problem) -> State:
+    def touched(asked: Problem, tilt: float, cells: int) -> State:
         height = asked.tilted(tilt, window)
         grid = grid_pressure(height, window, cells, asked.given.load, asked.chord.periodic)
         return start_of(grid, pieces, asked, tilt)
+
+    def start(asked: Problem) -> State:
+        state = touched(asked, tilt, cells)
+        moment, load, P = problem.given.moment, problem.given.load, state.patches
+        if moment is None or P.a[0] < moment / load < P.b[-1]:
+            return state
+        # at this tilt the contact changes from one indenter to another: both carry the load
+        both = [touched(asked, t, COARSE).patches for t in tilts]
+        a, b = np.array(apart([e for P in both for e in zip(P.a, P.b, strict=True)])).T
+        return bounded(a, b, pieces, problem.chord, tilt)
 
     try:
         found = settled(start(problem), pieces, problem)
@@ -166,9 +178,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     steps, stalls, nearly = 0, 0, None
     # before the edges of many patches are exact, most patches that have to be cut show it
     early = EARLY if state.patches.number > SEVERAL else 0
+    seen: set[tuple[object, ...]] = set()
     for round_ in range(ROUNDS):
-        if not state.patches.number:
+        start = _rounded(state)
+        if not state.patches.number or start in seen:  # the same start ends the same again
             break
+        seen.add(start)
         accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
         state, event, count = newton.solve(state, pieces, problem.given, accuracy)
         steps += count
@@ -199,6 +214,13 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         "two of them are about to merge, or one to appear; change the load a little",
         patches=state.patches.number,
     )
+
+
+def _rounded(state: State) -> tuple[object, ...]:
+    """What tells a start of Newton's method from another: edges, and which are sharp."""
+    P = state.patches
+    digits = SAME * np.repeat(P.r, 2)
+    return state.tilt, state.sharp.tobytes(), np.rint(P.edges / digits).tobytes()
 
 
 def _after(event: Event, state: State, pieces: Pieces) -> State:
@@ -258,7 +280,7 @@ def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
             found = settled(found.state, pieces, changed(problem, moment=wanted))
         except ContactError:
             step *= 0.5
-            if abs(step) < NARROWEST * abs(asked - now):
+            if abs(step) < LEAST_TURN * abs(asked - now):
                 raise
         else:
             if wanted == asked:
@@ -275,6 +297,13 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
     if problem.chord.periodic:
         return problem.domain[0], problem.domain[0] + problem.chord.period
     lo, hi = _first_window(problem)
+    # the contact gets there by a tilt, and possibly by another indenter than the lowest
+    centre = None
+    if problem.given.moment is not None:
+        centre = problem.given.moment / problem.given.load
+        size = hi - lo
+        lo = max(min(lo, centre - size), problem.domain[0]) if centre < lo else lo
+        hi = min(max(hi, centre + size), problem.domain[1]) if centre > hi else hi
     widened = 0
     for _ in range(WINDOWS):
         height = problem.tilted(problem.given.tilt, (lo, hi))
@@ -291,7 +320,7 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
                 break
             lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
             lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
-        elif b - a < NARROWEST * (hi - lo):
+        elif b - a < NARROWEST * (hi - lo) and a <= (b if centre is None else centre) <= b:
             margin = 2.0 * (b - a)
             lo, hi = max(lo, a - margin), min(hi, b + margin)
         else:
@@ -322,8 +351,10 @@ def _first_window(problem: Problem) -> tuple[float, float]:
     return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
 
 
-def _level(problem: Problem, window: tuple[float, float]) -> float:
-    """The tilt whose load has the given moment, on a coarse grid: M falls as the tilt grows."""
+def _levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
+    """The tilts between which the load has the given moment, on a coarse grid: M falls as the
+    tilt grows.
+    """
     assert problem.given.moment is not None
     lo, hi = window
 
@@ -336,7 +367,7 @@ def _level(problem: Problem, window: tuple[float, float]) -> float:
     size = problem.given.load / (hi - lo)
     now = moment(0.0)
     if now == 0.0:
-        return 0.0
+        return 0.0, 0.0
     sign = np.sign(now)
     near, far = 0.0, sign * size
     for _ in range(60):
@@ -349,4 +380,4 @@ def _level(problem: Problem, window: tuple[float, float]) -> float:
             near = middle
         else:
             far = middle
-    return 0.5 * (near + far)
+    return near, far

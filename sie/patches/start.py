@@ -160,7 +160,7 @@ def patches_on(grid: Grid) -> list[Patch]:
         a, b = (
             (_zero(q[:2], x[i], -grid.dx), _zero(q[:-3:-1], x[j - 1], grid.dx))
             if j - i > 1
-            else (x[i], x[i])
+            else (x[i] - 0.5 * grid.dx, x[i] + 0.5 * grid.dx)
         )
         found.append(
             Patch(

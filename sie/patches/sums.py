@@ -41,10 +41,20 @@ class Groups(NamedTuple):
         return block, ranges(first[of_block], number)
 
 
-def far_sums(chord: Chord, groups: Groups, separation: Separation, x: Points, at: FarSums) -> Any:
+def far_sums(
+    chord: Chord,
+    groups: Groups,
+    separation: Separation,
+    x: Points,
+    at: FarSums,
+    *,
+    odd: bool = False,
+) -> Any:
     """Sums over far nodes at blocks of points, (B, n, sets).
 
-    Those far from all points of a group are interpolated within it, where they are many.
+    Those far from all points of a group are interpolated within it, where they are many. `odd`:
+    the sums change their sign from period to period, as 1/d does, and a point of the group may be
+    given in another period than the middle of its patch.
     """
     lo, hi = groups.narrow
     middle, half = 0.5 * (lo + hi), 0.5 * (hi - lo)
@@ -69,7 +79,8 @@ def far_sums(chord: Chord, groups: Groups, separation: Separation, x: Points, at
     T = chebyshev.polynomials(CHARGES, place / half[g, None])
     series = chebyshev.transform(np.moveaxis(field, 1, 2))[g]
     total = total + np.zeros(series.shape[1])
-    total[some] += T.transpose(1, 2, 0) @ series.transpose(0, 2, 1)
+    field = T.transpose(1, 2, 0) @ series.transpose(0, 2, 1)
+    total[some] += field * chord.sign(x.anchor - c)[..., None] if odd else field
     return total
 
 

@@ -108,7 +108,8 @@ class Tree:
             own = (level.first[node] == owner[group]) & (level.last[node] == owner[group])
             lo, hi = (np.where(own, v[group], w[group]) for v, w in zip(narrow, wide, strict=True))
             away = chord.distance(level.middle[node], lo, hi) >= FAR * level.half[node]
-            far.append((level, node[away], group[away]))
+            if away.any():
+                far.append((level, node[away], group[away]))
             node, group = node[~away], group[~away]
             if number:
                 node, group = (2 * node[:, None] + np.arange(2)).ravel(), np.repeat(group, 2)

@@ -55,6 +55,8 @@ def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other:
         i, j = (next(k for a, b, k in runs if a <= lo and hi <= b) for runs in (one, other))
         cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
         for a, b in pairwise(cuts):
+            if a == b:
+                continue
             inner = _inner(a, b)
             k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
             if found and found[-1][2] == k:
