@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
+from .certificate.goodman_check import goodman_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
@@ -30,6 +31,8 @@ from .errors import ContactError, InequalityError, LoadError
 from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
 from .friction.coupled_traction import CoupledTraction
 from .friction.dissipation import dissipated
+from .friction.goodman import GoodmanSlip, goodman_slip
+from .friction.goodman_departure import departure
 from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
@@ -75,6 +78,7 @@ _SHEAR_FIELDS = _NORMAL_FIELDS | {
     "sliding",
     "bulk_stress",
     "dundurs",
+    "coupling",
 }
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
 # constants stay.
@@ -86,7 +90,8 @@ _STAGES = dict.fromkeys(
     ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
 )
 _STAGES |= dict.fromkeys(
-    ("bonded", "coupled", "tangential", "dissipated", "certificate"), _SHEAR_FIELDS
+    ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation"),
+    _SHEAR_FIELDS,
 )
 
 
@@ -259,6 +264,8 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        if self.scene.goodman:
+            return goodman_slip(self.load_step(self.scene.tangential_load, 0.0))
         if self._several is not None:
             return PatchSlip(self.scene, self._several, *self._loads)
         return slip(self.load_step(*self._loads))
@@ -278,7 +285,9 @@ class Solution:
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
         state = self.tangential
-        return state.energy if isinstance(state, PatchSlip) else dissipated(state)
+        return (
+            state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
+        )
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -296,12 +305,13 @@ class Solution:
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
-        return replace(
-            found,
-            shear=shear_certificate(
+        if isinstance(self.tangential, GoodmanSlip):
+            shear = goodman_certificate(self.tangential, self.slip_notes[0], self.tol)
+        else:
+            shear = shear_certificate(
                 self.tangential, self.slope_density, self._loads, self._slope, self.tol
-            ),
-        )
+            )
+        return replace(found, shear=shear)
 
     @property
     def slope_density(self) -> SlopeDensity:
@@ -504,7 +514,7 @@ class Solution:
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:
-        if self.scene.epsilon:
+        if self.scene.slides and self.scene.beta:
             raise ContactError(
                 f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
                 "a matter of partial slip, "
@@ -643,10 +653,17 @@ class Solution:
 
     @property
     def slip_notes(self) -> tuple[str, ...]:
-        """A sentence on slip zones that would retreat on the way to the loads, or ()."""
+        """A sentence on what is approximated in the slip, or ()."""
+        if self.scene.neglects_beta:
+            return (self.approximation,)
         if not self.sheared or self.tangential.advancing:
             return ()
         return (f"note: slip is found in total displacements: {RETREAT}",)
+
+    @cached_property
+    def approximation(self) -> str:
+        """A sentence on what neglecting β q changes; "" where it is not neglected."""
+        return departure(self.scene, self.tol) if self.scene.neglects_beta else ""
 
     @property
     def strain_notes(self) -> tuple[str, ...]:

@@ -78,16 +78,16 @@ def _measured(
     tol: float,
 ) -> ShearCertificate:
     x, weight = rule.x, rule.weight
-    p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
+    p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
     if size == 0.0:
         size = peak = state.friction * pressure.resultant
-    force, equation, of_force, of_equation = _integrals(terms, _points(state, terms))
+    force, equation, of_force, of_equation = integrals(terms, points(state, terms))
     return ShearCertificate(
         residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
         equilibrium=abs(force - loads[0]) / size,
-        excess=_excess(state, pressure.contact, x, p, q) / float(p.max()),
-        opposing=_opposing(state, x),
+        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
+        opposing=opposing(state, x),
         abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
         condition=state.condition,
         advancing=state.advancing,
@@ -96,7 +96,7 @@ def _measured(
     )
 
 
-def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
+def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
     """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
     Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
@@ -106,20 +106,20 @@ def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array
     for factor, density, contact, (x, _, weight, *_) in terms:
         ulp = float(np.spacing(contact.r + abs(contact.m)))
         inwards, at_inwards = (place + np.where(place < contact.m, ulp, -ulp) for place in (x, at))
-        q, values = _finite(density(x)), density(at)
-        moved = weight * np.abs(_finite(density(inwards)) - q)
+        q, values = finite(density(x)), density(at)
+        moved = weight * np.abs(finite(density(inwards)) - q)
         distance = at[:, None] - x
         distance[distance == 0.0] = np.inf
         whole = values * np.log(contact.from_left(at) / contact.from_right(at))
         force += factor * float(weight @ q)
         equation += factor / np.pi * (((q - values[:, None]) / distance) @ weight + whole)
         of_force += abs(factor) * float(moved.sum())
-        here = np.abs(_finite(density(at_inwards)) - values)
+        here = np.abs(finite(density(at_inwards)) - values)
         of_equation += abs(factor) * (here + (1.0 / np.abs(distance)) @ moved / np.pi)
     return force, equation, of_force, of_equation
 
 
-def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
+def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
     worst = float(
         np.where(p > 0.0, np.abs(q) - p, -np.inf).max()
     )  # a node on a corner, where p is infinite, was set to 0
@@ -130,7 +130,7 @@ def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> flo
     return worst
 
 
-def _opposing(state: Slip, x: Array) -> float:
+def opposing(state: Slip, x: Array) -> float:
     """The smallest slip in its own direction since the last turning point, over the largest."""
     slip = state.slip_now(x)
     largest = float(np.abs(slip).max(initial=0.0))
@@ -144,7 +144,7 @@ def _opposing(state: Slip, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def _points(state: Slip, terms: list[Term]) -> Array:
+def points(state: Slip, terms: list[Term]) -> Array:
     """The places of measurement: over the zone that never slipped, half-way between nodes.
 
     Of many terms these are the farthest apart in the neighbourhood.
@@ -160,5 +160,5 @@ def _points(state: Slip, terms: list[Term]) -> Array:
     return inside
 
 
-def _finite(values: Array) -> Array:
+def finite(values: Array) -> Array:
     return np.where(np.isfinite(values), values, 0.0)

@@ -36,9 +36,9 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
-    """The slip at x; {} where a path does not determine it.
+    """The slip at x; {} where it is not known.
 
-    It is not determined for points that came into contact while the bodies slipped.
+    A path does not determine it for points that came into contact while the bodies slipped.
     """
     try:
         return {"slip": solution.slip(x)}
@@ -47,11 +47,11 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} for dissimilar bodies in full sliding.
-
-    They slipped in part before, and the energy dissipated then is not known.
-    """
-    return {} if solution.scene.epsilon else {"energy_lost": solution.energy_lost}
+    """The dissipated energy; {} where it is not known, as of dissimilar bodies in full sliding."""
+    try:
+        return {"energy_lost": solution.energy_lost}
+    except ContactError:
+        return {}
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
