@@ -9,20 +9,23 @@ opposing      smallest slip in the direction of q over the largest, under the no
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.friction.goodman import GoodmanSlip
-from sie.numerics.interval import EPS
-from sie.profiles.resolution import refined
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import EPS, Interval
 
-from .quadrature import composite_rule
+from .quadrature import Rule, composite_rule
 from .result import ShearCertificate
 from .shear_check import Term, excess, finite, integrals, opposing, points
 
 Array = NDArray[np.float64]
 
 OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
+NODES, RATIO, LEVELS = 12, 3.0, 17  # panels towards a mark, in the root of the distance
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 
 
@@ -56,9 +59,27 @@ def goodman_certificate(state: GoodmanSlip, kind: str, tol: float) -> ShearCerti
 
 
 def _terms(state: GoodmanSlip) -> list[Term]:
-    contact, slope = state.contact, state.step.slope
-    resolution = refined(slope, contact.x1, contact.x2, EPS)
-    x1, x2 = state.step.pressure.interval
-    inside = np.array([x for x in state.marks if x1 < x < x2])
-    rule = composite_rule(contact, slope, inside, resolution=resolution)
+    contact = state.contact
+    if any(state.step.normal.edges.sharp):
+        x1, x2 = state.step.pressure.interval
+        inside = np.array([x for x in state.marks if x1 < x < x2])
+        rule = composite_rule(contact, state.step.slope, inside)
+    else:
+        rule = _between(state.marks, contact)
     return [Term(1.0, state.shear, contact, rule)]
+
+
+def _between(marks: tuple[float, ...], contact: Interval) -> Rule:
+    """Panels that shrink towards all marks, in roots of the distance from them."""
+    u = RATIO ** -np.arange(LEVELS, -0.5, -1.0)
+    nodes, _, w = with_weight(NODES, 0.0, 0.0)
+    ends = np.append(0.0, u)
+    length = np.diff(ends)[:, None]
+    place, weight = (ends[:-1, None] + length * nodes).ravel(), (length * w).ravel()
+    x, dx = [], []
+    for lo, hi in itertools.pairwise(marks):
+        half = 0.5 * (hi - lo)
+        x += [lo + half * place**2, (hi - half * place**2)[::-1]]
+        dx += [2.0 * half * place * weight, (2.0 * half * place * weight)[::-1]]
+    at = np.concatenate(x)
+    return Rule(at, np.zeros_like(at), np.concatenate(dx), at[:0], slice(None), contact)

@@ -96,6 +96,7 @@ class ContactTable:
             whole = self.search.load(edges.contact, self.search.moments(edges.contact))
             self.corner_load = edges.normal_load - whole
         self.first_centre = 0.5 * (z1 + z2)
+        self._breaks = [] if self.law else normal.slope(scene.profile).breaks.tolist()
 
     def contact(self, r: float, near: float) -> tuple[float, Moments]:
         """The centre of the contact of half-width r, from one near to it, and its integrals."""
@@ -120,6 +121,10 @@ class ContactTable:
     @cached_property
     def panels(self) -> tuple[Panel, ...]:
         """Ascending; () under a flat punch."""
+        if self.law is not None:
+            m = self.law.exponent
+            rate = np.array([m * self._mean_pressure * self.end ** (1.0 - m)])
+            return (Panel(0.0, self.end, m - 1.0, rate, np.zeros(1)),)
         ends = self.ends
         done: list[Panel] = []
         todo = list(itertools.pairwise(ends))[::-1]
@@ -139,7 +144,7 @@ class ContactTable:
         if self.end <= self.start * (1.0 + SETTLED):
             return []
         passed = {self.start, self.end}
-        for x in self.search.slope.breaks.tolist():
+        for x in self._breaks:
             for side in (-1.0, 1.0):
                 r = self._passing(x, side)
                 if self.start < r < self.end * (1.0 - SETTLED):
@@ -178,11 +183,8 @@ class ContactTable:
             m, k = self.contact(r, m)
             rates[j] = 2.0 * G * r / (1.0 / k.JL + 1.0 / k.JR)
             centres[j] = m - self.middle if self.search.axis is None else 0.0
-        power = self.law.exponent - 1.0 if self.law is not None else 0.0
-        if power:
-            rates = rates / half_widths**power
         series = chebyshev.transform(np.stack((rates, centres)))
-        panel = Panel(lo, hi, power, *series)
+        panel = Panel(lo, hi, 0.0, *series)
         of_rate = float(np.abs(panel.load_rate[-3:]).max())
         of_centre = float(np.abs(panel.centre[-3:]).max())
         if of_rate <= DECAYED * np.abs(panel.load_rate).max():
@@ -191,7 +193,7 @@ class ContactTable:
             of_centre = 0.0
         part = (hi - lo) / hi
         chopped_off = replace(panel, load_rate=chopped(series[0]), centre=chopped(series[1]))
-        return chopped_off, of_rate * hi**power * part / self._mean_pressure + of_centre / self.end * part
+        return chopped_off, of_rate * part / self._mean_pressure + of_centre / self.end * part
 
     @cached_property
     def _mean_pressure(self) -> float:

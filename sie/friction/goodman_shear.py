@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.root_finding import false_positions
 
 from .coupled_profile import NEAREST, _graded
 from .goodman_functions import GoodmanFlat
@@ -34,7 +33,8 @@ Array = NDArray[np.float64]
 
 NODES = 16
 TOGETHER = 256  # places at a time: more do not fit a processor's cache
-POLISHED, STEP = 3, 1e-5  # Newton's steps with a difference for the derivative
+# Halvings and Newton's steps to the half-width that reaches a place; differences for derivatives
+HALVED, NEWTONS, STEP = 8, 5, 0.05
 LOOKS = 24  # places on a panel at which the ends of the stick zone must move outwards
 TURNING = 1e-9  # |dm/dr| beyond k by so much is not rounding
 
@@ -168,7 +168,7 @@ class GoodmanGrowth:
             r,
             size[:, None] * weights[kind] * rate,
             offset,
-            np.maximum(np.where(offset < 0.0, 2.0 * r - from_edge, from_edge), NEAREST * r),
+            np.clip(np.where(offset < 0.0, 2.0 * r - from_edge, from_edge), NEAREST * r, r),
             from_stick,
         )
         return Nodes(np.repeat(owner, NODES), *(column.ravel() for column in columns))
@@ -208,20 +208,21 @@ class GoodmanGrowth:
         between = (y > first) & (y < last)
         wanted = y[between]
 
-        def short(half_widths: Array) -> Array:
-            # Twice as many in the first call, which looks at both ends of each bracket
-            due = np.tile(wanted, len(half_widths) // max(len(wanted), 1))
-            return due - self._end(half_widths, part)
-
         steps = (np.arange(LOOKS) / LOOKS) ** 2
         grid = np.concatenate([p.lo + (p.hi - p.lo) * steps for p in self.table.panels])
         grid = np.append(grid, self._ends[1])
         k = np.clip(np.searchsorted(self._end(grid, part), wanted), 1, len(grid) - 1)
-        found = false_positions(short, grid[k - 1], grid[k])
-        for _ in range(POLISHED):
-            h = STEP * found
+        lo, hi = grid[k - 1], grid[k]
+        for _ in range(HALVED):
+            middle = 0.5 * (lo + hi)
+            under = self._end(middle, part) < wanted
+            lo, hi = np.where(under, middle, lo), np.where(under, hi, middle)
+        found = 0.5 * (lo + hi)
+        for _ in range(NEWTONS):
+            h = STEP * (hi - lo) + NEAREST
             rise = (self._end(found + h, part) - self._end(found - h, part)) / (2.0 * h)
-            found = found + short(found) / np.where(rise > 0.0, rise, np.inf)
+            step = (wanted - self._end(found, part)) / np.where(rise > 0.0, rise, np.inf)
+            found = np.clip(found + step, lo, hi)
         r[between] = np.clip(found, *self._ends)
         return r
 

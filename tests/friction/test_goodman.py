@@ -109,6 +109,14 @@ def test_shear_of_a_flat_is_the_ratio_of_elliptic_integrals():
         assert float(solution.shear(x)) == pytest.approx(float(expected), rel=1e-13)
 
 
+@pytest.mark.parametrize(("beta", "friction"), [(0.1, 0.1), (0.07, 0.3), (0.3, 0.1)])
+def test_shear_of_a_flat_is_that_of_the_closed_form(beta, friction):
+    x = np.array([-0.9, -0.6, -0.02, 0.0, 0.3, 0.7, 0.99])
+    solution = solved(sie.Flat(1.0), beta, friction)
+    form = goodman.flat_shear(x, half_width=1.0, normal_load=1.0, friction=friction, dundurs=beta)
+    assert solution.shear(x) == pytest.approx(form, rel=1e-12, abs=1e-15)
+
+
 def test_slip_of_a_flat_is_the_integral_of_its_gradient():
     solution = solved(sie.Flat(1.0))
     x, step = np.linspace(0.75, 0.95, 5), 1e-5
