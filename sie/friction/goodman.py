@@ -77,7 +77,7 @@ class DeficitFrame:
         width = np.diff(ends)
         before = np.full(len(width), NEAREST * length)
         before[0] = self.scale
-        after = np.append(width[:-1], nearest * width[-1])
+        after = np.append(before[1:], nearest * width[-1])
         owner, first, size, left, kind = _graded(width, np.minimum(before, width), after)
         x, _, w = gauss_jacobi(NODES, 0.0, 0.0)
         places = np.array([x * x, x, 1.0 - x * x])
