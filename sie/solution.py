@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
-from .certificate.goodman_check import goodman_certificate
 from .certificate.full_stick_check import full_stick_certificate
+from .certificate.goodman_check import goodman_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import shear_certificate
@@ -31,9 +31,9 @@ from .errors import ContactError, InequalityError, LoadError
 from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
 from .friction.coupled_traction import CoupledTraction
 from .friction.dissipation import dissipated
+from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman import GoodmanSlip, goodman_slip
 from .friction.goodman_departure import departure
-from .friction.full_stick import Component, full_stick_contact
 from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
@@ -285,9 +285,7 @@ class Solution:
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
         state = self.tangential
-        return (
-            state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
-        )
+        return state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

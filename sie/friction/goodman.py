@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import Interval
 from sie.traction.base import Complex, Density, on_line
 from sie.traction.combination import Combination
 
@@ -263,7 +263,10 @@ class GoodmanSlip(Slip):
         c1, c2 = self.normal_stick
         f_p = self.friction * self.step.pressure(x)
         q = np.where(x > c2, f_p, np.where(x < c1, -f_p, 0.0))
-        for side, growth, sign in ((y >= touch, self.sides[1], 1.0), (y < touch, self.sides[0], -1.0)):
+        for side, growth, sign in (
+            (y >= touch, self.sides[1], 1.0),
+            (y < touch, self.sides[0], -1.0),
+        ):
             at = side & (x >= c1) & (x <= c2)
             q[at] = sign * growth.shear(sign * y[at])
             if self.table.corner_load:

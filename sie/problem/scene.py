@@ -15,7 +15,6 @@ from sie.profiles.base import Profile
 
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
-
 COUPLINGS = ("full", "goodman")
 
 

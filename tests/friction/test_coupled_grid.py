@@ -47,9 +47,7 @@ def test_load_of_the_grids_tends_to_that_of_the_contact(half_flat):
 
 
 def test_grids_tell_the_coupled_pressure_from_goodmans():
-    loads = [
-        spence.growing_contact(rise(0.0, n), n, 0.3, 0.3, 1).load for n in (CELLS, 2 * CELLS)
-    ]
+    loads = [spence.growing_contact(rise(0.0, n), n, 0.3, 0.3, 1).load for n in (CELLS, 2 * CELLS)]
     scene = sie.Scene(
         profile=sie.Parabola(1.0),
         modulus=2.0,

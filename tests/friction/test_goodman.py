@@ -127,7 +127,9 @@ def test_slip_of_a_flat_is_the_integral_of_its_gradient():
 
 def test_energy_of_a_power_law_is_the_work_of_friction_on_its_self_similar_slip():
     # q dg/dP is a function of x/b, and b ~ sqrt P under a parabola: E ~ P² (2/E*)
-    assert solved(normal_load=2.0).energy_lost == pytest.approx(4.0 * solved().energy_lost, rel=1e-9)
+    assert solved(normal_load=2.0).energy_lost == pytest.approx(
+        4.0 * solved().energy_lost, rel=1e-9
+    )
     P, step = 1.0, 1e-4
     x = np.cos(np.pi * (np.arange(300) + 0.5) / 600)
     weight = np.sin(np.pi * (np.arange(300) + 0.5) / 600) * np.pi / 600

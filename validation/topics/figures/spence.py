@@ -16,7 +16,9 @@ def figures(found: Found) -> Iterator[Figure]:
     ax.clabel(lines, fmt="%g", fontsize=8)
     labelled(ax, "Dundurs' β", "coefficient of friction f")
     yield Figure(
-        "chart", drawing, "The stick zone's part of the contact, under any symmetric convex profile."
+        "chart",
+        drawing,
+        "The stick zone's part of the contact, under any symmetric convex profile.",
     )
     for name, x, y, log, caption in (
         ("stick ratio", "Dundurs' β", "c/b", "", "The stick zone's part of the contact."),
