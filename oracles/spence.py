@@ -11,12 +11,12 @@ The contact grows cell by cell. In each step a cell either sticks, and g stays a
 outwards with q = f p; an active set finds which. The error is of the first order in the cells.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 MOST = 200
 

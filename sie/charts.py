@@ -25,9 +25,8 @@ Array = NDArray[np.float64]
 
 POISSON = 0.3
 RATIOS = tuple(round(0.05 * k, 2) for k in range(19))  # a/b of Figs 5 to 7
-FRICTIONS = tuple(
-    0.0125 * k for k in range(41)
-)  # "each little cross corresponds to an increment of f = 0.0125" (Fig. 7)
+# "each little cross corresponds to an increment of f = 0.0125" (Fig. 7).
+FRICTIONS = tuple(0.0125 * k for k in range(41))
 
 
 def punch(ratio: float, friction: float = 0.0, poisson: float = POISSON) -> Solution:

@@ -156,9 +156,8 @@ def _part_name(token: str) -> str:
 def _new_part(place: Path) -> BinaryIO:
     while True:
         stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115 -- open until moved
-        with suppress(
-            OSError
-        ):  # not all file systems lock; there nothing is taken for stale either
+        # Not all file systems lock; there nothing is taken for stale either.
+        with suppress(OSError):
             _lock(stream, wait=True)
         if os.name == "nt" or os.fstat(stream.fileno()).st_nlink:
             return stream

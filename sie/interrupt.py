@@ -24,13 +24,13 @@ def _exit(*_: Any) -> None:
 
 
 def outside() -> None:
-    """From here on, Ctrl-C ends the process at once."""
+    """Let Ctrl-C end the process at once from here on."""
     if PROGRAM and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _exit)
 
 
 def inside() -> None:
-    """From here on, Ctrl-C is a KeyboardInterrupt again."""
+    """Let Ctrl-C raise KeyboardInterrupt again from here on."""
     if signal.getsignal(signal.SIGINT) is _exit:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

@@ -13,40 +13,26 @@ from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
-# The stages of `Solution` that answer what is asked for.
+BODY = ("stress", "yield", "tension")  # what is asked of the stress in the body
+
+# The stages of `Solution` that answer what is asked for ...
 STAGES: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
     "shear": ("normal", "pressure", "tangential"),
     "check": ("normal", "pressure", "tangential", "certificate"),
-    "stress": ("normal", "pressure", "tangential", "tractions"),
-    "yield": ("normal", "pressure", "tangential", "tractions"),
-    "tension": ("normal", "pressure", "tangential", "tractions"),
+    **dict.fromkeys(BODY, ("normal", "pressure", "tangential", "tractions")),
 }
-
-# The same for full stick, where one equation gives the pressure and the shear.
+# ... for full stick, where one equation gives the pressure and the shear, ...
 FULL_STICK: dict[str, tuple[str, ...]] = {
-    "edges": ("normal",),
+    **dict.fromkeys(("edges", "gap", "shear"), ("normal",)),
     "pressure": ("normal", "pressure"),
-    "gap": ("normal",),
-    "shear": ("normal",),
     "check": ("normal", "certificate"),
-    "stress": ("normal", "pressure", "tractions"),
-    "yield": ("normal", "pressure", "tractions"),
-    "tension": ("normal", "pressure", "tractions"),
+    **dict.fromkeys(BODY, ("normal", "pressure", "tractions")),
 }
-# And for dissimilar bodies in partial slip.
-COUPLED: dict[str, tuple[str, ...]] = {
-    "edges": ("coupled", "normal"),
-    "pressure": ("coupled", "normal", "pressure"),
-    "gap": ("coupled", "normal"),
-    "shear": ("coupled", "normal"),
-    "check": ("coupled", "normal", "certificate"),
-    "stress": ("coupled", "normal", "pressure", "tractions"),
-    "yield": ("coupled", "normal", "pressure", "tractions"),
-    "tension": ("coupled", "normal", "pressure", "tractions"),
-}
+# ... and for dissimilar bodies in partial slip.
+COUPLED = {name: ("coupled", *stages) for name, stages in FULL_STICK.items()}
 
 
 @dataclass(frozen=True)
@@ -131,53 +117,25 @@ def plan(
     """
     refuse_no_scene(scene)
     names = wanted(want)
-    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
-    stages = {stage for w in names for stage in needed[w]}
     if scene.bonded:
-        return _of_bonded(scene, names)
+        return _of_full_stick(scene, names)
     if scene.coupled:
         return _of_coupled(scene, names)
-    profile = scene.profile
-    convex = profile.convex and "convexity" in economy
-    steps = [
+    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
+    stages = {stage for w in names for stage in needed[w]}
+    steps = (
         _resolution(scene, economy),
         Step("edges", True, _edges(scene, economy), "normal"),
         _symmetry(scene, economy),
         _flat_pieces(scene, economy),
         _tilt(scene),
-    ]
-    if "pressure" in stages:
-        steps.append(Step("pressure", True, _pressure(scene, economy), "pressure"))
-    elif not convex:
-        why = f"needed for the inequalities: {_pressure(scene, economy)}"
-        steps.append(Step("pressure", True, why))
-    else:
-        steps.append(Step("pressure", False, "not asked for", "pressure"))
-    if convex:
-        steps.append(
-            Step(
-                "inequalities",
-                False,
-                "the profile is convex: p > 0 and gap > 0 follow",
-                "inequalities",
-            )
-        )
-    else:
-        why = (
-            "the profile is not known to be convex"
-            if not profile.convex
-            else "economy is switched off"
-        )
-        steps.append(
-            Step("inequalities", True, f"{why}: p >= 0 and gap >= 0 are verified", "inequalities")
-        )
-    steps += [
+        _pressure(scene, "pressure" in stages, economy),
+        _inequalities(scene, economy),
         _coupling(scene),
         _slip(scene, "tangential" in stages, economy),
         _corrective(scene, economy),
-    ]
-    steps += [_stress(stages), _maxima(names), _certificate(stages)]
-    return Plan(tuple(steps))
+    )
+    return Plan(steps + _last(stages, names))
 
 
 def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
@@ -191,38 +149,30 @@ def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
         Step("pressure", asked, "flats superposed" if asked else "not asked for", "pressure"),
         Step("inequalities", False, "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"),
         Step("slip", False, "the shear and the slip come with the pressure"),
-        _stress(stages),
-        _maxima(names),
-        _certificate(stages),
     )
-    return Plan(steps)
+    return Plan(steps + _last(stages, names))
 
 
-def _of_bonded(scene: Scene, names: tuple[str, ...]) -> Plan:
+def _of_full_stick(scene: Scene, names: tuple[str, ...]) -> Plan:
     stages = {stage for name in names for stage in FULL_STICK[name]}
-    how = (
-        "-1/2: β = 0 leaves p and q uncoupled"
-        if scene.beta == 0.0
-        else f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
-    )
+    uncoupled = "-1/2: β = 0 leaves p and q uncoupled"
+    coupled = f"-1/2 ± iη, tanh πη = β = {scene.beta:.4g}"
+    exponents = uncoupled if scene.beta == 0.0 else coupled
     tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
+    how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
     asked = "pressure" in stages
     steps = (
         Step("edges", True, "the ends of the punch", "normal"),
-        Step(
-            "full stick",
-            True,
-            f"one equation for p + iq, exponents {how}; the tilt is {tilt}",
-            "bonded",
-        ),
+        Step("full stick", True, how, "bonded"),
         Step("pressure", asked, "its real part" if asked else "not asked for", "pressure"),
         Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
         Step("slip", False, "infinite friction: nothing slips"),
-        _stress(stages),
-        _maxima(names),
-        _certificate(stages),
     )
-    return Plan(steps)
+    return Plan(steps + _last(stages, names))
+
+
+def _last(stages: set[str], names: tuple[str, ...]) -> tuple[Step, ...]:
+    return _stress(stages), _maxima(names), _certificate(stages)
 
 
 def _certificate(stages: set[str]) -> Step:
@@ -277,18 +227,13 @@ def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
 
 
 def _flat_pieces(scene: Scene, economy: Collection[str]) -> Step:
-    flat = int(scene.profile.pieces.is_zero.sum())
+    name, flat = "flat pieces", int(scene.profile.pieces.is_zero.sum())
     if flat and scene.tilt == 0.0 and "zero panels" not in economy:
-        return Step(
-            "flat pieces", True, f"{flat} integrated although zero: economy is switched off"
-        )
+        return Step(name, True, f"{flat} integrated although zero: economy is switched off")
     if flat and scene.tilt == 0.0:
-        return Step(
-            "flat pieces",
-            False,
-            f"{flat} of {len(scene.profile.pieces.origins)} cost nothing: h' = 0 there",
-        )
-    return Step("flat pieces", False, "there are none")
+        pieces = len(scene.profile.pieces.origins)
+        return Step(name, False, f"{flat} of {pieces} cost nothing: h' = 0 there")
+    return Step(name, False, "there are none")
 
 
 def _tilt(scene: Scene) -> Step:
@@ -301,7 +246,16 @@ def _tilt(scene: Scene) -> Step:
     )
 
 
-def _pressure(scene: Scene, economy: Collection[str]) -> str:
+def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
+    how = _expansion(scene, economy)
+    if asked:
+        return Step("pressure", True, how, "pressure")
+    if _convex(scene, economy):
+        return Step("pressure", False, "not asked for", "pressure")
+    return Step("pressure", True, f"needed for the inequalities: {how}")
+
+
+def _expansion(scene: Scene, economy: Collection[str]) -> str:
     if scene.epsilon:
         return "exact panels with the edges' exponents"
     if "transform" not in economy:
@@ -311,6 +265,19 @@ def _pressure(scene: Scene, economy: Collection[str]) -> str:
     if not scene.profile.breaks:
         return "the slope is smooth: one DCT, no linear system"
     return "exact panels on the pieces in the contact; one DCT if no break falls inside"
+
+
+def _convex(scene: Scene, economy: Collection[str]) -> bool:
+    return scene.profile.convex and "convexity" in economy
+
+
+def _inequalities(scene: Scene, economy: Collection[str]) -> Step:
+    name = "inequalities"
+    if _convex(scene, economy):
+        return Step(name, False, "the profile is convex: p > 0 and gap > 0 follow", name)
+    unknown = "the profile is not known to be convex"
+    why = "economy is switched off" if scene.profile.convex else unknown
+    return Step(name, True, f"{why}: p >= 0 and gap >= 0 are verified", name)
 
 
 def _coupling(scene: Scene) -> Step:
@@ -328,35 +295,22 @@ def _coupling(scene: Scene) -> Step:
 
 
 def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
-    if scene.friction == 0.0:
-        return Step("slip", False, "f = 0: there is no shear traction", "tangential")
-    if scene.epsilon:
-        return Step(
-            "slip",
-            False,
+    one_way = "zones of stick and slip for Q at constant P, slip in one direction"
+    either = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
+    cases = (
+        (scene.friction == 0.0, "f = 0: there is no shear traction"),
+        (
+            scene.epsilon != 0.0,
             "full sliding: the shear traction is f times the pressure, nothing to solve",
-            "tangential",
-        )
-    if not sheared(scene, economy):
-        return Step(
-            "slip", False, "Q = 0 and no bulk stress: there is no shear traction", "tangential"
-        )
-    if not asked:
-        return Step("slip", False, "not asked for", "tangential")
-    if scene.tau == 0.0:
-        return Step(
-            "slip",
-            True,
-            "zones of stick and slip for Q at constant P, slip in one direction",
-            "tangential",
-        )
-    return Step(
-        "slip",
-        True,
-        "zones of stick and slip for Q and σ in proportion: one direction or two, by the "
-        "inequalities",
-        "tangential",
+        ),
+        (not sheared(scene, economy), "Q = 0 and no bulk stress: there is no shear traction"),
+        (not asked, "not asked for"),
     )
+    for holds, why in cases:
+        if holds:
+            return Step("slip", False, why, "tangential")
+    how = one_way if scene.tau == 0.0 else f"{either} inequalities"
+    return Step("slip", True, how, "tangential")
 
 
 def _corrective(scene: Scene, economy: Collection[str]) -> Step:

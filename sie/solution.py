@@ -6,7 +6,7 @@ Each result is computed when it is read first, and `vars(solution)` shows the co
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, cast
 
@@ -28,24 +28,25 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
-from .friction.coupled_contact import CoupledContact, coupled_contact, refuse_unsolved
+from .friction.coupled_contact import CoupledContact, coupled_contact
 from .friction.coupled_traction import CoupledTraction
+from .friction.coverage import refuse_uncovered
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman import GoodmanSlip, goodman_slip
 from .friction.goodman_departure import departure
-from .friction.load_limit import refuse_sliding
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
+from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
-from .patches.certificate import PatchCertificate, worst_of
 from .patches.friction import PatchSlip
 from .patches.full import FullContact
+from .patches.result import PatchCertificate, worst_of
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene, refuse_no_scene
-from .profiles.sampled import explained
+from .profiles.placed_traces import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
@@ -54,45 +55,6 @@ from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
-
-_SCENE_FIELDS = frozenset(f.name for f in fields(Scene))
-# What each stage depends on: `with_` keeps a stage whose fields of the scene stay the same.
-_NORMAL_FIELDS = frozenset(
-    {
-        "profile",
-        "body",
-        "indenter",
-        "modulus",
-        "normal_load",
-        "half_width",
-        "tilt",
-        "moment",
-        "epsilon",
-        "bonded",
-        "coupled",
-    }
-)
-_SHEAR_FIELDS = _NORMAL_FIELDS | {
-    "friction",
-    "tangential_load",
-    "sliding",
-    "bulk_stress",
-    "dundurs",
-    "coupling",
-}
-# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
-# constants stay.
-NEGLECTED = (
-    "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions "
-    "by a part of about β"
-)
-_STAGES = dict.fromkeys(
-    ("unverified", "density", "inequalities", "normal", "pressure"), _NORMAL_FIELDS
-)
-_STAGES |= dict.fromkeys(
-    ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation"),
-    _SHEAR_FIELDS,
-)
 
 
 class Solution:
@@ -515,8 +477,8 @@ class Solution:
         if self.scene.slides and self.scene.beta:
             raise ContactError(
                 f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
-                "a matter of partial slip, "
-                "which is not covered for them yet: pressure, shear and stresses are"
+                "a matter of partial slip, which is not covered for them yet: pressure, shear and "
+                "stresses are"
             )
 
     # -- in the body -------------------------------------------------------------------------------
@@ -525,15 +487,14 @@ class Solution:
     def tractions(self) -> Tractions:
         """The tractions and the constants that the stress in the body depends on."""
         scene, body = self.scene, self.scene.body
-        if body is not None and not isinstance(body, Elastic):
-            raise ContactError(
-                "the body is rigid: its stress is not determined; give the elastic one as body and "
-                "the rigid as indenter"
-            )
         if body is None:
             return Tractions(self.pressure, self.shear, scene.bulk_stress, scene.poisson)
-        return Tractions(
-            self.pressure, self.shear, scene.bulk_stress, body.poisson, body.plane, body
+        if isinstance(body, Elastic):
+            constants = body.poisson, body.plane, body
+            return Tractions(self.pressure, self.shear, scene.bulk_stress, *constants)
+        raise ContactError(
+            "the body is rigid: its stress is not determined; give the elastic one as body and "
+            "the rigid as indenter"
         )
 
     def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
@@ -731,34 +692,10 @@ class Solution:
         >>> round(light.with_(normal_load=4.0).half_width / light.half_width, 12)
         2.0
         """
-        for name in changes:
-            if name not in _SCENE_FIELDS:
-                raise ValueError(
-                    f"{name} is not a field of a scene: change {', '.join(sorted(_SCENE_FIELDS))}"
-                )
-        for one, other in (("normal_load", "half_width"), ("tilt", "moment")):
-            for given, replaced in ((one, other), (other, one)):
-                if changes.get(given) is not None and replaced not in changes:
-                    changes[replaced] = 0.0 if replaced == "tilt" else None
-        if "modulus" in changes and self.scene.body is not None:
-            changes = {"body": None, "indenter": None, "dundurs": None} | changes
-        new = Solution(replace(self.scene, **changes), self.tol, self.economy)
-        _refuse_uncovered(new.scene)
-        changed = {
-            name
-            for name in (*changes, "epsilon", "bonded", "coupled")
-            if getattr(new.scene, name) != getattr(self.scene, name)
-        }
-        if self.scene.bonded and changed & _SHEAR_FIELDS:
-            changed.add("bonded")
-        if self.scene.coupled and changed & _SHEAR_FIELDS:
-            changed.add("coupled")
-        kept = [
-            stage
-            for stage, needs in _STAGES.items()
-            if stage in self.__dict__ and not changed & needs
-        ]
-        new.__dict__.update({stage: self.__dict__[stage] for stage in kept})
+        scene = changed_scene(self.scene, changes)
+        refuse_uncovered(scene)
+        new, kept = Solution(scene, self.tol, self.economy), kept_stages(self.scene, scene)
+        new.__dict__.update({name: self.__dict__[name] for name in kept & self.__dict__.keys()})
         return new
 
     def __repr__(self) -> str:
@@ -798,23 +735,9 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     """
     refuse_no_scene(scene)
     tol = arguments.tolerance(tol)
-    for name in arguments.listed("economy", economy, "a set of names"):
+    names = () if economy is ECONOMY else arguments.listed("economy", economy, "a set of names")
+    for name in names:
         if not arguments.among(name, ECONOMY):
             raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
-    _refuse_uncovered(scene)
+    refuse_uncovered(scene)
     return Solution(scene, tol, economy)
-
-
-def _refuse_uncovered(scene: Scene) -> None:
-    if scene.bonded and scene.bulk_stress == 0.0:
-        return
-    if scene.normal_load is not None and not scene.slides:
-        refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
-    if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
-        raise ContactError(
-            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
-            "with friction: how it shifts their zones of stick is not solved; "
-            f"{NEGLECTED}; or set friction = 0"
-        )
-    if scene.coupled:
-        refuse_unsolved(scene, NEGLECTED)

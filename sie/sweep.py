@@ -14,12 +14,9 @@ and the sentence that says why.
 from __future__ import annotations
 
 import math
-import sys
-import time
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import dataclass, field, fields, replace
 from functools import partial
 from numbers import Integral
@@ -31,18 +28,17 @@ import numpy as np
 from . import arguments
 from .errors import ContactError
 from .problem.scene import Scene
+from .progress_bar import Progress
 from .solution import Solution, solve
+from .sweep_result import Answer, labelled
 from .workers import outcomes
 
 Point = dict[str, Any]
-Answer = tuple[dict[str, Any], str]  # values by name, and why there are none ("" if there are)
 Wanted = Callable[[Solution], Any]
 
 DEFAULT = ("half_width", "centre", "normal_load", "moment", "tilt")
 # The number of chunks, at least, where the size of the pool is not known.
 CHUNKS, LONGEST_CHUNK = 64, 256
-PATIENCE = 1.0  # seconds of work before a progress bar appears
-REDRAWN, BAR = 0.2, 24  # seconds between two pictures of the bar; its length in columns
 
 
 def _elastic_limit(solution: Solution) -> dict[str, float]:
@@ -71,14 +67,6 @@ QUANTITIES: dict[str, Wanted] = {
     "elastic_limit": _elastic_limit,
     "peak_tension": _peak_tension,
     "error": lambda s: s.check().error,
-}
-
-
-# Quantities with other names in a result; these are nan where no point has an answer.
-PARTS = {
-    "edges": ("x1", "x2"),
-    "elastic_limit": ("elastic_limit", "elastic_limit_load", "elastic_limit_x", "elastic_limit_y"),
-    "peak_tension": ("peak_tension", "peak_tension_x"),
 }
 
 
@@ -158,17 +146,17 @@ def sweep(
     points = list(_points(axes))
     size = _chunk_size(chunk, len(points), executor)
     chunks = [points[i : i + size] for i in range(0, len(points), size)]
-    run = _Run(Work(scene, wanted, tol), chunks, _Progress(len(points), progress))
+    run = _Run(Work(scene, wanted, tol), chunks, Progress(len(points), progress))
     try:
         if executor is None:
             run.here()
         else:
             run.through(executor)
     except KeyboardInterrupt:
-        raise Interrupted(_labelled(axes, wanted, run.answers())) from None
+        raise Interrupted(labelled(axes, wanted, run.answers())) from None
     finally:
         run.bar.clear()
-    return _labelled(axes, wanted, run.answers())
+    return labelled(axes, wanted, run.answers())
 
 
 # -- the grid --------------------------------------------------------------------------------------
@@ -261,7 +249,7 @@ class _Run:
 
     work: Work
     chunks: list[list[Point]]
-    bar: _Progress
+    bar: Progress
     found: dict[int, list[Answer]] = field(default_factory=dict)
 
     def here(self) -> None:
@@ -328,8 +316,7 @@ def _reason(problem: Exception) -> str:
     if isinstance(problem, BrokenExecutor):
         return (
             "the process that computed this chunk died: its memory was exhausted, or a function "
-            "that is "
-            "wanted crashed; ask for these points alone, or with a smaller chunk"
+            "that is wanted crashed; ask for these points alone, or with a smaller chunk"
         )
     return (
         str(problem)
@@ -370,106 +357,3 @@ def _floats(name: str, value: Any) -> Any:
     except ValueError:  # lists of unequal lengths
         pass
     raise ValueError(f"{name} is neither a number nor an array of numbers: {type(value).__name__}")
-
-
-# -- the result ------------------------------------------------------------------------------------
-
-
-def _labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:
-    answers = _of_one_rank(answers)
-    shape = tuple(map(len, axes.values()))
-    shapes: dict[str, tuple[int, ...]] = {}
-    for values, _ in answers:
-        for name, value in values.items():
-            shapes[name] = (
-                tuple(map(max, zip(shapes[name], value.shape, strict=True)))
-                if name in shapes
-                else value.shape
-            )
-    if not shapes:
-        shapes = {
-            part: ()
-            for name, of in wanted.items()
-            for part in (PARTS.get(name, (name,)) if of == name else (name,))
-        }
-    data: dict[str, Any] = {}
-    for name, inner in shapes.items():
-        if name in axes:
-            continue  # the parameters of the sweep are known
-        array = np.full((len(answers), *inner), np.nan)
-        for k, (values, _) in enumerate(answers):
-            if name in values:
-                place: Any = (k, *(slice(n) for n in values[name].shape)) if inner else k
-                array[place] = values[name]
-        data[name] = array.reshape(shape + inner)
-    reasons = np.array([reason for _, reason in answers], dtype=object).reshape(shape)
-    coordinates = {name: _coordinate(values) for name, values in axes.items()}
-    try:
-        import xarray  # type: ignore[import-not-found, unused-ignore]  # noqa: PLC0415
-    except ImportError:
-        return {**coordinates, **data, "reason": reasons}
-    dims = tuple(axes)
-    variables = {
-        name: ((*dims, *(f"{name}_{i}" for i in range(a.ndim - len(dims)))), a)
-        for name, a in data.items()
-    }
-    return xarray.Dataset({**variables, "reason": (dims, reasons)}, coords=coordinates)
-
-
-def _of_one_rank(answers: list[Answer]) -> list[Answer]:
-    """The answers without values whose rank differs from that of most points.
-
-    One array holds a quantity of all points, and has as many dimensions everywhere.
-    """
-    ranks: dict[str, Counter[int]] = {}
-    for values, _ in answers:
-        for name, value in values.items():
-            ranks.setdefault(name, Counter())[value.ndim] += 1
-    usual = {name: count.most_common(1)[0][0] for name, count in ranks.items() if len(count) > 1}
-    return [_without_odd(answer, usual) for answer in answers] if usual else answers
-
-
-def _without_odd(answer: Answer, usual: dict[str, int]) -> Answer:
-    values, reason = answer
-    odd = {
-        name: values[name].ndim
-        for name in usual
-        if name in values and values[name].ndim != usual[name]
-    }
-    told = "; ".join(
-        f"{name} has {rank} dimensions here and {usual[name]} at most other points"
-        for name, rank in odd.items()
-    )
-    return {name: value for name, value in values.items() if name not in odd}, told or reason
-
-
-def _coordinate(values: list[Any]) -> Any:
-    if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
-        with suppress(OverflowError):  # an integer beyond all floats: its points say so
-            return np.array(values, dtype=float)
-    return np.array([repr(v) for v in values], dtype=object)
-
-
-class _Progress:
-    """A bar on standard error, if that is a terminal and the work is long."""
-
-    def __init__(self, total: int, wanted: bool) -> None:
-        self.total, self.done, self.start, self.drawn = total, 0, time.monotonic(), 0.0
-        self.seen = wanted and sys.stderr is not None and sys.stderr.isatty()
-
-    def advance(self, points: int) -> None:
-        self.done += points
-        now = time.monotonic()
-        elapsed = now - self.start
-        if not self.seen or elapsed < PATIENCE or now - self.drawn < REDRAWN:
-            return
-        self.drawn = now
-        full = BAR * self.done // self.total
-        left = elapsed / self.done * (self.total - self.done)
-        bar = f"{'#' * full}{'-' * (BAR - full)}"
-        told = f"\rsweep |{bar}| {self.done}/{self.total}, {left:.0f} s left "
-        print(told, end="", file=sys.stderr, flush=True)
-
-    def clear(self) -> None:
-        if self.drawn:
-            print("\r" + " " * (BAR + 50) + "\r", end="", file=sys.stderr, flush=True)

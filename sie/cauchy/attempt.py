@@ -47,10 +47,8 @@ class Attempt(NamedTuple):
         return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
-        tails, residuals = (
-            self.tails > np.maximum(DECAYED * tol, self.rounding),
-            self.residuals > np.maximum(tol, self.noise),
-        )
+        tails = self.tails > np.maximum(DECAYED * tol, self.rounding)
+        residuals = self.residuals > np.maximum(tol, self.noise)
         unresolved: NDArray[np.bool_] = tails | residuals
         return unresolved
 
@@ -98,10 +96,8 @@ def attempted(
         for i, (c, of) in enumerate(zip(coefficients, terms, strict=True))
     ]
     parts = tuple(of.part for of in measured)
-    residuals, tails = (
-        np.array([of.residual for of in measured]),
-        np.array([of.tail for of in measured]),
-    )
+    residuals = np.array([of.residual for of in measured])
+    tails = np.array([of.tail for of in measured])
     error = max(float(tails.max()), float(residuals.max()), 2.0 * EPS)
     constants, lacking = unknown[: len(problem.free)], unknown[len(problem.free) :]
     density = JacobiDensity(
@@ -111,10 +107,8 @@ def attempted(
     defect = (
         float(np.abs(lacking).max(initial=0.0)) * max(m.stretch for m in measured) / positive(g)
     )
-    rounding, noise = (
-        np.array([of.rounding for of in measured]),
-        np.array([of.noise for of in measured]),
-    )
+    rounding = np.array([of.rounding for of in measured])
+    noise = np.array([of.noise for of in measured])
     return Attempt(density, tails, residuals, rounding, noise, defect, spreads)
 
 
@@ -143,10 +137,8 @@ def _measured(problem: Problem, i: int, c: Array, of: Terms, largest: float) -> 
     residual = max(float((np.abs(of.left_over) * norm).max() / (term * norm.max())), of.aliased)
     rough = max(ROUNDING * term, of.unsure, SUBNORMAL)
     rounding = rough * abs(inverse.total) ** 0.5 / (abs(constant_of(problem, weight)) * scale)
-    tail, kept = (
-        float(np.abs(c[-TAIL:]).max()) / scale,
-        chebyshev.chopped_length(c, 0.25 * EPS * scale),
-    )
+    tail = float(np.abs(c[-TAIL:]).max()) / scale
+    kept = chebyshev.chopped_length(c, 0.25 * EPS * scale)
     part = Part(
         interval,
         weight,

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import FAINT, Weight
 from sie.traction.base import Density, zero_or_nan
 
 from .interval_map import Affine, Map
@@ -82,10 +82,8 @@ class Part:
     def intensity_errors(self) -> tuple[float, float]:
         """Estimated relative errors of the intensities; infinite where one vanishes by chance."""
         p = jacobi.polynomials(self.weight, len(self.coefficients), np.array([-1.0, 1.0]))
-        values, off = (
-            np.abs(self.coefficients @ p),
-            np.linalg.norm(np.abs(p.T) * self.errors, axis=1),
-        )
+        values = np.abs(self.coefficients @ p)
+        off = np.linalg.norm(np.abs(p.T) * self.errors, axis=1)
         left, right = (
             e / v if v > 0.0 else math.copysign(math.inf, e)
             for e, v in zip(off.tolist(), values.tolist(), strict=True)
@@ -157,7 +155,7 @@ class Part:
         Its Cauchy integrals then keep their digits.
         """
         w, n = self.weight, len(self.coefficients)
-        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= jacobi.FAINT:
+        if w.kappa != -1 or min(abs(w.alpha), abs(w.beta)) >= FAINT:
             return self
         rises = abs(w.alpha) < abs(w.beta)
         faint = Weight(w.alpha, -w.alpha, 0) if rises else Weight(-w.beta, w.beta, 0)
@@ -210,10 +208,8 @@ class Part:
         s, A = jacobi.analysis(self.weight, n)
         right, left = 1.0 - s, 1.0 + s
         to_right, to_left, rho, rest = self.map.distances(right, left)
-        psi, slope = (
-            jacobi.evaluate(self.weight, self.coefficients, s),
-            jacobi.derivative(self.weight, self.coefficients, s),
-        )
+        psi = jacobi.evaluate(self.weight, self.coefficients, s)
+        slope = jacobi.derivative(self.weight, self.coefficients, s)
         of_weight = (self.weight.beta * right - self.weight.alpha * left) / (right * left)
         values = (
             to_right

@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight, weight_of
 
 from .density import JacobiDensity
 from .formulation import Condition, Function, Problem
@@ -189,10 +188,8 @@ class CauchyEquation:
             )
 
     def _ends(self) -> tuple[tuple[str, str], ...]:
-        ends, n = (
-            self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends,
-            len(self.interval),
-        )
+        ends = self.ends.tolist() if isinstance(self.ends, np.ndarray) else self.ends
+        n = len(self.interval)
         if isinstance(ends, str) or (
             isinstance(ends, Sequence) and len(ends) == 2 and all(isinstance(e, str) for e in ends)
         ):
@@ -244,9 +241,7 @@ class CauchyEquation:
     def weights(self) -> tuple[Weight, ...]:
         """The weight (1-s)^alpha (1+s)^beta of each interval, with its index."""
         found = [
-            jacobi.weight_of(
-                complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded")
-            )
+            weight_of(complex(self.a), complex(self.b), (e[0] == "bounded", e[1] == "bounded"))
             for e in self.ends
         ]
         for weight, pair in zip(found, self.ends, strict=True):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sie import arguments
 from sie.errors import ContactError
 from sie.numerics import jacobi
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 
 from .interval_map import Affine, Map
 
@@ -206,9 +206,8 @@ def solved(matrix: Array, rhs: Array) -> Array:
     if not np.linalg.norm(found) <= SINGULAR * np.linalg.norm(rhs):
         raise ContactError(
             "the equation is singular: its homogeneous form has a solution that the side "
-            "conditions do not fix; "
-            "give conditions that are independent, for each interval one where both ends are "
-            "singular"
+            "conditions do not fix; give conditions that are independent, for each interval one "
+            "where both ends are singular"
         )
     return found
 

@@ -33,7 +33,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 from sie.numerics.lerch import log1p
 
 Array = NDArray[Any]

@@ -29,17 +29,14 @@ from .interval_map import Map
 
 Array = NDArray[Any]
 
-FIRST, FEWEST = (
-    64,
-    12,
-)  # points of the first grid on each interval; where there are many intervals, fewer ...
-MOST = 1024  # ... so that all intervals together have no more; this also bounds the second grid
+FIRST = 64  # points of the first grid on each interval
+FEWEST = 12  # the same where there are many intervals
+MOST = 1024  # points of all intervals together, on the first grid and on the second
 TAIL = 4  # the last coefficients that must have decayed ...
-DECAYED = 0.05  # ... to this part of the tolerance
-ROUNDING, MISSED = (
-    4.0 * EPS,
-    64.0 * EPS,
-)  # ... or to rounding; and what then is missed on no grid, in the mean: rounding of k itself
+DECAYED = 0.05  # ... to this part of the tolerance, ...
+ROUNDING = 4.0 * EPS  # ... or to rounding
+# The mean of what such a series misses between the points: rounding of k itself.
+MISSED = 64.0 * EPS
 # from a tail below this part of the largest coefficient the size needed is estimated ...
 PREDICTABLE = 0.05
 MARGIN = 1.25  # ... times this

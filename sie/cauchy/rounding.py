@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 
 from .interval_map import Map
 

@@ -38,22 +38,28 @@ from .system import System
 from .transform import by_transform
 
 ENLARGED = 1.45  # from one attempt to the next: the total cost is less than twice the least
-LARGEST, LARGEST_TRANSFORM = 6000, 200_000  # unknowns with which a system, and a DCT, gives up; ...
-LARGEST_RULE, LARGEST_COMPLEX_RULE = (
-    4000,
-    1500,
-)  # ... and a transform by Gauss-Jacobi quadrature, n² operations and numbers (n³, complex)
+# Unknowns with which a system gives up, ...
+LARGEST = 6000
+# ... a transform by a discrete cosine transform, ...
+LARGEST_TRANSFORM = 200_000
+# ... and one by Gauss-Jacobi quadrature, which takes n² operations and numbers, ...
+LARGEST_RULE = 4000
+# ... or n³ operations with complex exponents.
+LARGEST_COMPLEX_RULE = 1500
 # an exponent within this of -1 has fewer digits left than the tolerance needs
 NEAR_MINUS_ONE = 1e-6
-LARGEST_GUESS = 1000  # ... and the first size as estimated from g alone
-IDLE, SETTLED = (
-    3,
-    1e-6,
-)  # after so many enlargements without progress an error below this is noise of g or k
-# Once the second of these sizes is reached, the errors from the first size on show whether they
-# fall like a power of n, as those of kinks and of weak singularities do, and whether a system so
-# many times larger than the largest would be enough.
-FIRST_SEEN, ENOUGH_SEEN, FEWEST_SEEN, KINK, HOPELESS = 60, 800, 5, (0.5, 4.0), 4.0
+LARGEST_GUESS = 1000  # the first size as estimated from g alone
+# After IDLE enlargements without progress an error below SETTLED is noise of g or k.
+IDLE = 3
+SETTLED = 1e-6
+# Once ENOUGH_SEEN unknowns and FEWEST_SEEN attempts are reached, the errors from FIRST_SEEN
+# unknowns on show whether they fall like a power of n between KINK, as those of kinks and of weak
+# singularities do, and whether a system HOPELESS times larger than the largest would be enough.
+FIRST_SEEN = 60
+ENOUGH_SEEN = 800
+FEWEST_SEEN = 5
+KINK = (0.5, 4.0)
+HOPELESS = 4.0
 # A right-hand side that is inconsistent by more than this fraction is refused.
 INCONSISTENT = 1e-9
 
@@ -115,9 +121,8 @@ def _never_settles(seen: list[tuple[int, float]], tol: float) -> bool:
 
 def _reason(problem: Problem, best: Attempt) -> str:
     """The reason why a density may not settle, and the remedy."""
-    enough = (
-        1.1 * best.progress / DECAYED
-    )  # coefficients have to decay to this part of tol; it is printed to two digits
+    # Coefficients have to decay to this part of tol; it is printed to two digits.
+    enough = 1.1 * best.progress / DECAYED
     remedy = f"raise tol to {enough:.1e}" if enough < 1.0 else "smooth them"
     for weight in problem.weights:
         left = abs(
@@ -127,8 +132,7 @@ def _reason(problem: Problem, best: Attempt) -> str:
         if weight.kappa == 0 and left < NEAR_MINUS_ONE:
             return (
                 f"the exponent at a singular end is -1 but for {left:.1e}, so that next to all of "
-                "φ stands at that end: "
-                f"{remedy}, or make that end bounded and the other singular"
+                f"φ stands at that end: {remedy}, or make that end bounded and the other singular"
             )
     return f"g or k is noisy or not smooth: {remedy}"
 

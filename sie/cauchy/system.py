@@ -58,9 +58,8 @@ class _Block(NamedTuple):
     t: Array
     columns: tuple[Array, Array, Array]  # x2 - t, t - x1, dt/dσ / ρ
     sigma: Array
-    analysis: (
-        Array  # values at the rows -> coefficients of p̃, over the constant of the singular part
-    )
+    # values at the rows -> coefficients of p̃, over the constant of the singular part
+    analysis: Array
     quadrature: Array  # coefficients c -> weights times values at the columns
     kappa: int
 
@@ -92,14 +91,10 @@ class System:
 
     def _kernel(self) -> tuple[Array | None, Array]:
         """k and all smooth parts, rows by columns, times ρ of the row, over ρ of the column."""
-        x, t = (
-            np.concatenate([b.x for b in self.blocks]),
-            np.concatenate([b.t for b in self.blocks]),
-        )
-        rho, rest = (
-            np.concatenate([b.rows[2] for b in self.blocks])[:, None],
-            np.concatenate([b.columns[2] for b in self.blocks]),
-        )
+        x = np.concatenate([b.x for b in self.blocks])
+        t = np.concatenate([b.t for b in self.blocks])
+        rho = np.concatenate([b.rows[2] for b in self.blocks])[:, None]
+        rest = np.concatenate([b.columns[2] for b in self.blocks])
         regular = (
             None if self.problem.k is None else self._regular(self.problem.k, x, t) * rho * rest
         )
@@ -324,16 +319,8 @@ class System:
                 weight.inverse, moved(c[at], block.kappa), PROBES
             )
             left_over = second + smooth[probes] - wanted[probes]
-            terms.append(
-                Terms(
-                    at.stop - at.start,
-                    left_over,
-                    wanted[rows],
-                    smooth[rows],
-                    aliased[i],
-                    float(off[i].max()),
-                )
-            )
+            sizes = wanted[rows], smooth[rows], aliased[i], float(off[i].max())
+            terms.append(Terms(at.stop - at.start, left_over, *sizes))
         return attempted(
             self.problem,
             [c[at] for at in self._column_slices],

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev, jacobi
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 
 from .attempt import Attempt, Terms, attempted
 from .formulation import (

@@ -32,10 +32,8 @@ Array = NDArray[np.float64]
 
 PROMISED, OF_SHEAR = 1e-11, 1e-10  # of the largest pressure, and of the largest shear in (12)
 NODES = 14
-NEAREST, RATIO = (
-    1e-12,
-    4.0,
-)  # panels next to a mark: the first, in parts of the way to the next; growth
+NEAREST = 1e-12  # the first panel next to a mark, in parts of the way to the next mark
+RATIO = 4.0  # growth of the panels away from a mark
 EDGE_LEVELS, LAST = 8, 28  # at the edge: panels towards it, and nodes of the last
 LOOKS = 5  # points of each of the middle panels at which the equations are looked at
 THIN = 1e-8  # half-widths: a zone so narrow is left out, where no edge is sharp

@@ -22,7 +22,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import Moments, moments
+from sie.contact.edge_integrals import EdgeIntegrals, edge_integrals
 from sie.contact.inequalities import intervals_below, relative_gaps
 from sie.contact.small_strains import notes, regular_points
 from sie.numerics.interval import EPS, Interval
@@ -47,9 +47,8 @@ TOGETHER = 2**17  # entries of a matrix that are computed at once
 
 def certificate(density: SlopeDensity, slope: Slope, tol: float) -> Certificate:
     """Measure an answer; `slope` includes the tilt."""
-    with np.errstate(
-        divide="ignore", invalid="ignore", over="ignore"
-    ):  # what cannot be measured is infinite, and not ok
+    # What cannot be measured is infinite, and not ok.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return _measured(density, slope, tol)
 
 
@@ -97,7 +96,7 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     """
     contact, r, e = density.contact, density.contact.r, density.epsilon
     G = density.half_modulus * math.cos(math.pi * e)
-    k = _moments(density, slope, rule)
+    k = _edge_integrals(density, slope, rule)
     rounding = SUMMED * r * (k.positive + k.negative)
     edges = (
         (density.k1, contact.x1, contact.tail1, k.I1 - k.I0, k.JL, 0.5 + e),
@@ -113,14 +112,14 @@ def _load_on_edges(density: SlopeDensity, slope: Slope, rule: Rule) -> float:
     return G * (missed + rounding)
 
 
-def _moments(density: SlopeDensity, slope: Slope, rule: Rule) -> Moments:
+def _edge_integrals(density: SlopeDensity, slope: Slope, rule: Rule) -> EdgeIntegrals:
     if not density.resolves:
         return _by_rule(slope, density.contact, rule)
-    return moments(slope, density.contact, epsilon=density.epsilon)
+    return edge_integrals(slope, density.contact, epsilon=density.epsilon)
 
 
-def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
-    """The moments of a slope that no polynomials resolve, without C2 and the sizes.
+def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> EdgeIntegrals:
+    """The edge integrals of a slope that no polynomials resolve, without C2 and the sizes.
 
     With ψ from the right edge 1 + sin φ = 2 cos²(ψ/2), and r JR = ∫cot(ψ/2) dH, r JL = ∫tan(ψ/2)
     dH.
@@ -130,7 +129,7 @@ def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> Moments:
     middle, dH = 0.25 * (psi[1:] + psi[:-1]), H[:-1] - H[1:]
     JR, JL = (float(dH @ steep) / contact.r for steep in (1.0 / np.tan(middle), np.tan(middle)))
     positive, negative = float(np.maximum(HdF, 0.0).sum()), -float(np.minimum(HdF, 0.0).sum())
-    return Moments(
+    return EdgeIntegrals(
         positive - negative, float(HdF @ np.cos(psi)), 0.0, JR, JL, positive, negative, 0.0, 0.0
     )
 
@@ -188,11 +187,11 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
 
 
 def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
-    """What rounding of x can explain: of ∫p dx, and of both sides of the equation between the
-    nodes, as a stress.
+    """The part of the errors that rounding of x explains: of ∫p dx, and of the equation between
+    the nodes, a stress.
 
-    |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge: noise of p
-    itself must not excuse itself. `change` is that of H in one ulp between the nodes.
+    It is |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge where that
+    is less: noise of p must not pass for rounding. `change` is that of H in one ulp between nodes.
     """
     order = np.argsort(rule.x, kind="stable")
     x, weight, p = rule.x[order], rule.weight[order], p[order]

@@ -25,9 +25,8 @@ from sie.traction.piece_quadrature import edge_rule
 Array = NDArray[np.float64]
 
 FEW_BREAKS = 40
-TOWARDS_EDGE = np.array(
-    [0.0625, 0.125, 0.1875]
-)  # panels need no grading to an edge, but the residual is wanted near it
+# Panels need no grading to an edge, but the residual is wanted near it.
+TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])
 # What the last panel of a graded rule leaves is rounding with LEVELS for the logarithm under a
 # corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
 # x ln|x| under a corner of the slope.
@@ -145,7 +144,7 @@ def _panels(contact: Interval, slope: Slope, also: Array, resolution: Slope) -> 
 
 
 def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
-    """Which cuts bound a piece that is shorter than the grading towards the ends makes it."""
+    """Whether each cut bounds a piece that is shorter than the grading towards the ends."""
     k = np.searchsorted(ends, cut, side="right").clip(1, len(ends) - 1)
     distance = np.minimum(cut - ends[k - 1], ends[k] - cut)
     beside = np.diff(cut, prepend=-np.inf, append=np.inf)
@@ -161,9 +160,8 @@ def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array
     length = np.diff(ends)
     levels = _levels(slope, contact)[::-1]
     parts = np.ceil(length / LONGEST).astype(int)
-    number = np.arange(parts.sum()) - np.repeat(
-        parts.cumsum() - parts, parts
-    )  # of each part within its piece
+    # The number of each part within its piece.
+    number = np.arange(parts.sum()) - np.repeat(parts.cumsum() - parts, parts)
     within = np.repeat(ends[:-1], parts) + np.repeat(length / parts, parts) * number
     middle = 0.5 * (ends[:-1] + ends[1:])
     chosen = middle[_largest(middle, length)]
@@ -190,8 +188,8 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
 
 
 def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
-    """How often the panels at each break inside are to be graded: what NODES leave of (x - e)^(m+1)
-    ln|x - e| is then rounding.
+    """The number of gradings at each break inside, after which the error of NODES nodes for
+    (x - e)^(m+1) ln|x - e| is rounding.
     """
     b = slope.breaks[1:-1]
     inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)

@@ -62,9 +62,8 @@ def shear_certificate(
         inside = np.array([c for c in ends if x1 < c < x2])
         rule = composite_rule(contact, slope, inside, resolution=resolution)
         terms = [Term(1.0, state.shear, contact, rule)]
-    with np.errstate(
-        divide="ignore", invalid="ignore", over="ignore"
-    ):  # what cannot be measured is infinite, and not ok
+    # What cannot be measured is infinite, and not ok.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         return _measured(state, pressure, loads, rule, terms, tol=tol)
 
 
@@ -120,9 +119,8 @@ def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]
 
 
 def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
-    worst = float(
-        np.where(p > 0.0, np.abs(q) - p, -np.inf).max()
-    )  # a node on a corner, where p is infinite, was set to 0
+    # A node on a corner, where p is infinite, was set to 0.
+    worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
     for lo, hi, sign in state.slipped:
         slipping = (x > lo + margin) & (x < hi - margin) & (p > 0.0)

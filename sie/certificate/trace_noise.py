@@ -40,7 +40,8 @@ from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 from sie.profiles.fitting import Gap
-from sie.profiles.sampled import PlacedTrace, Sampled, traces_in
+from sie.profiles.placed_traces import PlacedTrace, traces_in
+from sie.profiles.sampled import Sampled
 from sie.profiles.splines import slope_deviations
 from sie.profiles.trace_values import Mended
 from sie.traction.of_slope import SlopeDensity
@@ -244,7 +245,7 @@ def _bound(placed: PlacedTrace, reference: Sampled, x: Array, weights: Array) ->
 def _operator(
     angle: Array, place: Array, contact: Interval, kappa: Array, scene: Scene
 ) -> tuple[Array, Array]:
-    """From δH at the angles to δp/G at the places without its singular terms, and to C ± c_0'."""
+    """Matrices from δH at the angles to the regular part of δp/G at the places, and to C ± c_0'."""
     n = np.arange(len(angle))
     c = (2.0 / len(angle)) * np.cos(np.outer(n, angle))
     c[0] *= 0.5

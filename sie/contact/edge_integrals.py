@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
-from sie.profiles.slope import SEEN_JUMP, Row, Slope
+from sie.profiles.slope import SEEN_JUMP, Slope
+from sie.profiles.slope_row import Row
 from sie.traction.piece_quadrature import (
     NARROW_ANGLE,
     Geometry,
@@ -33,7 +34,7 @@ NARROW = 0.5 * math.pi + 0.01
 MANY = 24
 
 
-class Moments(NamedTuple):
+class EdgeIntegrals(NamedTuple):
     """The integrals of H over the contact, with dt/w = dφ and s = (t - m)/r = sin φ where ε = 0.
 
     I0      ∫H dt/w = positive - negative
@@ -56,9 +57,9 @@ class Moments(NamedTuple):
     size1: float
     size2: float
 
-    def mirrored(self) -> Moments:
+    def mirrored(self) -> EdgeIntegrals:
         """The integrals of h(-x) on the mirrored contact."""
-        return Moments(
+        return EdgeIntegrals(
             -self.I0,
             self.I1,
             -self.C2,
@@ -70,7 +71,23 @@ class Moments(NamedTuple):
             self.size1,
         )
 
-    def balanced(self, r: float) -> Moments:
+    def settled(self, before: Interval, after: Interval, target: float) -> EdgeIntegrals:
+        """The integrals of the contact with smooth edges that carries target = P/G, to which the
+        last small step leads from where these were taken.
+
+        That step adds p ~ (α + β (x - m)) / sqrt(r² - (x - m)²), which takes the tilt I0/π back:
+        the moment about x = 0 becomes G (m target - r² C2) with the m, r and C2 from before.
+        """
+        moved = 0.5 * (
+            (after.x1 - before.x1)
+            + (after.x2 - before.x2)
+            + (after.tail1 - before.tail1)
+            + (after.tail2 - before.tail2)
+        )
+        C2 = (before.r**2 * self.C2 + moved * target) / after.r**2
+        return self._replace(I0=0.0, I1=target / after.r, C2=C2)
+
+    def balanced(self, r: float) -> EdgeIntegrals:
         """The integrals of the contact moved sideways until I0 = 0, for a small I0.
 
         To first order, with 2 dI0 = (JR + JL) dm, 2 dI1 = (JR - JL) dm and dC2 = I1/r dm.
@@ -80,16 +97,16 @@ class Moments(NamedTuple):
         return self._replace(I0=0.0, I1=I1, C2=self.C2 - 2.0 * self.I0 / rise * self.I1 / r)
 
 
-NOTHING = Moments(*(0.0,) * 9)
+NOTHING = EdgeIntegrals(*(0.0,) * 9)
 
 
-def moments(
+def edge_integrals(
     slope: Slope,
     contact: Interval,
     lower: float | None = None,
     keep_zero: bool = False,
     epsilon: float = 0.0,
-) -> Moments:
+) -> EdgeIntegrals:
     """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half
     right of it.
     """
@@ -108,16 +125,16 @@ def moments(
 # -- arrays ----------------------------------------------------------------------------------------
 
 
-def _of_many(g: Geometry) -> Moments:
+def _of_many(g: Geometry) -> EdgeIntegrals:
     order, narrow = quadrature_order(g.slope.degree), g.angles[2][:, 0] <= NARROW_ANGLE
     if g.slope.functions or np.count_nonzero(narrow) < MANY:
         return _summed(g, order)
     wide = NOTHING if narrow.all() else _summed(g.part(~narrow), order)
     short = _summed(g.part(narrow), narrow_order(g.slope.degree))
-    return Moments(*map(float.__add__, wide, short))
+    return EdgeIntegrals(*map(float.__add__, wide, short))
 
 
-def _summed(g: Geometry, order: int) -> Moments:
+def _summed(g: Geometry, order: int) -> EdgeIntegrals:
     if not len(g.k):
         return NOTHING
     offset, angle, weight, sign = g.nodes(order)
@@ -136,7 +153,7 @@ def _summed(g: Geometry, order: int) -> Moments:
     C2 = float(np.vdot(WH, plus * minus - 2.0 * e * (e + s) if e else plus * minus))
     positive, negative = _sum(np.maximum(WH, 0.0)), -_sum(np.minimum(WH, 0.0))
     I0, I1 = _sum(WH), float(np.vdot(WH, s))
-    return Moments(I0, I1, C2, JR, JL, positive, negative, *_sizes(g, weight, H))
+    return EdgeIntegrals(I0, I1, C2, JR, JL, positive, negative, *_sizes(g, weight, H))
 
 
 def _sizes(g: Geometry, weight: Array, H: Array) -> tuple[float, float]:
@@ -166,11 +183,10 @@ def _jumps(g: Geometry) -> Array:
 
 
 def _rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """What H rises by at both ends (2, K) of the pieces k, from its values there; none where two
-    pieces meet within rounding.
+    """The rises of H at both ends (2, K) of the pieces k, from its values there; 0 where two pieces
+    meet within rounding.
 
-    Over the square root of a distance of 1e-222 from an edge, what rounding leaves would be all
-    there is.
+    Rounding divided by the square root of a distance of 1e-222 from an edge would exceed all else.
     """
     enter, leave = H
     size = SEEN_JUMP * np.maximum(np.abs(enter[1:]), np.abs(leave[:-1]))
@@ -192,22 +208,21 @@ class _Cut(NamedTuple):
 
     base: float  # lo - origin
     length: float
-    roots: tuple[
-        float, float, float, float
-    ]  # lo from left, lo from right, hi from left, hi from right
+    # lo from left, lo from right, hi from left, hi from right
+    roots: tuple[float, float, float, float]
     from_edge: float
     sign: float
     angle: float
 
 
-def _of_few(slope: Slope, contact: Interval, lower: float | None) -> Moments:
+def _of_few(slope: Slope, contact: Interval, lower: float | None) -> EdgeIntegrals:
     width, degree, total = 2.0 * contact.r, slope.degree, None
     for row in slope.rows:
         cut = _cut(row, contact, lower, width)
         if cut is not None:
             more = _integrals(row.coefficients, cut, width, degree)
             total = tuple(map(float.__add__, total, more)) if total else more
-    found = Moments(*total) if total else NOTHING
+    found = EdgeIntegrals(*total) if total else NOTHING
     return found if slope.continuous else _with_jumps(found, slope, contact, lower)
 
 
@@ -228,12 +243,10 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
         start, tail, lo_left, lo_right, length = contact.x1, contact.tail1, 0.0, width, hi_left
     if at_right:
         hi_left, hi_right, length = width, 0.0, lo_right
-    a, b, c, d = (
-        math.sqrt(lo_left / width),
-        math.sqrt(lo_right / width),
-        math.sqrt(hi_left / width),
-        math.sqrt(hi_right / width),
-    )
+    a = math.sqrt(lo_left / width)
+    b = math.sqrt(lo_right / width)
+    c = math.sqrt(hi_left / width)
+    d = math.sqrt(hi_right / width)
     angle = 2.0 * math.atan2(length / (width * (b * c + a * d)), a * c + b * d)
     left = lo_left + hi_left < width
     from_edge = 2.0 * (math.atan2(a, b) if left else math.atan2(b, a))
@@ -245,14 +258,8 @@ def _cut(row: Row, contact: Interval, lower: float | None, width: float) -> _Cut
 def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tuple[float, ...]:
     I0 = I1 = C2 = J_near = J_far = positive = negative = 0.0
     base, from_edge, sign, angle = cut.base, cut.from_edge, cut.sign, cut.angle
-    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
-    for v in c:
-        size = size * farthest + abs(v)
-    size *= 2.0 * angle
-    sin = math.sin
-    for g, weight in _rule(
-        5 + degree + int(4.0 * angle) if angle <= NARROW else quadrature_order(degree)
-    ):
+    sin, short = math.sin, angle <= NARROW
+    for g, weight in _rule(5 + degree + int(4.0 * angle) if short else quadrature_order(degree)):
         half_step = 0.5 * angle * g
         middle = from_edge + sign * half_step
         y = base + width * sin(half_step) * sin(middle)
@@ -261,9 +268,8 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
             dH = dH * y + H
             H = H * y + v
         at = middle + sign * half_step
-        near = (
-            2.0 * sin(0.5 * at) ** 2
-        )  # 1 + sin φ from the left edge, 1 - sin φ from the right one
+        # 1 + sin φ from the left edge, 1 - sin φ from the right one.
+        near = 2.0 * sin(0.5 * at) ** 2
         cos_phi, sin_phi = sin(at), sign * (near - 1.0)
         w = angle * weight
         wH, wdH = w * H, w * dH
@@ -277,21 +283,17 @@ def _integrals(c: tuple[float, ...], cut: _Cut, width: float, degree: int) -> tu
         else:
             negative -= wH
     JR, JL = (J_near, J_far) if sign > 0.0 else (J_far, J_near)
+    farthest, size = max(abs(base), abs(base + cut.length)), 0.0
+    for v in c:
+        size = size * farthest + abs(v)
     _, right_of_lo, left_of_hi, _ = cut.roots
-    return (
-        I0,
-        I1,
-        C2,
-        JR,
-        JL,
-        positive,
-        negative,
-        size * right_of_lo * right_of_lo,
-        size * left_of_hi * left_of_hi,
-    )
+    size1, size2 = (2.0 * angle * size * root * root for root in (right_of_lo, left_of_hi))
+    return I0, I1, C2, JR, JL, positive, negative, size1, size2
 
 
-def _with_jumps(found: Moments, slope: Slope, contact: Interval, lower: float | None) -> Moments:
+def _with_jumps(
+    found: EdgeIntegrals, slope: Slope, contact: Interval, lower: float | None
+) -> EdgeIntegrals:
     """JR and JL with what the jumps of H add, 1/(r cos φ) of each; at `lower` all of H enters."""
     rises = slope.rises
     if lower is not None:

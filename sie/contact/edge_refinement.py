@@ -24,7 +24,7 @@ or H' jumps: at a distance d behind the break, to leading order,
 There a step leads to the root of this model, on whichever side of the break that is.
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
-their sizes (`Moments.size1`, `Moments.size2`), and what a function's values are rough by.
+their sizes (`size1` and `size2` of the edge integrals), and the rounding of a function's values.
 `uncertainty` is the error of the edges that remains.
 """
 
@@ -40,7 +40,7 @@ from sie.numerics.root_finding import Bracket
 from sie.profiles.resolution import rounding_noise
 from sie.profiles.slope import Slope
 
-from .edge_integrals import Moments
+from .edge_integrals import EdgeIntegrals
 
 # A residual is rounding below so many units of its terms: the roots and the angle of each piece,
 # its sines, its weights, Horner's rule and the sum round it once or twice each.
@@ -48,10 +48,11 @@ ROUNDINGS = 16.0 * EPS
 # r JR may vary like a power of the distance to the next break, or to where the profile touches
 # first.
 VARIES = 4.0
+SMALL_STEP = 4.0 * EPS  # of r: after a last step of at most that the integrals are as before
 # A step longer than this part of the distance to the next break follows what the break adds
 CLOSE = 0.25
 FARTHEST = 0.75  # of r, a step inwards
-STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no moments are evaluated
+STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals are evaluated
 # The residual is halved 53 times from the size of the load to rounding, either bracket 106 times
 # from r to the rounding of two doubles.
 MAX_POLISHING = 2 * (53 + 2 * 106)
@@ -59,7 +60,7 @@ MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they
 LEFT, RIGHT = 0, 1
 
 
-def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+def uncertainty(contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
     """The shift of either edge for an ulp of the load and the rounding of its own equation.
 
     Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
@@ -71,25 +72,24 @@ def uncertainty(contact: Interval, k: Moments, target: float) -> tuple[float, fl
 
 @dataclass
 class Polish:
-    """Newton's method for the edges of one slope; `evaluate` gives the moments of a contact."""
+    """Newton's method for the edges of one slope; `evaluate` integrates over a contact."""
 
     slope: Slope
-    evaluate: Callable[[Interval], Moments]
+    evaluate: Callable[[Interval], EdgeIntegrals]
     epsilon: float = 0.0
 
     # -- one of two edges is given, or none --------------------------------------------------------
 
     def both(
-        self, contact: Interval, target: float, left_sharp: bool
-    ) -> tuple[Interval, Moments, bool]:
-        """The contact that carries target = P/G, its moments, and whether the residuals came down
-        to rounding.
+        self, contact: Interval, target: float, left_sharp: bool, touch: tuple[float, float]
+    ) -> tuple[Interval, EdgeIntegrals, bool]:
+        """The contact that carries target = P/G, its edge integrals, and whether the residuals
+        came down to rounding. It holds all of `touch`, but for rounding where that is no break.
         """
-        lo, hi = self.slope.domain
-        left, right = (
-            Bracket((lo, 0.0), (contact.x2, contact.tail2)),
-            Bracket((contact.x1, contact.tail1), (hi, 0.0)),
-        )
+        (lo, hi), breaks = self.slope.domain, self.slope.break_points
+        z1, z2 = ((z, 0.0) if z in breaks else None for z in touch)
+        left = Bracket((lo, 0.0), z1 or (contact.x2, contact.tail2))
+        right = Bracket(z2 or (contact.x1, contact.tail1), (hi, 0.0))
         earlier = [math.inf, math.inf]
         for _ in range(MAX_POLISHING):
             k, r = self.evaluate(contact), contact.r
@@ -102,7 +102,7 @@ class Polish:
             rounding1, rounding2 = self.rounding(contact, k, target)
             missed = max(0.0 if left_sharp else abs(over1) / rounding1, abs(over2) / rounding2)
             if missed <= 1.0:
-                return wanted, k, True
+                return wanted, self.settled(k, contact, wanted, target, left_sharp), True
             # Signs within rounding bound nothing; where that of I0 is, both edges are too far out
             # or in
             askew = not left_sharp and abs(over2 - over1) > rounding1 + rounding2
@@ -115,14 +115,10 @@ class Polish:
             earlier.append(missed)
             x1, tail1 = contact.x1, contact.tail1
             if not left_sharp:
-                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow)
-            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow)
-            most = FARTHEST * r  # inwards: the edges must not pass each other
-            if contact.from_left(x1) + tail1 > most:
-                x1, tail1 = two_sum(contact.x1, most + contact.tail1)
-            if contact.from_right(x2) - tail2 > most:
-                x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
-            moved = Interval(x1, x2, tail1, tail2)
+                x1, tail1 = left.place((wanted.x1, wanted.tail1), slow, (x1, tail1))
+            here = contact.x2, contact.tail2
+            x2, tail2 = right.place((wanted.x2, wanted.tail2), slow, here)
+            moved = _kept_apart(contact, Interval(x1, x2, tail1, tail2))
             if moved == contact:
                 break
             contact = moved
@@ -133,10 +129,10 @@ class Polish:
         contact: Interval,
         target: float,
         lever: float,
-        tilted: Callable[[Interval, float], Moments],
-    ) -> tuple[Interval, Moments, float] | None:
-        """The contact with smooth edges that carries target = P/G at x = lever, its moments and its
-        tilt; None if Newton's steps find none.
+        tilted: Callable[[Interval, float], EdgeIntegrals],
+    ) -> tuple[Interval, EdgeIntegrals, float] | None:
+        """The contact with smooth edges that carries target = P/G at x = lever, its edge integrals
+        and its tilt; None if Newton's steps find none.
 
         Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds
         p ~ sqrt((x - x1)/(x2 - x)) or the mirror image of it, whose resultants are G r J/2 and act
@@ -146,10 +142,8 @@ class Polish:
         tilt, before, last, steps, share = 0.0, math.inf, contact, (0.0, 0.0), 1.0
         for _ in range(MAX_BALANCING):
             k, r = tilted(contact, tilt), contact.r
-            half, turned = (
-                0.5 * (r * k.I1 - target),
-                target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0),
-            )
+            half = 0.5 * (r * k.I1 - target)
+            turned = target * contact.s(lever) + r * (k.C2 - 0.5 * k.I0)
             rise1, rise2 = 0.5 * r * k.JL, 0.5 * r * k.JR
             if not (rise1 > 0.0 and rise2 > 0.0):
                 return None
@@ -214,7 +208,7 @@ class Polish:
             contact = wanted
         return contact, False
 
-    def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, Moments]:
+    def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, EdgeIntegrals]:
         """The contact of the same half-width whose centre, between low and high, balances the
         slope: I0 = 0.
         """
@@ -239,18 +233,28 @@ class Polish:
         return contact, k
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
-        """How far right both edges move so that over = r I0 vanishes; the edge next to a break
-        tells.
+        """The distance by which both edges move right so that over = r I0 vanishes, by the edge
+        that is next to a break.
         """
-        to_left, to_right = (
-            abs(self.nearest(contact, LEFT)[1]),
-            abs(self.nearest(contact, RIGHT)[1]),
-        )
+        to_left = abs(self.nearest(contact, LEFT)[1])
+        to_right = abs(self.nearest(contact, RIGHT)[1])
         if abs(over) <= CLOSE * rise * min(to_left, to_right):
             return -over / rise
         if to_right <= to_left:
             return self.outwards(contact, RIGHT, over, rise, 0.5)
         return -self.outwards(contact, LEFT, -over, rise, 0.5)
+
+    def settled(
+        self, k: EdgeIntegrals, contact: Interval, moved: Interval, target: float, left_sharp: bool
+    ) -> EdgeIntegrals:
+        """The integrals after the last step, whose first order is enough where no edge is sharp."""
+        if not left_sharp and not self.epsilon:
+            return k.settled(contact, moved, target)
+        steps = (
+            abs((moved.x1 - contact.x1) + (moved.tail1 - contact.tail1)),
+            abs((moved.x2 - contact.x2) + (moved.tail2 - contact.tail2)),
+        )
+        return self.evaluate(moved) if max(steps) > SMALL_STEP * contact.r else k
 
     # -- a step ------------------------------------------------------------------------------------
 
@@ -270,20 +274,18 @@ class Polish:
     def outwards(
         self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
     ) -> float:
-        """How far an edge moves outwards so that its residual `over`, which grows by `rise`,
-        vanishes.
+        """The distance by which an edge moves outwards so that its residual `over`, which grows by
+        `rise`, vanishes.
 
-        share     of what a break adds at this edge, that the residual takes
+        `share` is the part of a break's contribution at this edge that enters the residual.
         """
         newton = -over / rise
         b, d = self.nearest(contact, side)
         if abs(newton) <= CLOSE * abs(d):
             return newton
         jump, kink = self.slope.corner(b)
-        B, C = (
-            share * math.sqrt(2.0 * contact.r) * jump,
-            share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink),
-        )
+        B = share * math.sqrt(2.0 * contact.r) * jump
+        C = share * math.sqrt(8.0 * contact.r) * (kink if side == RIGHT else -kink)
         A, behind = rise, -over + rise * d
         if d > 0.0:
             root = math.sqrt(d)
@@ -312,7 +314,7 @@ class Polish:
 
     # -- rounding ----------------------------------------------------------------------------------
 
-    def rounding(self, contact: Interval, k: Moments, target: float) -> tuple[float, float]:
+    def rounding(self, contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
         """The rounding of F1 and F2."""
         r = contact.r
         least = ROUNDINGS * target + (
@@ -327,3 +329,14 @@ class Polish:
         return self._noise
 
     _noise: float | None = None
+
+
+def _kept_apart(contact: Interval, moved: Interval) -> Interval:
+    """The moved contact, its edges at most FARTHEST half-widths inwards: they must not cross."""
+    x1, x2, tail1, tail2 = moved
+    most = FARTHEST * contact.r
+    if contact.from_left(x1) + tail1 > most:
+        x1, tail1 = two_sum(contact.x1, most + contact.tail1)
+    if contact.from_right(x2) - tail2 > most:
+        x2, tail2 = two_sum(contact.x2, contact.tail2 - most)
+    return Interval(x1, x2, tail1, tail2)

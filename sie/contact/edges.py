@@ -26,7 +26,6 @@ smooth and sharp edges.
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -40,17 +39,15 @@ from sie.numerics.root_finding import ROUGH, logarithmic_root
 from sie.profiles.lowest_points import lowest_points
 from sie.profiles.slope import Slope
 
-from .edge_integrals import Moments, moments
+from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, Polish
+from .first_guess import first_guess, of_linear_rise
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the
 # distance, and so many steps settle it.
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
-# P/(G κ) of a linear rise in units of a²: beyond it the flat base, of half-width a, is negligible
-# for a guess. Below this tan θ two terms of its series are rounding; else so many steps are enough.
-LEAST_FLAT, NARROW_RIM, NEWTONS = 1e-20, 1e-2, 4
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
 UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
 
@@ -74,18 +71,18 @@ class Edges:
 
 
 class Found(NamedTuple):
-    """A contact, which edges are sharp, and its moments if they are known (but for the rounding of
-    its edges).
+    """A contact, which edges are sharp, and its edge integrals if they are known (but for the
+    rounding of its edges).
     """
 
     contact: Interval
     sharp: tuple[bool, bool] = (False, False)
-    moments: Moments | None = None
+    integrals: EdgeIntegrals | None = None
 
 
 @dataclass
 class Search:
-    """One profile's slope under one modulus; counts how often the moments were evaluated."""
+    """One profile's slope under one modulus; counts how often the edge integrals were evaluated."""
 
     slope: Slope
     half_modulus: float
@@ -96,27 +93,26 @@ class Search:
     mirrored: bool = False  # whether slope is that of h(-x): messages name the places in x
     evaluations: int = field(default=0)
     # of the last contact, which the search often ends with
-    _last: tuple[Interval, Moments] | None = field(default=None, init=False, repr=False)
+    _last: tuple[Interval, EdgeIntegrals] | None = field(default=None, init=False, repr=False)
 
     # -- evaluation --------------------------------------------------------------------------------
 
-    def moments(self, contact: Interval) -> Moments:
+    def integrals(self, contact: Interval) -> EdgeIntegrals:
         if self._last is None or self._last[0] != contact:
             self.evaluations += 1
-            self._last = contact, self._moments(contact)
+            self._last = contact, self._edge_integrals(contact)
         return self._last[1]
 
-    def _moments(self, contact: Interval) -> Moments:
+    def _edge_integrals(self, contact: Interval) -> EdgeIntegrals:
         if self.axis is None:
-            return moments(self.slope, contact, None, self.keep_zero, self.epsilon)
-        half = moments(
-            self.slope, contact, self.axis, self.keep_zero
-        )  # the symmetry makes the others zero
+            return edge_integrals(self.slope, contact, None, self.keep_zero, self.epsilon)
+        # The symmetry makes the others zero.
+        half = edge_integrals(self.slope, contact, self.axis, self.keep_zero)
         J0 = half.JR + half.JL
         size = half.size1 + half.size2
-        return Moments(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
+        return EdgeIntegrals(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
 
-    def load(self, contact: Interval, k: Moments) -> float:
+    def load(self, contact: Interval, k: EdgeIntegrals) -> float:
         """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G
         r K2.
         """
@@ -130,7 +126,7 @@ class Search:
             return Edges(
                 contact, load, contact.m * load, tilt, sharp, 0.0, 0.0, 0.0, self.evaluations
             )
-        k = k or self.moments(contact)
+        k = k or self.integrals(contact)
         I0 = k.I0 if any(sharp) else 0.0
         P = self.load(contact, k) if load is None else load
         k1, k2 = self._singular_ends(contact, P, sharp, k)
@@ -144,7 +140,7 @@ class Search:
         return Edges(contact, P, M, tilt, sharp, k1, k2, I0, self.evaluations)
 
     def _singular_ends(
-        self, contact: Interval, P: float, sharp: tuple[bool, bool], k: Moments
+        self, contact: Interval, P: float, sharp: tuple[bool, bool], k: EdgeIntegrals
     ) -> tuple[float, float]:
         """(k1, k2), 0 at a smooth edge: their difference from I0, their weighted sum from P."""
         G, r, e, cos = self.half_modulus, contact.r, self.epsilon, math.cos(math.pi * self.epsilon)
@@ -193,46 +189,18 @@ class Search:
 
         if math.isfinite(hi):
             whole = Interval(*self.slope.domain)
-            if self.load(whole, self.moments(whole)) <= load:
+            if self.load(whole, self.integrals(whole)) <= load:
                 return Found(whole, (True, True))
 
         def excess(distance: float) -> tuple[float, float]:
             contact = at(distance)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             return k.I1 * contact.r, distance * contact.r * k.JR
 
         target = load / self.half_modulus
-        guess = self._of_linear_rise(axis, z, target) or self.first_guess(z, hi, target)
+        guess = of_linear_rise(self.slope, axis, z, target) or first_guess(self.slope, z, target)
         distance = logarithmic_root(excess, target, guess, hi - z, self.too_much(load))
         return Found(self.polish.symmetric(at(distance), target, z, MAX_POLISHING)[0])
-
-    def _of_linear_rise(self, axis: float, z: float, target: float) -> float:
-        """The edge's distance from z in closed form if H = κ (x - z) from there to the edge, or 0.
-
-        With a = z - axis, r = a/cos θ: P/G = κ r² (θ - sin θ cos θ), that is, for u = tan θ,
-        (1 + u²) arctan u - u = P/(G κ a²), whose derivative is 2u arctan u.
-        """
-        row = next((row for row in self.slope.rows if row.lo <= z < row.hi), None)
-        if self.slope.functions or row is None or row.origin != z or len(row.coefficients) != 2:
-            return 0.0
-        curvature, start = row.coefficients
-        if start or not curvature > 0.0:
-            return 0.0
-        a, scaled = z - axis, target / curvature
-        if not a * a > LEAST_FLAT * scaled:
-            distance = math.sqrt(2.0 / math.pi * scaled)
-        else:
-            wanted = scaled / (a * a)
-            # Both are lower bounds: of a small u, and of a large one
-            u = max((1.5 * wanted) ** (1.0 / 3.0), math.sqrt(2.0 / math.pi * wanted))
-            if u < NARROW_RIM:
-                u *= 1.0 + u * u / 15.0
-            else:
-                for _ in range(NEWTONS):
-                    angle = math.atan(u)
-                    u -= ((1.0 + u * u) * angle - u - wanted) / (2.0 * u * angle)
-            distance = a * u * u / (1.0 + math.hypot(1.0, u))
-        return distance if 0.0 < distance < row.hi - z else 0.0
 
     def symmetric_near(self, load: float, contact: Interval) -> Interval | None:
         """The same by Newton alone, from the contact under a load that is not much different.
@@ -249,30 +217,15 @@ class Search:
 
     @cached_property
     def polish(self) -> Polish:
-        return Polish(self.slope, self.moments, self.epsilon)
-
-    def first_guess(self, z: float, hi: float, target: float) -> float:
-        if math.isfinite(hi):
-            return 0.5 * (hi - z)
-        breaks = self.slope.break_points
-        ahead = bisect_right(breaks, z)
-        if ahead < len(breaks):
-            return breaks[ahead] - z
-        # Not within rounding of z, where the load would be noise
-        return (
-            max(z - breaks[0], abs(z))
-            if breaks and breaks[0] < z
-            else max(target, math.sqrt(EPS) * abs(z))
-        )
+        return Polish(self.slope, self.integrals, self.epsilon)
 
     def too_much(self, load: float) -> Callable[[float, float], ContactError]:
         def error(distance: float, reached: float) -> ContactError:
             P = reached * self.half_modulus
             return LoadError(
                 f"the load {load:.6g} exceeds what this profile carries in one patch of contact, "
-                f"{P:.6g}: "
-                "beyond it the slope no longer rises enough towards the edge; lower the load or "
-                "extend the profile",
+                f"{P:.6g}: beyond it the slope no longer rises enough towards the edge; lower the "
+                "load or extend the profile",
                 load=P,
             )
 
@@ -302,7 +255,7 @@ class Search:
         return Found(
             left.contact.mirrored(),
             left.sharp[::-1],
-            left.moments.mirrored() if left.moments else None,
+            left.integrals.mirrored() if left.integrals else None,
         )
 
     def _right_edge(self, load: float) -> Found | None:
@@ -316,13 +269,13 @@ class Search:
             return None  # lowest at its end: all contact has a sharp edge there
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
-        guess = self.first_guess(z2, hi, target)
+        guess = first_guess(self.slope, z2, target)
         last = [
             guess,
             guess,
         ]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
 
-        def contact_at(distance: float) -> tuple[Interval, Moments]:
+        def contact_at(distance: float) -> tuple[Interval, EdgeIntegrals]:
             contact, k, left = split._left_edge(
                 (z1, z2), distance, max(last[1] / last[0], UNEVEN) * distance
             )
@@ -349,7 +302,7 @@ class Search:
 
     def _left_edge(
         self, z: tuple[float, float], right: float, guess: float
-    ) -> tuple[Interval, Moments, float]:
+    ) -> tuple[Interval, EdgeIntegrals, float]:
         """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there
         (a sharp edge); and z1 - x1.
         """
@@ -357,16 +310,16 @@ class Search:
         x2, tail2 = two_sum(z[1], right)
         if math.isfinite(lo):
             contact = Interval(lo, x2, 0.0, tail2)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             if k.I0 >= 0.0:
                 return contact, k, max(z[0] - lo, right)
-        found: dict[float, tuple[Interval, Moments]] = {}
+        found: dict[float, tuple[Interval, EdgeIntegrals]] = {}
 
         def balance(left: float) -> tuple[float, float]:
             """∫ of -H left of z1 over ∫ of H right of z2, which is 1 at the root."""
             x1, tail1 = two_sum(z[0], -left)
             contact = Interval(x1, x2, tail1, tail2)
-            k = self.moments(contact)
+            k = self.integrals(contact)
             found[left] = contact, k
             if k.positive <= 0.0:
                 return HUGE, HUGE
@@ -380,8 +333,7 @@ class Search:
             )
             return LoadError(
                 f"a contact that {one} finds no {other} edge: the profile does not rise enough to "
-                f"the {other}; "
-                "prescribe less tilt or load, or a profile that rises on both sides",
+                f"the {other}; prescribe less tilt or load, or a profile that rises on both sides",
                 edge=-x2 if self.mirrored else x2,
             )
 
@@ -396,17 +348,16 @@ class Search:
 
         Raises LoadError if that ends where the load is not carried: between two bumps of a profile.
         """
-        contact, k, settled = self.polish.both(contact, target, left_sharp)
+        contact, k, settled = self.polish.both(contact, target, left_sharp, self.touch())
         carried, askew = contact.r * (k.I1 + k.I0), 0.0 if left_sharp else contact.r * abs(k.I0)
         if not settled and not abs(carried - target) + askew <= MISSED * target:
             seen = contact.mirrored() if self.mirrored else contact
             raise LoadError(
                 "no single patch of contact was found that carries the load "
-                f"{target * self.half_modulus:.6g}: "
-                f"the search ended at [{seen.x1:.6g}, {seen.x2:.6g}] with "
-                f"{carried * self.half_modulus:.6g}; "
-                "the profile has several bumps, or doubles there do not resolve so narrow a "
-                "contact: raise the load, lower it, or smooth the profile",
+                f"{target * self.half_modulus:.6g}: the search ended at [{seen.x1:.6g}, "
+                f"{seen.x2:.6g}] with {carried * self.half_modulus:.6g}; the profile has several "
+                "bumps, or doubles there do not resolve so narrow a contact: raise the load, lower "
+                "it, or smooth the profile",
                 load=carried * self.half_modulus,
             )
         return Found(contact, (left_sharp, False), k)
@@ -431,13 +382,13 @@ class Search:
             return Found(interval_about(self.axis, r))
         low, high = max(lo + r, z1 - r), min(hi - r, z2 + r)
         for m, side in ((high, 1), (low, 0)):
-            # At the end of the indenter one edge is sharp if the other wants to be there
+            # One edge is sharp if the balance would move the other beyond the end of the indenter.
             if (m == hi - r) if side else (m == lo + r):
                 contact = Interval(hi - 2.0 * r, hi) if side else Interval(lo, lo + 2.0 * r)
-                k = self.moments(contact)
+                k = self.integrals(contact)
                 if k.I0 == 0.0:
-                    return Found(contact, moments=k)
+                    return Found(contact, integrals=k)
                 if (k.I0 < 0.0) == bool(side):
                     return Found(contact, (not side, bool(side)), k)
         contact, k = self.polish.centred(interval_about(0.5 * (low + high), r), low, high)
-        return Found(contact, moments=k)
+        return Found(contact, integrals=k)

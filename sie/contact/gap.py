@@ -43,9 +43,8 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
     """
     out: Array = zero_or_nan(x)
     lo, hi = slope.domain
-    out[(x < lo) | (x > hi) | np.isinf(x)] = (
-        np.inf
-    )  # the surface sinks like a logarithm of the distance
+    # The surface sinks like a logarithm of the distance.
+    out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf
     x = np.where(np.isinf(x), np.nan, x)
     contact = density.contact
     for side, outside in (
@@ -81,14 +80,12 @@ def _on_one_side(
 ) -> Array:
     contact = density.contact
     distance = -(contact.from_right(x) if side > 0.0 else contact.from_left(x))
-    width = np.sqrt(
-        2.0 * contact.r
-    )  # its square root: a distance over the width may exceed all doubles
-    theta = 2.0 * np.arcsinh(np.sqrt(distance) / width)
+    # A distance over the contact's width may exceed all doubles, a quotient of roots does not.
+    root_width = np.sqrt(2.0 * contact.r)
+    theta = 2.0 * np.arcsinh(np.sqrt(distance) / root_width)
     cuts = _cuts(float(x[np.argmax(theta)]), float(theta.max()), side, contact, slope)
-    beyond = np.nextafter(
-        contact.x2 if side > 0.0 else contact.x1, side * np.inf
-    )  # no double is nearer to the edge
+    # No double is nearer to the edge.
+    beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)
 
     def integral(start: Array, length: Array) -> Array:
         short = length <= np.minimum(SHORT * start, SHORT)
@@ -101,14 +98,14 @@ def _on_one_side(
     def by_quadrature(start: Array, length: Array, nodes: int) -> Array:
         g, w = chebyshev.gauss_legendre(nodes)
         t = start[:, None] + length[:, None] * g
-        root = width * np.sinh(0.5 * t)
+        root = root_width * np.sinh(0.5 * t)
         d = root * root
         right, left = (contact.x2 + d) + contact.tail2, (contact.x1 - d) + contact.tail1
         at = np.maximum(right, beyond) if side > 0.0 else np.minimum(left, beyond)
         opening = side * gap_slope(at.ravel(), density, slope)
         if more is not None:
             opening = opening + more(at.ravel(), side)
-        values = opening.reshape(t.shape) * (root * (width * np.cosh(0.5 * t)))
+        values = opening.reshape(t.shape) * (root * (root_width * np.cosh(0.5 * t)))
         return length * (values @ w)
 
     k = np.clip(np.searchsorted(cuts, theta, side="right") - 1, 0, len(cuts) - 1)

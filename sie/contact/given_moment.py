@@ -9,14 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from sie.errors import LoadError
 from sie.numerics.interval import EPS, Interval, interval_about, two_sum
 from sie.numerics.root_finding import Bracket, Place, logarithmic_root
 
-from .edge_integrals import Moments, moments
+from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
 from .edges import PLACES, Edges, Found, Search
+from .first_guess import first_guess
 
 NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
 # Where a centre is looked for: the first step over the half-width, and what the next are longer by.
@@ -31,14 +33,14 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
     lo, hi = search.slope.domain
 
     def carried(r: float) -> tuple[float, float]:
-        k = search.moments(interval_about(lever, r))
+        k = search.integrals(interval_about(lever, r))
         rounding = ROUNDINGS * (k.size1 + k.size2)
         # A straight part of the profile carries nothing
         return (r * k.I1, 0.5 * r * r * (k.JR + k.JL)) if rounding < k.I1 else (0.0, 0.0)
 
-    def tilted(contact: Interval, tilt: float) -> Moments:
+    def tilted(contact: Interval, tilt: float) -> EdgeIntegrals:
         search.evaluations += 1
-        return moments(search.slope.tilted(tilt), contact, keep_zero=search.keep_zero)
+        return edge_integrals(search.slope.tilted(tilt), contact, keep_zero=search.keep_zero)
 
     lost = LoadError(
         f"the moment {moment:.6g} puts the load at x = M/P = {lever:.6g}, where rounding of "
@@ -50,18 +52,18 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
     limit = min(lever - lo, hi - lever)
     try:
         r = logarithmic_root(
-            carried, target, search.first_guess(lever, hi, target), limit, search.too_much(load)
+            carried, target, first_guess(search.slope, lever, target), limit, search.too_much(load)
         )
     except LoadError:
         return None
     guess = interval_about(lever, r)
-    if not sum(search.polish.rounding(guess, search.moments(guess), target)) <= target:
+    if not sum(search.polish.rounding(guess, search.integrals(guess), target)) <= target:
         raise lost
     found = search.polish.balanced(guess, target, lever, tilted)
     if found is None:
         return None
     contact, k, tilt = found
-    return replace(search.finished(Found(contact, moments=k), load, tilt), moment=moment)
+    return replace(search.finished(Found(contact, integrals=k), load, tilt), moment=moment)
 
 
 def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
@@ -78,26 +80,14 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
     if not low < high:
         return None
 
-    def at(m: Place) -> tuple[float, float, Interval, Moments]:
-        """The excess of M/(G r) over its given value, and its derivative."""
-        contact = interval_about(m[0], r).moved(m[1], m[1])
-        # Far from x = 0 the slope is nearly constant, which carries nothing
-        level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
-        k, centre = replace(search, slope=slope).moments(contact), contact.m
-        search.evaluations += 1
-        excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - moment / scale
-        k = k._replace(I0=k.I0 + math.pi * level, C2=k.C2 + 0.5 * math.pi * level)
-        return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
-
+    at = partial(_excess_of_moment, search, r, moment / scale)
     centre = min(max(0.5 * (z1 + z2), low), high)
     bracket = _first_change(lambda m: at((m, 0.0)), centre, (low, high), r)
     if bracket is None:
         return None
-    m, slope, earlier = (
-        bracket.middle(),
-        math.copysign(1.0, at(bracket.high)[0]),
-        [math.inf, math.inf],
-    )
+    m = bracket.middle()
+    slope = math.copysign(1.0, at(bracket.high)[0])
+    earlier = [math.inf, math.inf]
     for _ in range(MAX_POLISHING):
         excess, rise, contact, k = at(m)
         size = k.size1 + k.size2
@@ -117,11 +107,25 @@ def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
         return None  # nothing but rounding carries the load, or determines the centre
     tilt = -k.I0 / math.pi
     k = k._replace(I0=0.0, C2=k.C2 - 0.5 * k.I0)
-    return replace(search.finished(Found(contact, moments=k), None, tilt), moment=moment)
+    return replace(search.finished(Found(contact, integrals=k), None, tilt), moment=moment)
+
+
+def _excess_of_moment(
+    search: Search, r: float, target: float, m: Place
+) -> tuple[float, float, Interval, EdgeIntegrals]:
+    """The excess of M/(G r) over its target at the centre m, its derivative, and the contact."""
+    contact = interval_about(m[0], r).moved(m[1], m[1])
+    # Far from x = 0 the slope is nearly constant, which carries nothing.
+    level, slope = search.slope.less_level(m[0], NEAR_CENTRE * r)
+    k, centre = replace(search, slope=slope).integrals(contact), contact.m
+    search.evaluations += 1
+    excess = centre * k.I1 - r * (k.C2 - 0.5 * k.I0) - target
+    k = k._replace(I0=k.I0 + math.pi * level, C2=k.C2 + 0.5 * math.pi * level)
+    return excess, 0.25 * r * (k.JR + k.JL) + 0.5 * centre * (k.JR - k.JL), contact, k
 
 
 def _first_change(
-    at: Callable[[float], tuple[float, float, Interval, Moments]],
+    at: Callable[[float], tuple[float, float, Interval, EdgeIntegrals]],
     centre: float,
     bounds: tuple[float, float],
     r: float,
@@ -146,6 +150,6 @@ def _first_change(
     return None
 
 
-def _pressing(k: Moments) -> float:
+def _pressing(k: EdgeIntegrals) -> float:
     """I1, the load over G r, if it is more than rounding."""
     return k.I1 if abs(k.I1) > ROUNDINGS * (k.size1 + k.size2) else 0.0

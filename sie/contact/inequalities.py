@@ -29,9 +29,8 @@ SCAN = 40
 # Distances from an edge, in half-widths.
 AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 * SCAN)[1:]))
 NAMED = 3  # intervals that a message names
-ROUNDING = (
-    8.0 * EPS
-)  # of the slopes in the contact: by less a slope that rises may fall from point to point
+# Part of the slopes in the contact by which a rising slope may fall between two points.
+ROUNDING = 8.0 * EPS
 # points in contact at which the pressure's sign is looked at, at least 3 on every piece
 SCANNED = 600
 
@@ -71,10 +70,9 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
         intervals = intervals_below(x, p / abs(peak))
         raise InequalityError(
             f"{patch} need tension at x = {where:.6g} (p = {float(p[worst]):.3g}, peak "
-            f"{peak:.3g}){_among(intervals)}: "
-            "the profile is not convex there and lifts off; "
-            "give normal_load, under which several patches are found, raise the load or smooth "
-            "the profile",
+            f"{peak:.3g}){_among(intervals)}: the profile is not convex there and lifts off; give "
+            "normal_load, under which several patches are found, raise the load or smooth the "
+            "profile",
             x=where,
             edges=density.interval,
             tension=intervals,
@@ -83,10 +81,9 @@ def verify_inequalities(density: SlopeDensity, slope: Slope) -> None:
     if gaps.size and gaps.min() < -TOLERATED:
         where, intervals = float(x[np.argmin(gaps)]), intervals_below(x, gaps)
         raise InequalityError(
-            f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: "
-            "the profile touches there too; give normal_load, under which several patches are "
-            "found, "
-            "lower the load, raise it until they merge, or smooth the profile",
+            f"{patch} overlap the body at x = {where:.6g}{_among(intervals)}: the profile touches "
+            "there too; give normal_load, under which several patches are found, lower the load, "
+            "raise it until they merge, or smooth the profile",
             x=where,
             edges=density.interval,
             overlap=intervals,

@@ -8,16 +8,16 @@ relative accuracy is needed where the contact is, not where the domain is.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.errors import ContactError, LoadError
-from sie.numerics.interval import EPS, Interval, interval_about
-from sie.numerics.root_finding import Bracket
+from sie.errors import LoadError
+from sie.numerics.interval import Interval, interval_about
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
 from sie.profiles.base import Profile
@@ -30,31 +30,20 @@ from . import given_moment
 from .edges import PLACES, Edges, Found, Search
 from .pressure import Normal, resolution, slope_series, upright_law, with_breaks
 from .smooth_slope import smooth_contact
+from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .widest_contact import widest_contact
+from .window import MOST_GROWN, Window, window_of
 
 Array = NDArray[np.float64]
 
 
-# A window of a function's slope is refitted while it is longer than the contact by more than this
-# factor ...
-WINDOW = 1.6
-FITTED = 1.25  # ... to the contact times this.
-WINDOW_GROWTH = 8.0
-MOST_GROWN, MOST_SHRUNK = 12, 120
-GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
-WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
-MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
-HUGE = 1e300  # stands for an open end of the bracket
-SIZE, MOMENT = (
-    1e120,
-    1e304,
-)  # of a contact's half-width and pressure, whose squares are multiplied again, and of moments
+SIZE = 1e120  # bounds a half-width and a pressure, whose squares are multiplied again
+MOMENT = 1e304  # bounds a moment
 NEARER = (
     "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 )
 # Looks at a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
-MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
 
 
 def normal_contact(
@@ -74,8 +63,7 @@ def normal_contact(
     for end in [end for is_sharp, is_corner, end in ends if is_sharp and not is_corner]:
         raise LoadError(
             f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter is "
-            "like beyond is not known: "
-            "lower the load or the tilt, or measure further out",
+            "like beyond is not known: lower the load or the tilt, or measure further out",
             end=end,
         )
     return found
@@ -96,9 +84,8 @@ def _within_scale(
             f"range: {arguments.REMEDY}"
         )
     try:
-        with np.errstate(
-            over="ignore", invalid="ignore", divide="ignore"
-        ):  # what that leaves is refused below
+        # What that leaves is refused below.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             found = _contact(scene, tol, economy, seen)
     except ArithmeticError:
         raise LoadError(
@@ -146,69 +133,61 @@ def _contact(
     if not profile.pieces.functions:
         return _searched(scene, profile.pieces, economy)
     looks = 0 if profile.convex or seen is not None else LOOKS
-    seen = seen or ()
-    smooth = (
-        _smooth(scene, with_breaks(profile.pieces, seen), tol, "symmetry" in economy)
-        if "transform" in economy
-        else None
-    )
-    if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
-        return smooth
-    lo, hi = _first_window(scene)
-    ends = profile.domain
-    carried = 0.0  # the largest load that the last window carried
-    grown, shrunk, settled = 0, 0, False
-    tilt = 0.0  # at which the last window was fitted: another may have its contact beyond it
+    if "transform" in economy:
+        slope = with_breaks(profile.pieces, seen or ())
+        smooth = _smooth(scene, slope, tol, "symmetry" in economy)
+        if smooth is not None and not (looks and _unseen_by_series(smooth, profile, tol)):
+            return smooth
+    return _in_window(scene, tol, economy, seen or (), looks)
+
+
+def _in_window(
+    scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...], looks: int
+) -> Normal:
+    """The contact of a slope that is a function, resolved on a window about it.
+
+    After that `looks` times the places are sought where the slope needs another break.
+    """
+    profile, window, tilt = scene.profile, window_of(scene), 0.0
     while True:
-        open_ends = (lo > ends[0], hi < ends[1])
         try:
-            resolved = refined(with_breaks(profile.pieces, seen), lo, hi, resolution(tol))
+            slope = with_breaks(profile.pieces, seen)
+            resolved = refined(slope, window.lo, window.hi, resolution(tol))
             found = _searched(scene, resolved, economy, tilt)
         except LoadError as error:
-            before, carried = carried, float(error.reached.get("load", 0.0))
-            if not any(open_ends) or grown >= MOST_GROWN or (before and carried <= GROWS * before):
+            if not window.may_carry_more(float(error.reached.get("load", 0.0))):
                 _refuse_infinite_ends(profile.pieces)
-                raise  # a wider window changes nothing
-            grown += 1
-            lo, hi = _grown(lo, hi, ends)
+                raise
+            window.grow()
             continue
-        contact, sharp = found.edges.contact, found.edges.sharp
-        if any(is_sharp and is_open for is_sharp, is_open in zip(sharp, open_ends, strict=True)):
-            if grown >= MOST_GROWN:
-                given = (
-                    f"load {scene.normal_load:.6g}"
-                    if scene.normal_load
-                    else f"half-width {scene.half_width:.6g}"
-                )
-                raise LoadError(
-                    f"the {given} makes contact reach beyond [{lo:.6g}, {hi:.6g}]: the slope "
-                    "rises too little, give a domain"
-                )
-            grown, settled = grown + 1, shrunk > 0
-            lo, hi = _grown(lo, hi, ends)
-            continue
-        margin = 0.5 * (FITTED - 1.0) * (contact.x2 - contact.x1)
-        fitted = max(contact.x1 - margin, ends[0]), min(contact.x2 + margin, ends[1])
-        # A window that had to grow again after it was fitted belongs to a profile that is not
-        # convex: it stays
-        if (
-            hi - lo <= WINDOW * (contact.x2 - contact.x1)
-            or fitted == (lo, hi)
-            or settled
-            or shrunk >= MOST_SHRUNK
-        ):
+        edges = found.edges
+        if any(sharp and is_open for sharp, is_open in zip(edges.sharp, window.is_open)):
+            _refuse_wider(window, scene)
+            window.settled = window.shrunk > 0
+            window.grow()
+        elif not window.fitted_to(edges.contact):
+            tilt = edges.tilt  # another may have its contact beyond the window
+        else:
             found = replace(found, seen=seen)
             more = _unseen(found, resolved, scene, tol, economy) if looks else ()
             if not more:
                 return found
             looks -= 1
-            seen += (
-                more if profile.axis is None else (*more, *(2.0 * profile.axis - x for x in more))
-            )
-            continue
-        shrunk += 1
-        lo, hi = fitted
-        tilt = found.edges.tilt
+            seen += more
+            if profile.axis is not None:
+                seen += tuple(2.0 * profile.axis - x for x in more)
+
+
+def _refuse_wider(window: Window, scene: Scene) -> None:
+    """Raises LoadError where contact reaches the ends of a window that has grown enough."""
+    if window.grown < MOST_GROWN:
+        return
+    load, half_width = scene.normal_load, scene.half_width
+    given = f"load {load:.6g}" if load else f"half-width {half_width:.6g}"
+    raise LoadError(
+        f"the {given} makes contact reach beyond [{window.lo:.6g}, {window.hi:.6g}]: the slope "
+        "rises too little, give a domain"
+    )
 
 
 def _asks_for_no_tilt(scene: Scene, axis: float) -> bool:
@@ -325,191 +304,66 @@ def contact_under(
 def _searched(scene: Scene, slope: Slope, economy: Collection[str], start: float = 0.0) -> Normal:
     """The edges for a resolved slope; the tilt of a given moment is searched from `start`."""
     axis = scene.profile.axis if "symmetry" in economy else None
+    edges_at = partial(_edges_at, scene=scene, slope=slope, economy=economy)
+    load, moment = scene.normal_load, scene.moment
+    if moment is None:
+        edges = edges_at(scene.tilt)
+    else:
+        if load is not None:
+            refuse_outside(moment, load, slope.domain, scene.profile.domain)
+        search = _search(scene, slope, economy)
+        edges = _of_moment(scene, search, axis) or tilt_of_moment(
+            edges_at, moment, search, scene.half_width is not None, start
+        )
+    return Normal(edges, axis is not None and edges.tilt == scene.epsilon == 0.0)
+
+
+def _search(scene: Scene, slope: Slope, economy: Collection[str]) -> Search:
     epsilon, keep_zero = scene.epsilon, "zero panels" not in economy
     G = 0.5 * scene.Estar * math.cos(math.pi * epsilon)
+    return Search(slope, G, None, keep_zero, epsilon)
 
-    def edges_at(tilt: float) -> Edges:
-        symmetric = axis if tilt == 0.0 and epsilon == 0.0 else None
-        search = Search(slope.tilted(tilt), G, symmetric, keep_zero, epsilon)
-        if scene.half_width is not None:
-            found = search.of_half_width(scene.half_width)
-            if all(found.sharp):
-                raise LoadError(
-                    f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any "
-                    "load: give normal_load instead of half_width"
-                )
-            return search.finished(found, None, tilt)
-        assert scene.normal_load is not None
-        try:
-            found = (
-                search.symmetric(scene.normal_load)
-                if symmetric is not None
-                else search.general(scene.normal_load)
-            )
-        except LoadError:
-            widest = None if scene.profile.convex else widest_contact(search, scene.normal_load)
-            if widest is None:
-                raise
-            found = widest
-        return search.finished(found, scene.normal_load, tilt)
 
-    if scene.moment is not None and scene.normal_load is not None:
-        _refuse_outside(scene.moment, scene.normal_load, slope.domain, scene.profile.domain)
-    if scene.moment is None:
-        return Normal(
-            edges_at(scene.tilt), axis is not None and scene.tilt == 0.0 and epsilon == 0.0
-        )
-    search, at_fixed_width = (
-        Search(slope, G, epsilon=epsilon, keep_zero=keep_zero),
-        scene.half_width is not None,
-    )
-    edges = None
-    if (
-        scene.normal_load is not None
-        and epsilon == 0.0
-        and (axis is None or scene.moment != axis * scene.normal_load)
-    ):
-        edges = given_moment.under_load(search, scene.normal_load, scene.moment)
-    if scene.half_width is not None and epsilon == 0.0 and not scene.moment == axis == 0.0:
-        edges = given_moment.of_half_width(search, scene.half_width, scene.moment)
-        if edges is None and np.isinf(scene.profile.domain).all():
+def _edges_at(tilt: float, scene: Scene, slope: Slope, economy: Collection[str]) -> Edges:
+    """The edges under the given load, or of the given half-width, at a given tilt."""
+    search = _search(scene, slope.tilted(tilt), economy)
+    if "symmetry" in economy and tilt == search.epsilon == 0.0:
+        search.axis = scene.profile.axis
+    if scene.half_width is not None:
+        found = search.of_half_width(scene.half_width)
+        if all(found.sharp):
             raise LoadError(
-                f"no contact of half-width {scene.half_width:.6g} with smooth edges was found "
-                f"that has the moment {scene.moment:.6g}: "
-                "give a smaller moment, or a larger half_width"
+                f"a sharp-edged contact of half-width {scene.half_width:.6g} carries any "
+                "load: give normal_load instead of half_width"
             )
-    edges = edges or _tilt_of_moment(edges_at, scene.moment, search, at_fixed_width, start)
-    return Normal(edges, axis is not None and edges.tilt == 0.0 and epsilon == 0.0)
+        return search.finished(found, None, tilt)
+    load = scene.normal_load
+    assert load is not None
+    try:
+        found = search.general(load) if search.axis is None else search.symmetric(load)
+    except LoadError:
+        widest = None if scene.profile.convex else widest_contact(search, load)
+        if widest is None:
+            raise
+        found = widest
+    return search.finished(found, load, tilt)
 
 
-def _refuse_outside(
-    moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
-) -> None:
-    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or
-    beyond the indenter.
-    """
-    if window[0] < moment / load < window[1]:
-        return
-    acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
-    if domain[0] < moment / load < domain[1]:
+def _of_moment(scene: Scene, search: Search, axis: float | None) -> Edges | None:
+    """Both edges and the tilt at once where both edges are smooth; None if they may not be."""
+    load, r, moment = scene.normal_load, scene.half_width, scene.moment
+    assert moment is not None
+    if scene.epsilon != 0.0:
+        return None
+    if load is not None:
+        on_axis = axis is not None and moment == axis * load
+        return None if on_axis else given_moment.under_load(search, load, moment)
+    if r is None or moment == axis == 0.0:
+        return None
+    edges = given_moment.of_half_width(search, r, moment)
+    if edges is None and np.isinf(scene.profile.domain).all():
         raise LoadError(
-            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: "
-            "lower the moment"
+            f"no contact of half-width {r:.6g} with smooth edges was found that "
+            f"has the moment {moment:.6g}: give a smaller moment, or a larger half_width"
         )
-    raise LoadError(
-        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to "
-        "below the load times that length"
-    )
-
-
-def _tilt_of_moment(
-    edges_at: Callable[[float], Edges],
-    moment: float,
-    search: Search,
-    at_fixed_width: bool,
-    tilt: float,
-) -> Edges:
-    """The tilt whose pressure has the moment, by Newton in a bracket: M falls as the tilt grows."""
-    bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
-    best = edges_at(tilt)
-    edges = best
-    left, missed = MAX_TILTS, [math.inf, math.inf]
-    while left > 0:
-        excess = edges.moment - moment
-        if abs(excess) <= abs(best.moment - moment):
-            best = edges
-        bracket.cut((tilt, 0.0), above=excess > 0.0)
-        if abs(excess) <= 2.0 * EPS * _reach(edges):
-            break
-        falls = _fall_of_moment(edges, search, at_fixed_width)
-        missed.append(abs(excess))
-        # Newton's steps may run to and fro across a part that is nearly flat
-        astray = missed[-1] > 0.5 * missed[-3]
-        wanted = tilt + excess / falls if falls > 0.0 else math.inf
-        new, _ = bracket.place((wanted, 0.0), astray)
-        (low, _), (high, _) = bracket.low, bracket.high
-        settled = high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE)
-        if new == tilt or settled or not math.isfinite(new):
-            break
-        tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
-        left -= spent
-        if tried is None:
-            break
-        edges = tried
-    if abs(best.moment - moment) > MISSED * _reach(best):
-        raise LoadError(
-            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is "
-            f"{best.moment:.6g} "
-            f"at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
-            moment=best.moment,
-            tilt=best.tilt,
-        )
-    return best
-
-
-def _carried(
-    edges_at: Callable[[float], Edges], tilt: float, known: float, most: int
-) -> tuple[float, Edges | None, int]:
-    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be
-    tilted by so much; and the tilts tried.
-    """
-    for tried in range(1, most + 1):
-        if abs(tilt - known) <= 4.0 * EPS * abs(known):
-            return tilt, None, tried
-        try:
-            return tilt, edges_at(tilt), tried
-        except ContactError:
-            tilt = 0.5 * (tilt + known)
-    return tilt, None, most
-
-
-def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
-    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes
-    too, dm/d(tilt) = -π/J0, dP/dm = G r J1.
-    """
-    r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
-    falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
-    if at_fixed_width:
-        k = replace(search, slope=search.slope.tilted(edges.tilt)).moments(edges.contact)
-        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
-        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
-    return falls
-
-
-def _reach(edges: Edges) -> float:
-    """The moment of the load at the farther edge: what rounding of M is relative to."""
-    return edges.normal_load * (edges.contact.r + abs(edges.contact.m))
-
-
-def _first_window(scene: Scene) -> tuple[float, float]:
-    """A little more than the contact where symmetry tells it; otherwise the domain where it is
-    finite, or some way around the break nearest to x = 0, as far as the load or half-width asks
-    for.
-
-    A contact of half-width w under slopes of the size H(w) carries about G w H(w).
-    """
-    profile = scene.profile
-    lo, hi = profile.domain
-    upright = scene.tilt == scene.epsilon == 0.0 and scene.moment is None
-    if scene.half_width is not None and profile.axis is not None and upright:
-        reach = FITTED * scene.half_width
-        return max(lo, profile.axis - reach), min(hi, profile.axis + reach)
-    if np.isfinite(lo) and np.isfinite(hi):
-        return lo, hi
-    centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)
-    sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
-    with np.errstate(invalid="ignore", over="ignore"):
-        H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
-        # A tilted profile touches first where its slope has risen to 0, on one side: both have to
-        # rise outwards
-        outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
-        enough = [np.flatnonzero(~(force < (scene.normal_load or 0.0))) for force in outwards]
-    reaches = [float(WINDOW_SIZES[k[0]]) for k in enough if k.size]
-    given = () if scene.half_width is None else (scene.half_width,)
-    size = max((*given, *reaches), default=1.0)
-    return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)
-
-
-def _grown(lo: float, hi: float, ends: tuple[float, float]) -> tuple[float, float]:
-    middle, half = 0.5 * (lo + hi), 0.5 * WINDOW_GROWTH * (hi - lo)
-    return max(middle - half, ends[0]), min(middle + half, ends[1])
+    return edges

@@ -56,11 +56,7 @@ class Smooth(NamedTuple):
 
 
 def smooth_contact(
-    slope: Slope,
-    load: float | None,
-    half_width: float | None,
-    axis: float | None,
-    tol: float,
+    slope: Slope, load: float | None, half_width: float | None, axis: float | None, tol: float
 ) -> Smooth | None:
     """The contact with r ∫H sin φ dφ = load, or of this half-width; None if it is not so smooth.
 

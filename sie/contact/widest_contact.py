@@ -119,4 +119,4 @@ def _carried(search: Search, r: float) -> float:
     found = search.of_half_width(r)
     if any(found.sharp):
         raise LoadError(f"a contact of half-width {r:.6g} ends at a corner")
-    return search.load(found.contact, found.moments or search.moments(found.contact))
+    return search.load(found.contact, found.integrals or search.integrals(found.contact))

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sie.contact.edge_integrals import Moments
+from sie.contact.edge_integrals import EdgeIntegrals
 from sie.contact.edges import Search
 from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval, two_sum
@@ -29,11 +29,11 @@ FARTHEST = 2.0  # of the logarithms of distances from those of known contacts
 
 
 class Contact(NamedTuple):
-    """The contact under a load, which of its edges are sharp, and the moments there."""
+    """The contact under a load, which of its edges are sharp, and the edge integrals there."""
 
     interval: Interval
     sharp: tuple[bool, bool]
-    moments: Moments
+    integrals: EdgeIntegrals
 
 
 class ContactGrowth:
@@ -65,7 +65,7 @@ class ContactGrowth:
             contact, sharp, k = (
                 search.symmetric(y) if search.axis is not None else search.general(y)
             )
-            found = Contact(contact, sharp, k or search.moments(contact))
+            found = Contact(contact, sharp, k or search.integrals(contact))
         self._learn(y, found)
         return found
 
@@ -105,7 +105,7 @@ class ContactGrowth:
             contact = (
                 Interval(2.0 * search.axis - b, b) if right else Interval(b, 2.0 * search.axis - b)
             )
-            return search.load(contact, search.moments(contact)) if d > 0.0 else 0.0
+            return search.load(contact, search.integrals(contact)) if d > 0.0 else 0.0
         contact = (
             Interval(near.x1, b, near.tail1, 0.0)
             if right
@@ -113,7 +113,7 @@ class ContactGrowth:
         )
         previous = math.inf
         for _ in range(STEPS * 4):
-            k = search.moments(contact)
+            k = search.integrals(contact)
             J = k.JL if right else k.JR
             if not J > 0.0:
                 return 0.0
@@ -137,7 +137,7 @@ class ContactGrowth:
             return None
         contact, target, previous = guess, y / self.search.half_modulus, NEAR
         for _ in range(STEPS):
-            k, r = self.search.moments(contact), contact.r
+            k, r = self.search.integrals(contact), contact.r
             if not (k.JL > 0.0 and k.JR > 0.0):
                 return None
             step1, step2 = (

@@ -135,8 +135,7 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
     if not (pieces.is_zero.all() and math.isfinite(ends[0]) and math.isfinite(ends[1])):
         raise ContactError(
             f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: "
-            "contact that grows under load "
-            "locks in strain; give a flat punch, or a finite friction"
+            "contact that grows under load locks in strain; give a flat punch, or a finite friction"
         )
     if scene.normal_load is None:
         raise ContactError(

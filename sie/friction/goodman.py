@@ -253,7 +253,7 @@ class GoodmanSlip(Slip):
     # -- tractions ---------------------------------------------------------------------------------
 
     @cached_property
-    def shear(self) -> GoodmanShear:  # type: ignore[override]
+    def shear(self) -> GoodmanShear:
         return GoodmanShear(self, self.step.Q)
 
     def normal_shear(self, x: Array) -> Array:

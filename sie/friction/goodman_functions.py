@@ -109,7 +109,7 @@ class GoodmanFlat:
         zone = self.modulus.swapped
         n = self._nodes
         s = 0.5 * (1.0 + chebyshev.points(n))
-        x, rest, w = gauss_jacobi(n, 0.0, 0.0)
+        _, rest, w = gauss_jacobi(n, 0.0, 0.0)
 
         def angle(part: Array, remaining: Array) -> Array:
             sn, _, dn = elliptic_functions(zone, part, remaining)

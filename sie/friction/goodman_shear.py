@@ -189,10 +189,7 @@ class GoodmanGrowth:
         else:
             r = self._crossing(y, part)
         first = r <= start * (1.0 + 4.0 * EPS)
-        if not first.any():
-            from_base = y
-        else:
-            from_base = self._centre(np.full(len(y), start)) - y
+        from_base = self._centre(np.full(len(y), start)) - y
         inside = first & (start > 0.0)
         if part == 1.0:
             edge = np.where(inside, np.maximum(from_base + start, 0.0), 0.0)

@@ -17,8 +17,7 @@ def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
         )
         raise LoadError(
             f"|Q| = {abs(Q):.{digits}g} exceeds f P = {_within(limit, digits, -1)}: the bodies "
-            "slide; "
-            "lower tangential_load to at most that, or raise normal_load to "
+            "slide; lower tangential_load to at most that, or raise normal_load to "
             f"{_within(abs(Q) / friction, digits, 1)} or friction",
             limit=limit,
         )

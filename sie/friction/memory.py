@@ -112,9 +112,8 @@ def _stepped(
     if abs(amplitude * unit[0] - Q) > PROPORTIONAL * max(abs(unit[0]), f * P * EPS):
         raise ContactError(
             f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest "
-            "bulk stress: the zones of slip of one "
-            "direction do not contain those of the other; keep Q and σ in proportion, or leave σ "
-            "out"
+            "bulk stress: the zones of slip of one direction do not contain those of the other; "
+            "keep Q and σ in proportion, or leave σ out"
         )
     if P == P0:
         return _sheared(loads, before.memory, amplitude)

@@ -35,7 +35,7 @@ import math
 
 import numpy as np
 
-from sie.contact.edge_integrals import moments
+from sie.contact.edge_integrals import edge_integrals
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.profiles.resolution import refined
@@ -159,7 +159,7 @@ def _two_signed(step: Step) -> TwoSignedSlip:
     slope = refined(
         step.slope, max(found.stick.x1 - beyond, lo), min(found.stick.x2 + beyond, hi), EPS
     )
-    I0 = moments(slope, found.stick).I0
+    I0 = edge_integrals(slope, found.stick).I0
     formal = PanelDensity(
         found.stick, G, 0.0, 0.0, math.nan, math.nan, Panels(Geometry(slope, found.stick), I0)
     )

@@ -257,11 +257,9 @@ class TwoSignedShear(Density):
         _, other, _ = self._side(right)
         stick = self.zones.stick
         r = stick.r
-        left, right_, from_stick = (
-            stick.from_left(z) / r,
-            -stick.from_right(z) / r,
-            other.from_stick / r,
-        )
+        left = stick.from_left(z) / r
+        right_ = -stick.from_right(z) / r
+        from_stick = other.from_stick / r
         weight = other.force / r / np.sqrt(from_stick * (from_stick + 2.0))
         # z - t for t at the distance `from_stick` from the stick zone's end
         base, step = (left, 1.0) if right else (right_, -1.0)

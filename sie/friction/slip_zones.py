@@ -101,10 +101,7 @@ def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
     width = 2.0 * contact.r
     seen = Interval(-width, 0.0) if side > 0.0 else Interval(0.0, width)
     return EdgeFrame(
-        density.moved(seen, -edge, -tail),
-        slope.shifted(-edge).shifted(-tail),
-        side,
-        (-edge, -tail),
+        density.moved(seen, -edge, -tail), slope.shifted(-edge).shifted(-tail), side, (-edge, -tail)
     )
 
 

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import moments
+from sie.contact.edge_integrals import edge_integrals
 from sie.contact.gap import gap
 from sie.contact.inequalities import verify_inequalities
 from sie.contact.pressure import Normal
@@ -485,7 +485,7 @@ def _guess(step: Step, sign: float) -> tuple[float, float]:
     """Lengths of short zones: dd/dQ = (1 ± π r τ/Q) / (f G r J), J of the left or right edge."""
     contact, G, f = step.pressure.contact, step.pressure.half_modulus, step.scene.friction
     slope = refined(step.slope, contact.x1, contact.x2, EPS)
-    k = moments(slope, contact)
+    k = edge_integrals(slope, contact)
     Q, strain = sign * step.Q, sign * math.pi * contact.r * step.tau
     tiny = EPS * abs(Q)
     return max(Q + strain, tiny) / (f * G * contact.r * k.JL), max(Q - strain, tiny) / (

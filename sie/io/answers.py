@@ -63,6 +63,5 @@ def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:
     if not solution.sheared:
         return ()
     x1, x2 = solution.edges
-    return tuple(
-        z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2
-    )  # not the zones that have left the contact
+    # Not the zones that have left the contact.
+    return tuple(z for z in solution.tangential.slipped if x1 <= z[0] and z[1] <= x2)

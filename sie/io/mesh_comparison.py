@@ -223,9 +223,9 @@ def _columns(table: Table, names: list[str]) -> dict[str, Array]:
     """The columns that can be compared, by name. ValueError unless there are x and a quantity."""
     known = [name for name in names if name in ("x", "y", *QUANTITIES)]
     if "x" not in known or not any(name in QUANTITIES for name in known):
-        words = ("x", *QUANTITIES, *NAMES)
+        words = [word for word in ("x", *QUANTITIES, *NAMES) if NAMES.get(word, word) not in known]
         near = next((name for name in table.header if nearest(name, words)), "")
-        hint = f' (is "{near}" one of them?)' if near else ""
+        hint = f' (is "{near}" meant as "{nearest(near, words)}"?)' if near else ""
         raise ValueError(
             f"{table.file} has the columns {', '.join(table.header)}{hint}: "
             f"name one x and one {' or '.join(QUANTITIES)}, on the first line"

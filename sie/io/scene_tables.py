@@ -152,3 +152,18 @@ def _readers_of(kind: str) -> Mapping[str, Reader]:
     """All keys of a kind of profile: of a trace also those of a file."""
     readers = entries_of(KINDS[kind]).readers
     return {**readers, **entries_of_file().readers} if KINDS[kind] is Sampled else readers
+
+
+class Naming:
+    """Puts the name of the table in front of the message that refuses one of its values."""
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+
+    def __enter__(self) -> None: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, problem: BaseException | None, trace: object
+    ) -> None:
+        if isinstance(problem, ValueError):
+            raise ValueError(f"{self.where} {problem}") from None

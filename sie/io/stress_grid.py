@@ -102,9 +102,8 @@ def _vti(grid: Grid, head: tuple[str, ...]) -> bytes:
     extent = f"0 {grid.nx - 1} 0 {grid.ny - 1} 0 0"
     spacing = " ".join(repr(float(v[1] - v[0])) for v in (grid.x, grid.y))
     order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
-    about = re.sub(
-        "-(?=-|$)", "- ", "; ".join(head)
-    )  # a comment has no two hyphens in a row, and none at its end
+    # A comment has no two hyphens in a row, and none at its end.
+    about = re.sub("-(?=-|$)", "- ", "; ".join(head))
     return f"""<?xml version="1.0"?>
 <!-- {about} -->
 <VTKFile type="ImageData" version="1.0" byte_order="{order}" header_type="UInt64">

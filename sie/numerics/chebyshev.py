@@ -156,9 +156,8 @@ def reach(c: Array, growth: float) -> Array:
 def _candidates(n: int, growth: float) -> tuple[Array, Array]:
     rho = np.geomspace(1.0, growth, 64)
     with np.errstate(over="ignore"):
-        powers = np.minimum(
-            rho[:, None] ** np.arange(n), 1e280
-        )  # finite, so that a zero coefficient stays zero
+        # Finite, so that a zero coefficient stays zero.
+        powers = np.minimum(rho[:, None] ** np.arange(n), 1e280)
     return rho, powers
 
 
@@ -171,17 +170,14 @@ def gauss_legendre(n: int) -> tuple[Array, Array]:
     """
     k = np.arange(1, n + 1, dtype=np.longdouble)
     x = -np.cos(np.pi * (k - 0.25) / (n + 0.5))
-    for _ in range(
-        5
-    ):  # quadratic convergence from four digits; the last pass evaluates the weights at the root
+    # Quadratic convergence from four digits; the last pass evaluates the weights at the root.
+    for _ in range(5):
         before, at = np.ones_like(x), x
         for j in range(2, n + 1):
             before, at = at, ((2 * j - 1) * x * at - (j - 1) * before) / j
         x = x - at * (1 - x * x) / (n * (before - x * at))
-    g, w = (
-        np.asarray(0.5 * (1 + x), dtype=float),
-        np.asarray((1 - x * x) / (n * before) ** 2, dtype=float),
-    )
+    g = np.asarray(0.5 * (1 + x), dtype=float)
+    w = np.asarray((1 - x * x) / (n * before) ** 2, dtype=float)
     g.flags.writeable = w.flags.writeable = False
     return g, w
 
@@ -195,9 +191,8 @@ def differentiation(n: int) -> tuple[Array, Array]:
     Barycentric (Berrut & Trefethen 2004), exact for polynomials of degree n - 1.
     """
     g, w = gauss_legendre(n)
-    weights = (-1.0) ** np.arange(n) * np.sqrt(
-        g * (1.0 - g) * w
-    )  # barycentric weights of Gauss-Legendre nodes
+    # Barycentric weights of Gauss-Legendre nodes.
+    weights = (-1.0) ** np.arange(n) * np.sqrt(g * (1.0 - g) * w)
     gaps = g[:, None] - g[None, :]
     np.fill_diagonal(gaps, 1.0)
     d = weights[None, :] / weights[:, None] / gaps

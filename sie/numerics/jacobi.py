@@ -17,7 +17,6 @@ Problems (1973); Gautschi (1981) for the continued fraction; Mason & Handscomb (
 
 from __future__ import annotations
 
-import cmath
 import math
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -26,137 +25,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .interval import EPS
+from .jacobi_weight import Exponent, Weight, sin_pi
 
 Array = NDArray[Any]
-Exponent = float | complex
 
 # A series is continued off its interval while it grows by less than this factor; from there the
 # continued fraction takes over.
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
-FAINT = 0.25  # exponents below it: cosec(πα) > √2, and its factor has to cancel by formula
-PHASE = 4.0 * EPS  # an imaginary part of a/b below it is rounding of constants of one phase
 # Of the continued fraction: it is asked only where a series of that many terms would grow
 MOST_STEPS = 20_000
-
-
-class Weight(NamedTuple):
-    """(1 - s)^alpha (1 + s)^beta with alpha + beta = -kappa."""
-
-    alpha: Exponent
-    beta: Exponent
-    kappa: int  # the index
-    # For κ = 0: the rounding error of α, less that of β; next to ±1 it alone gives the distance
-    tail: Exponent = 0.0
-
-    @property
-    def inverse(self) -> Weight:
-        return Weight(-self.alpha, -self.beta, -self.kappa, -self.tail)
-
-    @property
-    def is_real(self) -> bool:
-        return not isinstance(self.alpha, complex)
-
-    @property
-    def is_chebyshev(self) -> bool:
-        """Whether it is one of the four Chebyshev weights."""
-        return {self.alpha, self.beta} <= {-0.5, 0.5}
-
-    @property
-    def kind(self) -> Any:
-        """The NumPy type of its polynomials' coefficients."""
-        return np.float64 if self.is_real else np.complex128
-
-    @property
-    def real(self) -> Weight:
-        """Its modulus on the real axis."""
-        return Weight(
-            float(self.alpha.real), float(self.beta.real), self.kappa, float(self.tail.real)
-        )
-
-    @property
-    def is_faint(self) -> bool:
-        """Whether the weight is close to 1, as for |a| >> |b|.
-
-        cosec(πα) is then so large that the terms with this factor cancel.
-        """
-        return self.kappa == 0 and abs(self.alpha) < FAINT
-
-    @property
-    def sine(self) -> Exponent:
-        """sin πα, from the smaller exponent: next to ±1 the other has lost its digits."""
-        if abs(self.beta) < abs(self.alpha):
-            return _sin_pi(self.beta)
-        return _sin_pi(self.alpha, self.tail)
-
-    @property
-    def cotangent(self) -> Exponent:
-        """cot πα."""
-        return _sin_pi(self.alpha + 0.5) / self.sine
-
-    @property
-    def total(self) -> Exponent:
-        """∫ w ds, by the reflection formula of Γ."""
-        if self.kappa == 1:
-            return -math.pi / self.sine
-        if self.alpha == 0.0:  # the modulus of a weight with imaginary exponents
-            return 2.0
-        return (2.0 if self.kappa == 0 else 2.0 * self.beta) * (math.pi * self.alpha / self.sine)
-
-    def __call__(self, right: Array, left: Array) -> Array:
-        """w from the distances 1 - s and 1 + s."""
-        if self.alpha == self.beta == 0.5:
-            half: Array = np.sqrt(right) * np.sqrt(left)
-            return half
-        values: Array = right**self.alpha * left**self.beta
-        return values
-
-
-def _sin_pi(a: Exponent, tail: Exponent = 0.0) -> Exponent:
-    nearest = round(a.real)
-    near, sign = (a - nearest) + tail, 1.0 if nearest % 2 == 0 else -1.0
-    return sign * (
-        cmath.sin(math.pi * near) if isinstance(near, complex) else math.sin(math.pi * near)
-    )
-
-
-def weight_of(a: complex, b: complex, bounded: tuple[bool, bool]) -> Weight | None:
-    """The weight of a φ + b/π PV∫ φ/(t - x) dt on one interval; None if there is none.
-
-    The density is bounded or singular at (left, right).
-
-    α = θ + N, β = -θ + M with θ = ln((a - ib)/(a + ib)) / 2πi = -atan(b/a)/π and integers N, M that
-    make Re α, Re β positive (bounded) or negative. Of a and b only the ratio counts.
-    """
-    ratio: Exponent = a / b
-    if abs(ratio.imag) <= PHASE * abs(ratio):
-        ratio = (
-            ratio.real
-        )  # a and b of one phase; equal weights must be of equal type, as keys of caches
-    theta = (
-        -_arctangent(1.0 / ratio) / math.pi
-        if abs(ratio) > 1.0
-        else _arctangent(ratio) / math.pi - 0.5
-    )
-    alpha, beta = _end(theta, bounded[1]), _end(-theta, bounded[0])
-    if alpha is None or beta is None:
-        return None
-    kappa = -round((alpha + beta).real)
-    return Weight(
-        alpha, beta, kappa, 0.0 if kappa else theta - (alpha - round((alpha - theta).real))
-    )
-
-
-def _arctangent(ratio: Exponent) -> Exponent:
-    return cmath.atan(ratio) if isinstance(ratio, complex) else math.atan(ratio)
-
-
-def _end(theta: Exponent, bounded: bool) -> Exponent | None:
-    """theta + N in [0, 1) if bounded, in (-1, 0) if not."""
-    if bounded:
-        return theta - math.floor(theta.real)
-    return theta - math.ceil(theta.real) if theta.real != math.ceil(theta.real) else None
 
 
 class Recurrence(NamedTuple):
@@ -185,18 +64,15 @@ def _extended_recurrence(weight: Weight, n: int) -> Recurrence:
         beta = total - alpha
     else:
         alpha = total - beta
-    a, square, k = (
-        np.empty(n + 1, dtype=kind),
-        np.zeros(n + 1, dtype=kind),
-        np.arange(1, n + 1, dtype=np.longdouble),
-    )  # k^4 is no int64
+    a = np.empty(n + 1, dtype=kind)
+    square = np.zeros(n + 1, dtype=kind)
+    k = np.arange(1, n + 1, dtype=np.longdouble)  # k^4 is no int64
     tail = kind(weight.tail)
     a[0] = (beta - alpha) / (total + 2) - tail
     a[1:] = (beta - alpha) * total / ((2 * k + total) * (2 * k + total + 2))
     if n:
-        ends = (
-            alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
-        )  # the same, but that 1 + β cancels next to -1
+        # The same, but that 1 + β cancels next to -1.
+        ends = alpha * beta if weight.kappa == 1 else (1 + alpha + tail) * (1 + beta - tail)
         square[1] = 4 * ends / ((2 + total) ** 2 * (3 + total))
         k = k[1:]
         square[2:] = (
@@ -330,10 +206,8 @@ def _chebyshev(weight: Weight, n: int) -> tuple[Array, Array]:
     """
     a, b = weight.alpha.real, weight.beta.real
     step = 4.0 * np.arctan(np.longdouble(1.0)) / (n + 0.5 * (a + b + 1.0))
-    from_left, from_middle = (
-        step * (np.arange(n) + (0.75 + 0.5 * b)),
-        step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a)),
-    )
+    from_left = step * (np.arange(n) + (0.75 + 0.5 * b))
+    from_middle = step * (np.arange(n) - 0.5 * (n - 1) + 0.25 * (b - a))
     ends = (2.0 * np.sin(0.5 * from_left) ** 2) ** (b + 0.5) * (
         2.0 * np.cos(0.5 * from_left) ** 2
     ) ** (a + 0.5)
@@ -370,10 +244,8 @@ def analysis(weight: Weight, n: int) -> tuple[Array, Array]:
     A = (w[:, None] * polynomials(weight.real, n, s).T).astype(float)
     if not weight.is_real:
         at, w = _extended_gauss(weight, n)
-        real, own = (
-            (w * polynomials(weight.real, n, at)).astype(complex),
-            polynomials(weight, n, at).astype(complex),
-        )
+        real = (w * polynomials(weight.real, n, at)).astype(complex)
+        own = polynomials(weight, n, at).astype(complex)
         A = A @ (real @ own.T)
     nodes = s.astype(float)
     nodes.flags.writeable = False
@@ -395,7 +267,7 @@ def faint_principal(weight: Weight, c: Array, right: Array, left: Array) -> Arra
 
     The points are given by their distances from both ends.
     """
-    power, half = weight.alpha * np.log(right / left), _sin_pi(0.5 * weight.alpha)
+    power, half = weight.alpha * np.log(right / left), sin_pi(0.5 * weight.alpha)
     return _faint(
         weight, c, 0.5 * (left - right), 2.0 * half * half * np.exp(power) - np.expm1(power)
     )

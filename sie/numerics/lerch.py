@@ -27,11 +27,9 @@ Array = NDArray[Any]
 
 SWITCH = 1.2
 POWERS = 32  # e^(-32 SWITCH) is rounding
-TERMS_REAL, TERMS_COMPLEX, TERMS_EULER = (
-    24,
-    62,
-    40,
-)  # (SWITCH/2π)^n, (|SWITCH + iπ|/2π)^n, (SWITCH/π)^n are rounding
+TERMS_REAL = 24  # (SWITCH/2π)^n is rounding
+TERMS_COMPLEX = 62  # (|SWITCH + iπ|/2π)^n is rounding
+TERMS_EULER = 40  # (SWITCH/π)^n is rounding
 
 
 @lru_cache(maxsize=64)

@@ -158,9 +158,8 @@ def logarithmic_root(
     derivative shows; if the target exceeds that value, `error(u, f)` is raised with the best that
     was found.
     """
-    low, high = 0.0, limit
+    low, high, steps = 0.0, limit, [np.inf, np.inf]
     u, best, best_u = guess, 0.0, guess
-    steps = [np.inf, np.inf]
     for _ in range(MAX_STEPS):
         f, slope = function(u)
         if f > best or f >= target:  # the last that is enough, or else the largest
@@ -181,8 +180,7 @@ def logarithmic_root(
         open_ended = low == 0.0 or not math.isfinite(high)
         new = u * math.exp(min(max(step, -MAX_LOG_STEP), MAX_LOG_STEP))
         if rising and far and open_ended:
-            # steep where the contact is small, flat where it is large: without a bracket Newton is
-            # slow
+            # Newton is slow without a bracket: f is steep at a small u, and flat at a large one
             new = max(new, u * OPEN_STEP) if f < target else min(new, u / OPEN_STEP)
         if not low < new < high or (not open_ended and abs(math.log(new / u)) > 0.5 * steps[-2]):
             new = _between(low, high, u)  # Newton diverges, or oscillates across a kink
@@ -220,18 +218,25 @@ class Bracket:
         else:
             self.high, self.cuts = min(self.high, at), (self.cuts[0], True)
 
-    def place(self, wanted: Place, slow: bool) -> Place:
+    def place(self, wanted: Place, slow: bool, here: Place | None = None) -> Place:
         """The place itself, or the middle of the bracket.
 
         It is the middle if the place is out of bounds, or if the steps are slow and both bounds
-        known.
+        known. Where one bound is infinite, it is the middle between the other one and `here`.
         """
-        if self.low < wanted < self.high and not (slow and all(self.cuts)):
+        low, high = self.low, self.high
+        inside = low < wanted < high
+        if inside and not (slow and all(self.cuts)):
             return wanted
-        return self.middle() if math.isfinite(self.low[0] + self.high[0]) else wanted
+        if math.isfinite(low[0] + high[0]):
+            return self.middle()
+        if here is None or inside:
+            return wanted
+        return _middle(low, here) if wanted <= low else _middle(here, high)
 
     def middle(self) -> Place:
-        return two_sum(
-            self.low[0],
-            0.5 * ((self.high[0] - self.low[0]) + (self.high[1] - self.low[1])) + self.low[1],
-        )
+        return _middle(self.low, self.high)
+
+
+def _middle(low: Place, high: Place) -> Place:
+    return two_sum(low[0], 0.5 * ((high[0] - low[0]) + (high[1] - low[1])) + low[1])

@@ -5,7 +5,7 @@ by samples.
     beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
 
 A panel whose bound says nothing is halved. Where the conditions of the edges hold as well this is
-the answer: the problem is convex.
+the answer: the problem is convex. The gap at given points comes from the same series.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .chord import Points
-from .newton import gap_values
-from .operator import Operator, Targets
-from .panels import GapPanels, distance_of, gap_panels
+from .intensity import intensities
+from .newton import State, gap_values
+from .operator import Operator
+from .panels import FARTHEST, GapPanels, distance_of, gap_panels
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -68,6 +68,17 @@ class Findings:
     @property
     def ok(self) -> bool:
         return not self.tension and not self.overlap
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A certified answer."""
+
+    state: State
+    operator: Operator
+    findings: Findings
+    rounds: int
+    steps: int
 
 
 def findings(o: Operator) -> Findings:
@@ -157,51 +168,6 @@ def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
             found.append(Tension(patch, lo, hi))
             until = stop
     return found
-
-
-def intensities(o: Operator, panel: Index, angle: Array) -> tuple[Array, Array]:
-    """D at angles (m, n) on panels (m,), and where that is."""
-    k, P = o.panels, o.patches
-    patch, right = k.patch[panel], k.right[panel]
-    inward = 2.0 * P.r[patch, None] * np.sin(0.5 * angle) ** 2
-    anchor = np.broadcast_to(np.where(right, P.b[patch], P.a[patch])[:, None], inward.shape)
-    x = Points(anchor, np.where(right[:, None], -inward, inward))
-    piece = np.broadcast_to(k.piece[panel, None], inward.shape)
-    return on_patches(o, np.broadcast_to(patch[:, None], inward.shape), x, piece), x.x
-
-
-def on_patches(o: Operator, patch: Index, x: Points, piece: Index) -> Array:
-    """D_k at points x on patches k, on these pieces of H; any shape."""
-    P = o.patches
-    shape = x.offset.shape
-    owner, anchor, offset = patch.ravel(), x.anchor.ravel(), x.offset.ravel()
-    D = np.empty(owner.shape)
-    flat = Points(anchor, offset)
-    which = piece.ravel()
-    reference = o.pieces.value(which, anchor, offset)
-    S = o.others(owner, flat)
-    order = np.argsort(owner, kind="stable")
-    starts = np.flatnonzero(np.diff(owner[order], prepend=-1))
-    for some in np.split(order, starts[1:]):
-        i = int(owner[some[0]])
-        group = o.group(i, float(P.a[i]), float(P.b[i]))
-        for part in _clusters(flat.x[some], some, P.r[i]):
-            close = (
-                o.group(i, float(flat.x[part].min()), float(flat.x[part].max()))
-                if len(part) < len(some)
-                else group
-            )
-            targets = Targets(flat[part], reference[part], which[part], S[part], owner[part])
-            D[part] = close.D(targets)
-    return D.reshape(shape)
-
-
-def _clusters(x: Array, index: Index, r: float) -> list[Index]:
-    """Targets in runs of neighbours, so that cells far from a run act through charges."""
-    if len(index) <= 256:
-        return [index]
-    order = index[np.argsort(x, kind="stable")]
-    return np.array_split(order, max(len(order) // 128, 1))
 
 
 # -- beside the patches ----------------------------------------------------------------------------
@@ -375,3 +341,43 @@ def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray
     middle = edge[panel] + sign[panel] * distance_of(0.5 * (lo + hi), panels.width[panel])[0]
     solid = ~pieces.void[pieces.locate(middle)]
     return panel[solid], lo[solid], hi[solid], (lo == 0.0)[solid]
+
+
+def gap(o: Operator, x: Array) -> Array:
+    """The gap at x (1-d): 0 in contact, inf where there is no indenter."""
+    P, pieces = o.patches, o.pieces
+    out = np.where(np.isnan(x), np.nan, np.inf)
+    finite = np.flatnonzero(np.isfinite(x))
+    at = x[finite]
+    if P.chord.periodic:
+        at = at - P.chord.period * np.floor((at - P.a[0]) / P.chord.period)
+    left = np.searchsorted(P.a, at, side="right") - 1  # -1 left of all
+    inside = (left >= 0) & (at <= P.b[np.maximum(left, 0)])
+    out[finite[inside]] = 0.0
+    lo, hi = pieces.domain
+    piece = pieces.locate(at)
+    walled = pieces.void[piece] & (at > pieces.ends[piece])
+    beside = np.flatnonzero(~inside & ~walled & (at >= lo) & (at <= hi))
+    if not beside.size:
+        return out
+    hull = P.b[-1] - P.a[0]
+    farthest = np.abs(at[beside] - 0.5 * (P.a[0] + P.b[-1])).max() / hull
+    panels = gap_panels(P, pieces, outside=True, farthest=max(FARTHEST, 1.1 * farthest))
+    side = sides(o, panels)
+    k = left[beside]
+    start = np.where(k >= 0, P.b[np.maximum(k, 0)], -np.inf)
+    following = np.append(P.a[1:], P.a[0] + P.chord.period if P.chord.periodic else np.inf)
+    stop = np.where(k >= 0, following[np.maximum(k, 0)], P.a[0])
+    right = stop - at[beside] < at[beside] - start
+    distance = np.where(right, stop - at[beside], at[beside] - start)
+    # panels come in the order of gaps, left side first, and of the parameter
+    key = 2 * panels.gap + panels.right
+    first = np.searchsorted(key, 2 * k + right)
+    last = np.searchsorted(key, 2 * k + right, side="right") - 1
+    t = panels.parameter(first, distance)
+    panel = first.copy()
+    for _ in range(int((last - first).max(initial=0))):
+        panel = np.where((panel < last) & (t > panels.hi[panel]), panel + 1, panel)
+    value, _, _ = opening(o, side, panel, t[:, None])
+    out[finite[beside]] = np.maximum(value[:, 0], 0.0)
+    return out

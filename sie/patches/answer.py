@@ -16,12 +16,13 @@ from sie.profiles.base import Derived, Profile
 from sie.profiles.row import Row
 from sie.profiles.slope import Slope
 
-from .certificate import PatchCertificate, certificate
+from .admissible import Found, gap
+from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
-from .of_scene import problem_of
-from .opening import gap
-from .solver import Found, Problem, contact
+from .of_scene import Problem, problem_of
+from .result import PatchCertificate
+from .solver import contact
 
 Array = NDArray[np.float64]
 

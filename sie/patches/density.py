@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
-from .admissible import intensities, on_patches
 from .chord import Points
+from .intensity import intensities, on_patches
 from .operator import Operator, Targets
 
 Array = NDArray[np.float64]

@@ -24,10 +24,10 @@ from sie.numerics.interval import Interval
 from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
 
 from .admissible import DEEPEST, NODES, TENSION, lower_bound
-from .certificate import GRADING, LEAST, PatchCertificate
 from .density import AROUND, NARROW
 from .operator import NEAR
 from .pieces import Pieces
+from .result import GRADING, LEAST, PatchCertificate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -2,14 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from sie.problem.scene import Scene
 
 from .chord import Chord
 from .newton import Given
-from .pieces import of_profile
-from .solver import Problem
+from .pieces import Pieces
+from .profile_pieces import of_profile
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """The given profile and loads, in units of E*/2.
+
+    pieces     window -> the slope, without tilt
+    slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
+    domain     where the indenter is known; corners: whether its ends are the indenter's own
+    given      load, tilt or moment
+    """
+
+    pieces: Callable[[tuple[float, float]], Pieces]
+    slope: Callable[[Array], Array]
+    height: Callable[[Array], Array]
+    by_slope: bool
+    domain: tuple[float, float]
+    corners: tuple[bool, bool]
+    breaks: Array
+    chord: Chord
+    given: Given
+
+    def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
+        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once
+        for all heights.
+        """
+        if not self.by_slope:
+            return lambda x: self.height(x) + tilt * x
+        pieces = self.pieces(window)
+        return lambda x: pieces.rises(np.full(x.shape, window[0]), x) + tilt * x
 
 
 def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:

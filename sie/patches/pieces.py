@@ -13,7 +13,7 @@ are pieces without indenter (`void`): H is 0 there, h infinite, and only the ris
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -21,24 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.profiles.base import Profile
-from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 GROWTH = 8.0  # a piece is continued beyond its ends while its polynomial grows by no more
-COPIES = (
-    -1.0,
-    0.0,
-    1.0,
-    2.0,
-)  # periods: patches are found from one cut to the next, wherever that is
 EASY = 1.5  # lengths: how far a polynomial of degree 3 or less is continued
 WAVES = 6.0  # of these lengths a panel may take in
 CORNER = 1e-9  # of H: a jump down that is no rounding
-ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,93 +199,6 @@ class Pieces:
     def curvature(self, k: Any, x: Any) -> Any:
         """H' of the pieces k at x."""
         return self.divided(k, (x, 0.0), (x, 0.0))
-
-
-def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pieces:
-    """The slope of a profile with its walls, functions resolved on the window; several copies of a
-    periodic one.
-    """
-    slope = profile.pieces
-    pieces = _with_walls(from_slope(slope, window, tol), profile.walls, profile)
-    if profile.period == np.inf:
-        return pieces
-    parts = []
-    for turn in COPIES:
-        shift = turn * profile.period
-        parts.append(replace(pieces, ends=pieces.ends + shift, origin=pieces.origin + shift))
-    return Pieces(
-        np.concatenate([parts[0].ends[:1], *(p.ends[1:] for p in parts)]),
-        *(
-            np.concatenate([getattr(p, name) for p in parts])
-            for name in ("origin", "power", "series", "void", "across")
-        ),
-    )
-
-
-def _with_walls(pieces: Pieces, walls: tuple[tuple[float, float], ...], profile: Profile) -> Pieces:
-    for lo, hi in walls:
-        if hi > pieces.ends[-1]:  # the rest of a period
-            pieces = _inserted(pieces, len(pieces.origin), hi)
-            first, last = len(pieces.origin) - 1, 0
-        elif lo == hi:
-            k = int(np.searchsorted(pieces.ends, lo))
-            at_end = k == len(pieces.ends) - 1
-            pieces = _inserted(pieces, k, lo)
-            first, last = k, 0 if at_end else k + 1
-        else:
-            first = int(np.searchsorted(pieces.ends, lo, "right")) - 1
-            last = int(np.searchsorted(pieces.ends, hi))
-            if first == last:
-                continue
-            pieces.void[first:last] = True
-        pieces.across[first] = _height_after(pieces, last, profile) - _height_before(
-            pieces, first, profile
-        )
-    return pieces
-
-
-def _inserted(pieces: Pieces, k: int, end: float) -> Pieces:
-    """A void piece before piece k, up to `end`."""
-    return Pieces(
-        np.insert(pieces.ends, k + 1, end) if k < len(pieces.ends) else np.append(pieces.ends, end),
-        np.insert(pieces.origin, k, end),
-        np.insert(pieces.power, k, 0.0, axis=0),
-        np.insert(pieces.series, k, 0.0, axis=0),
-        np.insert(pieces.void, k, True),
-        np.insert(pieces.across, k, 0.0),
-    )
-
-
-def _height_after(pieces: Pieces, k: int, profile: Profile) -> float:
-    """h at the lower end of piece k, from inside."""
-    x = float(pieces.ends[k])
-    inner = x + min(float(pieces._half[k]), 1.0)
-    return float(profile.height(inner)) - float(pieces.rise(k, (x, 0.0), (inner, 0.0)))
-
-
-def _height_before(pieces: Pieces, k: int, profile: Profile) -> float:
-    """h at the upper end of the piece before k, from inside."""
-    x = float(pieces.ends[k])
-    inner = x - min(float(pieces._half[k - 1]), 1.0)
-    return float(profile.height(inner)) + float(pieces.rise(k - 1, (inner, 0.0), (x, 0.0)))
-
-
-def from_slope(slope: Slope, window: tuple[float, float], tol: float) -> Pieces:
-    """The pieces of a slope; its functions are resolved on the window."""
-    resolved = refined(slope, *window, tol)
-    K = len(resolved.origins)
-    series = np.zeros((K, 0))
-    if resolved.functions:
-        lo, length = resolved.breaks[:-1], np.diff(resolved.breaks)
-        n = int(resolved.degrees.max()) + 1
-        u = 0.5 * length[:, None] * (1.0 + chebyshev.points(n))
-        only = replace(resolved, coefficients=np.zeros((K, 1)))
-        series = chebyshev.transform(only.local(np.arange(K), lo, np.zeros(K), u))
-        series[np.abs(series) < ROUNDING * np.abs(series).max()] = 0.0
-    none = np.zeros(K, dtype=bool)
-    return Pieces(
-        resolved.breaks, resolved.origins, resolved.coefficients, series, none, np.zeros(K)
-    )
 
 
 def _clenshaw(c: Array, k: Any, s: Any) -> Any:

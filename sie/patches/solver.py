@@ -7,8 +7,7 @@ where a whole gap overlaps, and Newton's method starts again. Nothing is returne
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,10 +16,10 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Findings, Overlap, findings
+from .admissible import Findings, Found, Overlap, findings, gap
 from .chord import Chord
-from .newton import Event, Given, State
-from .opening import gap
+from .newton import Event, State
+from .of_scene import Problem
 from .operator import Operator
 from .panels import Patches
 from .pieces import Pieces
@@ -41,47 +40,6 @@ FAR, LOOKED_AT = (
 )  # windows beyond a window, and places there, at which the bodies must not overlap
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
-
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """The given profile and loads, in units of E*/2.
-
-    pieces     window -> the slope, without tilt
-    slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
-    domain     where the indenter is known; corners: whether its ends are the indenter's own
-    given      load, tilt or moment
-    """
-
-    pieces: Callable[[tuple[float, float]], Pieces]
-    slope: Callable[[Array], Array]
-    height: Callable[[Array], Array]
-    by_slope: bool
-    domain: tuple[float, float]
-    corners: tuple[bool, bool]
-    breaks: Array
-    chord: Chord
-    given: Given
-
-    def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
-        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once
-        for all heights.
-        """
-        if not self.by_slope:
-            return lambda x: self.height(x) + tilt * x
-        pieces = self.pieces(window)
-        return lambda x: pieces.rises(np.full(x.shape, window[0]), x) + tilt * x
-
-
-@dataclass(frozen=True, eq=False)
-class Found:
-    """A certified answer."""
-
-    state: State
-    operator: Operator
-    findings: Findings
-    rounds: int
-    steps: int
 
 
 def contact(problem: Problem) -> Found:

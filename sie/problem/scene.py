@@ -99,40 +99,43 @@ class Scene:
                 f"profile = {self.profile!r} is not a profile: give sie.Parabola(...), "
                 "sie.RoundedFlat(...) or another"
             )
-        self._check_bodies()
-        self._check_loads()
-
-    def _check_bodies(self) -> None:
         if (self.body is None) == (self.modulus is None):
             what = "neither" if self.body is None else "both"
             raise ValueError(
                 f"{what} of body and modulus given: give body = sie.Elastic(young, poisson), or "
                 "modulus = E*"
             )
-        if self.body is not None:
-            if self.poisson is not None:
-                raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
-            if self.dundurs is not None:
-                self._set("dundurs", arguments.finite("dundurs", self.dundurs))
-                if self.dundurs != 0.0:
-                    raise ValueError(
-                        f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, "
-                        "or give 0 to neglect β"
-                    )
-            if self.indenter is None:
-                self._set("indenter", self.body)
-            for name in ("body", "indenter"):
-                if not isinstance(getattr(self, name), (Elastic, Rigid)):
-                    raise ValueError(
-                        f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, "
-                        "poisson) or sie.RIGID"
-                    )
-            if self.body == RIGID == self.indenter:
+        if self.body is None:
+            self._check_modulus()
+        else:
+            self._check_bodies()
+        self._check_loads()
+
+    def _check_bodies(self) -> None:
+        if self.poisson is not None:
+            raise ValueError(f"poisson = {self.poisson!r} follows from the body: leave it out")
+        if self.dundurs is not None:
+            self._set("dundurs", arguments.finite("dundurs", self.dundurs))
+            if self.dundurs != 0.0:
                 raise ValueError(
-                    "body and indenter are both rigid: nothing can deform; give one of them young "
-                    "and poisson, sie.Elastic(young, poisson)"
+                    f"dundurs = {self.dundurs!r} follows from body and indenter: leave it out, "
+                    "or give 0 to neglect β"
                 )
-            return
+        if self.indenter is None:
+            self._set("indenter", self.body)
+        for name in ("body", "indenter"):
+            if not isinstance(getattr(self, name), (Elastic, Rigid)):
+                raise ValueError(
+                    f"{name} = {getattr(self, name)!r} is not a body: give sie.Elastic(young, "
+                    "poisson) or sie.RIGID"
+                )
+        if self.body == RIGID == self.indenter:
+            raise ValueError(
+                "body and indenter are both rigid: nothing can deform; give one of them young "
+                "and poisson, sie.Elastic(young, poisson)"
+            )
+
+    def _check_modulus(self) -> None:
         if self.indenter is not None:
             raise ValueError(
                 "indenter without body: with modulus = E* the indenter's constants are in E* "

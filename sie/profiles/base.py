@@ -136,7 +136,7 @@ class Profile(ABC):
         Parameters
         ----------
         x : array_like
-            Positions on the surface, lengths.
+            As of `height`.
 
         Returns
         -------
@@ -147,7 +147,7 @@ class Profile(ABC):
         Raises
         ------
         ValueError
-            If x is not made of real numbers.
+            As of `height`.
 
         Examples
         --------
@@ -193,6 +193,7 @@ class Profile(ABC):
         Returns
         -------
         Profile
+            The same indenter, tilted.
 
         Raises
         ------

@@ -71,9 +71,8 @@ _KEYWORD = re.compile(
 )
 LONGEST = 10_000  # characters; a program that writes a longer formula can pass a function
 DEEPEST = 500  # levels of the syntax tree: Python's own limit depends on where it is called from
-LONGEST_NUMBER = re.compile(
-    r"\d{401}"
-)  # no double needs more digits, and Python's own message would not name the formula
+# No double needs more digits, and Python's own message would not name the formula.
+LONGEST_NUMBER = re.compile(r"\d{401}")
 
 _SIMPLER = "use fewer terms and brackets, or give a Python function"
 
@@ -187,9 +186,8 @@ class Expression:
 
     def __call__(self, x: Array) -> Array:
         stack: list[Any] = []
-        with np.errstate(
-            all="ignore"
-        ):  # the caller refuses values that are not finite, and names the place
+        # The caller refuses values that are not finite, and names the place.
+        with np.errstate(all="ignore"):
             for operands, function in self._program:
                 first = len(stack) - operands
                 stack[first:] = [x if function is None else function(*stack[first:])]

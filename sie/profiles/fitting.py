@@ -162,7 +162,7 @@ def line(x: Array, h: Array) -> tuple[float, float]:
 
 
 def reason_at_an_end(x: Array, h: Array) -> str:
-    """Why a contact with the trace may reach its end, and what helps; "" if there is no reason."""
+    """A reason why contact may reach the end of the trace, and a remedy; "" if none is found."""
     offset, slope = line(x, h)
     left = h - (offset + slope * x)
     if np.abs(left).max() <= STRAIGHT * np.abs(h).max():

@@ -65,10 +65,7 @@ class Tolerance(NamedTuple):
 
 
 def resolved(
-    function: Callable[[Array], Array],
-    breaks: Array,
-    tol: float,
-    cuts: Array | None = None,
+    function: Callable[[Array], Array], breaks: Array, tol: float, cuts: Array | None = None
 ) -> tuple[Array, NDArray[np.int64]]:
     """A refinement of `breaks`, and the Chebyshev degree that resolves each piece.
 
@@ -95,13 +92,7 @@ def resolved(
             if not len(open_):
                 break
         if len(done) + 2 * len(open_) > MAX_PIECES:
-            middle = float(0.5 * open_[0].sum())
-            raise ResolutionError(
-                "the slope does not settle: "
-                f"{MAX_PIECES} pieces were not enough, near x = {middle:.6g} it still changes; "
-                "declare its breaks, narrow the domain, or smooth the noise",
-                x=middle,
-            )
+            raise _unsettled(float(0.5 * open_[0].sum()))
         level += 1
         graded_towards = tolerance.breaks if level > PATIENCE else breaks[:0]
         if level > DEEP:  # only next to x = 0 are doubles so close
@@ -113,6 +104,14 @@ def resolved(
     done.sort()
     return np.array([p[0] for p in done] + [done[-1][1]]), np.array(
         [p[2] for p in done], dtype=np.int64
+    )
+
+
+def _unsettled(x: float) -> ResolutionError:
+    return ResolutionError(
+        f"the slope does not settle: {MAX_PIECES} pieces were not enough, near x = {x:.6g} it "
+        "still changes; declare its breaks, narrow the domain, or smooth the noise",
+        x=x,
     )
 
 

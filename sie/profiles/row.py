@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,14 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 
 from .base import Profile, joined, of_any_x
-from .slope import FunctionTerm, Slope, recentred
+from .lowest_profile import finite_ends, lowest_of
+from .slope import FunctionTerm, Slope
 
 Array = NDArray[np.float64]
 INF = float("inf")
 
-SAMPLES = 33  # points between two breaks at which the heights of functions are compared
-FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
-BISECTIONS = 200
+POINTS = 38  # of a period at which its heights are compared
 WHOLE = 1e-12  # of a period: by so much a profile may be longer, by rounding
 LEVEL = 1e-9  # of the heights: by so much the ends of a period may differ, by rounding
 
@@ -82,7 +80,7 @@ class Row(Profile):
     def lowest(self) -> tuple[tuple[float, float, int], ...]:
         """(lo, hi, which profile is the lowest there), ascending; -1 where there is none."""
         runs: list[tuple[float, float, int]] = []
-        for lo, hi, k in _compared(self.profiles):
+        for lo, hi, k in lowest_of(self.profiles):
             if runs and runs[-1][2] == k:
                 runs[-1] = runs[-1][0], hi, k
             else:
@@ -96,7 +94,7 @@ class Row(Profile):
             if (
                 one >= 0
                 and other >= 0
-                and x in (*_ends(self.profiles[one]), *_ends(self.profiles[other]))
+                and x in (*finite_ends(self.profiles[one]), *finite_ends(self.profiles[other]))
             ):
                 found.append((x, x))
         for lo, hi, k in self.lowest:
@@ -116,7 +114,7 @@ class Row(Profile):
                 flat = Slope(np.array([lo, hi]), np.array([lo]), np.zeros((1, 1)), np.zeros(1, int))
                 parts.append(flat)
             else:
-                parts.append(_cut(self.profiles[k].pieces, lo, hi))
+                parts.append(self.profiles[k].pieces.within(lo, hi))
         width = max(part.coefficients.shape[1] for part in parts)
         c = [np.pad(s.coefficients, ((0, 0), (0, width - s.coefficients.shape[1]))) for s in parts]
         return Slope(
@@ -235,8 +233,8 @@ class Periodic(Profile):
 
     @cached_property
     def repeated(self) -> Profile:
-        """What is repeated: the profile, or the lowest of its neighbours where the ends of an
-        unbounded one do not meet.
+        """The profile that is repeated: the given one, or the lowest of it and its neighbours
+        where the ends of an unbounded one do not meet.
         """
         if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
             return self.profile
@@ -244,7 +242,7 @@ class Periodic(Profile):
 
     def _level(self, profile: Profile) -> bool:
         """Whether both ends of a period are equally high."""
-        x = self.start + self.repeats * np.linspace(0.0, 1.0, SAMPLES + 5)
+        x = self.start + self.repeats * np.linspace(0.0, 1.0, POINTS)
         heights = profile.height(x)
         size = np.abs(heights[np.isfinite(heights)]).max(initial=0.0)
         return bool(abs(heights[-1] - heights[0]) <= LEVEL * size)
@@ -253,7 +251,7 @@ class Periodic(Profile):
     def pieces(self) -> Slope:
         """H on one period, from `start`; shorter where the indenter is."""
         slope = self.repeated.pieces
-        return _cut(slope, self.start, min(self.start + self.repeats, slope.domain[1]))
+        return slope.within(self.start, min(self.start + self.repeats, slope.domain[1]))
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:
@@ -313,120 +311,3 @@ class Periodic(Profile):
 
     def raised(self, dz: float) -> Profile:
         return Periodic(self.profile.raised(dz), self.repeats)
-
-
-# -- which profile is the lowest -------------------------------------------------------------------
-
-
-def _ends(profile: Profile) -> tuple[float, ...]:
-    ends = (*profile.domain, *(x for wall in profile.walls for x in wall))
-    return tuple(x for x in ends if abs(x) < INF)
-
-
-def _cut(slope: Slope, lo: float, hi: float) -> Slope:
-    """The slope on [lo, hi], which may reach to infinity with it."""
-    split = slope
-    for x in (lo, hi):
-        split = split.split_at(x) if abs(x) < INF else split
-    kept = (split.breaks[:-1] >= lo) & (split.breaks[1:] <= hi)
-    breaks = np.append(split.breaks[:-1][kept], split.breaks[1:][kept][-1])
-    return Slope(
-        breaks, split.origins[kept], split.coefficients[kept], split.degrees[kept], split.functions
-    )
-
-
-Runs = list[tuple[float, float, int]]
-
-
-def _compared(profiles: tuple[Profile, ...]) -> Runs:
-    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there
-    is none.
-    """
-    slopes = [profile.pieces for profile in profiles]
-    ends = np.unique(np.concatenate([s.breaks for s in slopes] + [_ends(p) for p in profiles]))
-    found: Runs = []
-    for lo, hi in pairwise(ends.tolist()):
-        inner = _inner(lo, hi)
-        active = [k for k, p in enumerate(profiles) if float(p.height(inner)) < INF]
-        runs: list[Runs] = [[(lo, hi, k)] for k in active]
-        while len(runs) > 1:  # in pairs, so that few heights are compared
-            pairs = zip(runs[::2], runs[1::2], strict=False)
-            merged = [_lower(profiles, slopes, one, other) for one, other in pairs]
-            runs = merged + runs[2 * len(merged) :]
-        found += runs[0] if runs else [(lo, hi, -1)]
-    return found
-
-
-def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other: Runs) -> Runs:
-    """The lower of two envelopes of the same interval, all heights smooth there."""
-    found: Runs = []
-    ends = sorted({x for lo, hi, _ in one + other for x in (lo, hi)})
-    for lo, hi in pairwise(ends):
-        i, j = (next(k for a, b, k in runs if a <= lo and hi <= b) for runs in (one, other))
-        cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
-        for a, b in pairwise(cuts):
-            inner = _inner(a, b)
-            k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
-            if found and found[-1][2] == k:
-                found[-1] = found[-1][0], b, k
-            else:
-                found.append((a, b, k))
-    return found
-
-
-def _inner(lo: float, hi: float) -> float:
-    if abs(lo) < INF and abs(hi) < INF:
-        return 0.5 * (lo + hi)
-    if abs(lo) < INF:
-        return lo + max(1.0, abs(lo))
-    return hi - max(1.0, abs(hi)) if abs(hi) < INF else 0.0
-
-
-def _crossings(
-    profiles: tuple[Profile, ...], slopes: list[Slope], pair: tuple[int, int], lo: float, hi: float
-) -> list[float]:
-    """The places between lo and hi where two profiles have the same height."""
-    one, other = pair
-    inner = _inner(lo, hi)
-    if slopes[one].functions or slopes[other].functions:
-        return _sampled_crossings(profiles[one], profiles[other], lo, hi)
-    rows = []
-    for k in (one, other):
-        piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
-        width = slopes[k].coefficients.shape[1]
-        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0]
-        rows.append(
-            np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
-        )
-    n = max(map(len, rows))
-    difference = np.pad(rows[0], (0, n - len(rows[0]))) - np.pad(rows[1], (0, n - len(rows[1])))
-    half = 0.5 * (hi - lo)
-    if half < INF and abs(difference[0]) > np.abs(difference[1:]) @ half ** np.arange(1.0, n):
-        return []
-    if not difference.any():
-        return []
-    roots = np.roots(np.trim_zeros(difference[::-1], "f"))
-    real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
-    return [float(x) for x in real if lo < x < hi]
-
-
-def _sampled_crossings(one: Profile, other: Profile, lo: float, hi: float) -> list[float]:
-    from scipy.optimize import brentq  # noqa: PLC0415
-
-    def difference(x: Any) -> Any:
-        return one.height(x) - other.height(x)
-
-    centre = _inner(lo, hi)
-    left, right = (x if abs(x) < INF else centre + side * FAR for x, side in ((lo, -1), (hi, 1)))
-    if abs(lo) < INF and abs(hi) < INF:
-        x = left + (right - left) * 0.5 * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, SAMPLES)))
-    else:
-        spread = np.geomspace(1e-3, FAR, 4 * SAMPLES)
-        x = np.concatenate((centre - spread[::-1], [centre], centre + spread))
-        x = x[(x >= left) & (x <= right)]
-    with np.errstate(over="ignore", invalid="ignore"):
-        values = difference(x)
-    change = np.flatnonzero(
-        np.isfinite(values[:-1] * values[1:]) & (values[:-1] * values[1:] < 0.0)
-    )
-    return [float(brentq(difference, x[k], x[k + 1], xtol=1e-300, rtol=8.9e-16)) for k in change]

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.errors import ContactError
 
 from . import fitting
-from .base import Derived, Placed, Profile, of_any_x
+from .base import Profile, of_any_x
 from .slope import Slope
 from .splines import cross_validated, explains, interpolating_spline, smoothing_spline
 from .trace_files import Column, read_trace
@@ -281,6 +278,7 @@ class Sampled(Profile):
         Returns
         -------
         Sampled
+            A new trace with the same heights.
 
         Raises
         ------
@@ -306,6 +304,7 @@ class Sampled(Profile):
         Returns
         -------
         Sampled
+            A new trace with the same smoothing.
 
         Raises
         ------
@@ -364,43 +363,3 @@ class Sampled(Profile):
         made = Sampled(self.points, heights, smoothing)
         object.__setattr__(made, "mended", self.mended)
         return made
-
-
-# -- traces in other profiles --------------------------------------------------------------------
-
-
-class PlacedTrace(NamedTuple):
-    """A trace in a profile.
-
-    The position x of the profile is direction x + origin in the trace. The slope of the profile is
-    direction times the slope of the trace, plus tilt.
-    """
-
-    trace: Sampled
-    direction: float = 1.0
-    origin: float = 0.0
-    tilt: float = 0.0
-
-    def x(self, points: Array) -> Array:
-        """The places of the trace's points in the profile."""
-        return self.direction * (points - self.origin)
-
-
-def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
-    """The traces in a profile that may be tilted, shifted, mirrored and added."""
-    parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
-    for part, sign, shift, tilt in parts:
-        if isinstance(part, Sampled):
-            yield PlacedTrace(part, sign, -sign * shift, tilt)
-
-
-def explained(error: ContactError, profile: Profile) -> ContactError:
-    """The refusal of a contact, with the reason and the remedy if the profile has a trace."""
-    trace = next((placed.trace for placed in traces_in(profile)), None)
-    if trace is None or not error.reached:
-        return error
-    if "end" in error.reached:
-        advice = fitting.reason_at_an_end(trace.points, trace.heights)
-    else:
-        advice = "sie.least_smoothing(scene) finds how much smoothing makes it one patch"
-    return type(error)(f"{error.args[0]}; {advice}", **error.reached) if advice else error

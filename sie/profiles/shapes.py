@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 
@@ -115,10 +115,10 @@ class RoundedFlat(_Convex):
             (-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature))
         )
 
-    @of_any_x
-    def height(self, x: Array) -> Array:
-        rim = np.maximum(np.abs(x) - self.half_flat, 0.0)
-        return rim * (rim / (2.0 * self.radius))
+    def height(self, x: ArrayLike) -> Array:
+        rim = np.maximum(np.abs(arguments.reals("x", x)) - self.half_flat, 0.0)
+        with np.errstate(over="ignore"):  # the formula holds at every x, infinite ones included
+            return np.asarray(rim * (rim * (0.5 / self.radius)))[()]
 
 
 @dataclass(frozen=True)

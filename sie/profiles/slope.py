@@ -15,13 +15,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
 from sie.numerics.interval import EPS
+
+from .slope_row import Row
 
 Array = NDArray[np.float64]
 Vectorised = Callable[[Array], Any]
@@ -38,29 +40,6 @@ JUMP = 256.0 * EPS
 SEEN_JUMP = 1e-9
 
 
-class Row(NamedTuple):
-    """One piece of a slope as plain floats; coefficients high order first."""
-
-    lo: float
-    hi: float
-    origin: float
-    coefficients: tuple[float, ...]
-
-    def at(self, x: float) -> float:
-        value = 0.0
-        for c in self.coefficients:
-            value = value * (x - self.origin) + c
-        return value
-
-    def steepness(self, x: float) -> float:
-        """H'."""
-        value = slope = 0.0
-        for c in self.coefficients:
-            slope = slope * (x - self.origin) + value
-            value = value * (x - self.origin) + c
-        return slope
-
-
 @dataclass(frozen=True)
 class FunctionTerm:
     """The function sign f(sign (t - shift)): a user's f, moved and mirrored with its profile."""
@@ -71,9 +50,8 @@ class FunctionTerm:
 
     def __call__(self, offset: Array) -> Array:
         """Values at t, given offset = t - shift."""
-        with np.errstate(
-            all="ignore"
-        ):  # `resolution` refuses values that are not finite, and names the place
+        # `resolution` refuses values that are not finite, and names the place.
+        with np.errstate(all="ignore"):
             values: Array = self.sign * arguments.real_values(
                 "slope", self.function, self.sign * offset
             )
@@ -152,9 +130,8 @@ class Slope:
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:
-        inside = np.clip(
-            x, self.breaks[0], self.breaks[-1]
-        )  # beyond the ends the value is replaced; keep functions in their domain
+        # Beyond the ends the value is replaced; keep functions in their domain.
+        inside = np.clip(x, self.breaks[0], self.breaks[-1])
         return self.local(k, inside, np.zeros_like(inside), np.zeros((len(inside), 1)))[:, 0]
 
     @cached_property
@@ -258,20 +235,13 @@ class Slope:
             )
             below, above, kink = lower.at(x), upper.at(x), upper.steepness(x) - lower.steepness(x)
         else:
-            k, start, ulp = (
-                np.array([j - 1, j]),
-                np.array([x, x]),
-                np.spacing(abs(x)) if self.functions else 0.0,
-            )
-            below, above = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))[
-                :, 0
-            ].tolist()
-            curvature = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
-            kink = (
-                float(curvature[1, 0] - curvature[0, 0])
-                if isinstance(curvature, np.ndarray)
-                else 0.0
-            )
+            k = np.array([j - 1, j])
+            start = np.array([x, x])
+            ulp = np.spacing(abs(x)) if self.functions else 0.0
+            beside = self.local(k, start, np.zeros(2), np.array([[-ulp], [ulp]]))
+            below, above = beside[:, 0].tolist()
+            steep = self.local_derivative(k, start, np.zeros(2), np.zeros((2, 1)))
+            kink = float(steep[1, 0] - steep[0, 0]) if isinstance(steep, np.ndarray) else 0.0
         rounding = (SEEN_JUMP if self.functions else JUMP) * max(abs(below), abs(above))
         return (float(above - below) if abs(above - below) > rounding else 0.0), kink
 
@@ -291,11 +261,9 @@ class Slope:
     @cached_property
     def corners(self) -> Array:
         """Jumps of the polynomials' Taylor coefficients at the inner breaks, (N - 1, D)."""
-        k, inner, width = (
-            np.arange(len(self.origins)),
-            self.breaks[1:-1],
-            self.coefficients.shape[1],
-        )
+        k = np.arange(len(self.origins))
+        inner = self.breaks[1:-1]
+        width = self.coefficients.shape[1]
         return recentred(self, k[1:], inner, width) - recentred(self, k[:-1], inner, width)
 
     @property
@@ -350,9 +318,8 @@ class Slope:
     def shifted(self, dx: float) -> Slope:
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         breaks, origins = self.breaks + dx, self.origins + dx
-        kept = (
-            np.diff(breaks) > 0.0
-        )  # a piece that is shorter than the doubles are apart there is gone
+        # A piece that is shorter than the doubles are apart there is gone.
+        kept = np.diff(breaks) > 0.0
         if kept.all():
             return replace(self, breaks=breaks, origins=origins, functions=functions)
         ends = np.append(breaks[:-1][kept], breaks[-1])
@@ -377,18 +344,9 @@ class Slope:
         mine, theirs = (
             np.searchsorted(s.breaks, breaks[:-1], side="right") - 1 for s in (self, other)
         )
-        origins = np.where(
-            other.is_zero[theirs]
-            | (
-                ~self.is_zero[mine]
-                & (
-                    _distance(self.origins[mine], breaks)
-                    <= _distance(other.origins[theirs], breaks)
-                )
-            ),
-            self.origins[mine],
-            other.origins[theirs],
-        )
+        one, two = self.origins[mine], other.origins[theirs]
+        nearer = _distance(one, breaks) <= _distance(two, breaks)
+        origins = np.where(other.is_zero[theirs] | (~self.is_zero[mine] & nearer), one, two)
         width = max(self.coefficients.shape[1], other.coefficients.shape[1])
         c = recentred(self, mine, origins, width) + recentred(other, theirs, origins, width)
         degrees = np.maximum(self.degrees[mine], other.degrees[theirs])

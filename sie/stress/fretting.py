@@ -140,7 +140,7 @@ class Cycle:
 
         Parameters
         ----------
-        x, y
+        x, y : array_like of float
             As of `history`.
 
         Returns
@@ -219,8 +219,8 @@ class Cycle:
 
         Parameters
         ----------
-        x
-            As of `slip_range`.
+        x : array_like of float
+            Positions, as of `slip_range`.
 
         Returns
         -------

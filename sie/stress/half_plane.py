@@ -323,10 +323,8 @@ class Stress:
             p = t.pressure(x)
             hilbert = hilbert_of_shear(t, x, p)
             D = np.empty(x.shape, dtype=complex)
-            D.real, D.imag = (
-                hilbert - 0.5 * t.bulk_stress,
-                0.0 - t.shear(x),
-            )  # no -0 where there is no shear
+            D.real = hilbert - 0.5 * t.bulk_stress
+            D.imag = 0.0 - t.shear(x)  # no -0 where there is no shear
             return -p - hilbert + 0.5 * t.bulk_stress, D
         Phi, dPhi, Fq = potentials(t, x + 1j * y)
         return Phi.imag + 0.5 * t.bulk_stress, Fq - y * dPhi - 0.5 * t.bulk_stress

@@ -42,55 +42,69 @@ from .half_plane import Tractions, hilbert_of_shear, potentials
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-NEAR, NEAR_OF_MANY = (
-    0.05,
-    1.0,
-)  # g of a mark: this fraction of the smaller gap beside it, more where there are many marks
+# g of a mark is this fraction of the smaller gap beside it.
+NEAR = 0.05
+# The same where there are many marks.
+NEAR_OF_MANY = 1.0
 # g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is
-# rounding
+# rounding.
 FINEST = 1e-12
-RESOLVED = 1e-8  # half-widths: many marks nearer to each other are merged
-MANY_MARKS, MOST_SINGULAR = 40, 24  # of the singular marks those with the highest pressure
-SHALLOW = 0.06  # of s: where a column begins
-OUTSIDE = 1.8  # half-widths: the scan reaches so far beside the contact, and ...
-FAR = 1e3  # ... the surface
-DEEPEST, RATIO = 4.0, 1.45  # depths of the scan: of the half-width; geometric ratio
-LEVELS = 6  # depths between two decisions on which columns to leave out
-# of the depth: columns nearer to a mark are left out, and others nearer to each other
-SPACING, CELL = 0.15, 0.03
-ALONE = 8.0  # depths: columns farther apart are no neighbours
-# columns whose values are below this fraction of the largest one at one scale, on a surface so many
-# depths wide, are left out
-HOPELESS, WINDOW = 0.8, 4.0
-# of the largest value known: maxima of the scan below it, which is off by its curvature over a
-# cell, are not polished
+# Many marks that are nearer to each other, in half-widths, are merged.
+RESOLVED = 1e-8
+MANY_MARKS = 40
+# Of the singular marks so many are kept at most, those with the highest pressure.
+MOST_SINGULAR = 24
+# A column begins at this part of the scale s of its place.
+SHALLOW = 0.06
+# The scan reaches so many half-widths beside the contact in the body, and on the surface.
+OUTSIDE = 1.8
+FAR = 1e3
+# The largest depth of the scan in half-widths, and the ratio of its depths.
+DEEPEST = 4.0
+RATIO = 1.45
+# Depths between two decisions on which columns to leave out.
+LEVELS = 6
+# Columns nearer to a mark, in depths, are left out, and columns nearer to each other.
+SPACING = 0.15
+CELL = 0.03
+# Columns farther apart, in depths, are no neighbours.
+ALONE = 8.0
+# Columns whose values are below HOPELESS times the largest one within WINDOW depths are left out.
+HOPELESS = 0.8
+WINDOW = 4.0
+# Maxima of the scan below this part of the largest known value are not polished; a maximum of the
+# scan is off by its curvature over a cell.
 WORTH = 0.85
 MOST_STARTS = 48
-CIRCLE, RADIUS = (
-    6,
-    400.0,
-)  # points, and the depth over the radius: the third derivative is still good to seven digits
-PATIENCE, CLOSE = (
-    12,
-    0.99,
-)  # steps after which a start goes on only if it is within that fraction of the highest
-STEPS, LONGEST = 60, 0.3  # Newton steps, the longest as a fraction of the depth
-SETTLED = 1e-7  # of the depth: after it the next step, its square, is below rounding
-SAME_VALUE, STUCK = (
-    4e-15,
-    1e-9,
-)  # rounding of a value; a trust region, as a fraction of the depth, in which it hides every gain
-TOGETHER = 1e-3  # of the depth
-# of the depth of the start, or of the shallowest one there: a path that rises beyond it belongs to
-# the surface
+# Points on a circle, and the depth over its radius: seven digits of the third derivative are good.
+CIRCLE = 6
+RADIUS = 400.0
+# After PATIENCE steps a start goes on only if its value is at least CLOSE times the highest.
+PATIENCE = 12
+CLOSE = 0.99
+# Newton steps, and the longest one in depths.
+STEPS = 60
+LONGEST = 0.3
+# After a step that is so short, in depths, the next one, its square, is below rounding.
+SETTLED = 1e-7
+# Rounding of a value, and a trust region in depths in which it exceeds every gain.
+SAME_VALUE = 4e-15
+STUCK = 1e-9
+# Starts nearer to each other, in depths, are one.
+TOGETHER = 1e-3
+# A path that rises above this part of the depth of its start, or of the shallowest start there,
+# belongs to the surface.
 LEFT = 0.25
-INWARDS = 0.3 ** np.arange(1.0, 14.0)  # depths of starts beneath a maximum of the surface, of s
-# of a cell that begins or ends at a mark, where the slope may be infinite: so much is left out
+# Depths of starts beneath a maximum of the surface, in units of the scale s there.
+INWARDS = 0.3 ** np.arange(1.0, 14.0)
+# The part of a cell that is left out at a mark, where the slope may be infinite.
 AT_MARK = 1e-9
-BENEATH = 1e-100  # half-widths: so near to a place where p is infinite that other terms vanish
-# Maxima this close in value are tied, this close in place (of the half-width) the same.
-TIED, SAME_PLACE = 1e-10, 1e-7
-# half-widths: a tied place below one on the surface that is so near is the same
+# Half-widths beneath a place where p is infinite at which all other terms vanish.
+BENEATH = 1e-100
+# Maxima whose values are this close are tied, and at places this close, in half-widths, the same.
+TIED = 1e-10
+SAME_PLACE = 1e-7
+# A tied place nearer to one on the surface, in half-widths, is the same.
 RISING = 1e-4
 
 
@@ -195,10 +209,8 @@ def mesh_of(tractions: Tractions) -> Mesh:
     from_right = np.minimum.accumulate((g + marks)[::-1])[::-1] - marks
     g = np.minimum(g, np.maximum(np.minimum(from_left, from_right), g.min()))
     half = 0.5 * gaps
-    left, right = (
-        np.append(half, OUTSIDE * r),
-        np.insert(half, 0, OUTSIDE * r),
-    )  # the extent of columns on both sides of a mark
+    # The extent of columns on both sides of a mark.
+    left, right = np.append(half, OUTSIDE * r), np.insert(half, 0, OUTSIDE * r)
     (k, d), (j, e) = _graded(g, left), _graded(g, right)
     x = np.unique(np.concatenate((tractions.marks, marks[k] + d, marks[j] - e)))
     return Mesh(marks, g, x, np.minimum(*_from_marks(marks, x)[:2]))
@@ -206,9 +218,8 @@ def mesh_of(tractions: Tractions) -> Mesh:
 
 def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
     """(marks, distances) of the columns beside them; cells grow like the distance plus g."""
-    step = 0.5 * np.log(
-        RATIO
-    )  # at every depth the columns beside a mark then lie in the same directions from it
+    # At every depth the columns beside a mark then lie in the same directions from it.
+    step = 0.5 * np.log(RATIO)
     count = np.ceil(np.log1p(until / g) / step).astype(np.intp)
     k = np.repeat(np.arange(len(g)), count)
     i = np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)
@@ -257,10 +268,8 @@ def _starts(rows: list[tuple[float, Array, Array]], floor: float) -> Complex:
         left = np.where(apart[:-1], -np.inf, np.append(-np.inf, value[:-1]))
         right = np.where(apart[1:], -np.inf, np.append(value[1:], -np.inf))
         top = np.flatnonzero((value >= left) & (value >= right) & (value >= floor))
-        for other, margin in (
-            (k - 1, 0.0),
-            (k + 1, SAME_VALUE),
-        ):  # towards a mark a value may be constant up to rounding
+        # Towards a mark a value may be constant up to rounding.
+        for other, margin in ((k - 1, 0.0), (k + 1, SAME_VALUE)):
             if 0 <= other < len(rows) and top.size:
                 _, x_other, value_other = rows[other]
                 nearest = _nearest(x_other, x[top])
@@ -281,20 +290,12 @@ def _rows(
     y, rows, best = DEEPEST * 0.5 * float(mesh.marks[-1] - mesh.marks[0]), [], known
     while columns.size:
         levels = y / RATIO ** np.arange(LEVELS)
-        wanted = [
-            (shallow <= y) & ((distance == 0.0) | (distance >= SPACING * y))
-            for y in levels.tolist()
-        ]
-        xs = [
-            _thinned(columns[these], CELL * y)
-            for these, y in zip(wanted, levels.tolist(), strict=True)
-        ]
-        value = measure.value(
-            _values(
-                tractions,
-                np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)]),
-            )
-        )
+        xs = []
+        for level in levels.tolist():
+            apart = (distance == 0.0) | (distance >= SPACING * level)
+            xs.append(_thinned(columns[(shallow <= level) & apart], CELL * level))
+        z = np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])
+        value = measure.value(_values(tractions, z))
         ends = np.cumsum([0, *map(len, xs)])
         new = [
             (level, x, value[i:j])
@@ -310,12 +311,8 @@ def _rows(
         beside = np.maximum(value[np.maximum(k - 1, 0)], value[np.minimum(k, len(x) - 1)])
         bound = measure.value(_bounds(columns, above, WINDOW * levels[-1]))
         stay = (np.maximum(beside, bound) >= HOPELESS * best) & (shallow < levels[-1])
-        columns, shallow, distance, above = (
-            columns[stay],
-            shallow[stay],
-            distance[stay],
-            above[:, stay],
-        )
+        columns, shallow = columns[stay], shallow[stay]
+        distance, above = distance[stay], above[:, stay]
         y /= RATIO**LEVELS
     return rows
 

@@ -101,10 +101,8 @@ def elastic_limit(
         maxima = largest(tractions, _quadratic(kappa / np.sqrt(3.0)))
         found.append((float(np.sqrt(maxima[0].value)), maxima))
     else:
-        in_plane, across = (
-            largest(tractions, _quadratic(0.0)),
-            largest(tractions, _sum_of_shears(kappa)),
-        )
+        in_plane = largest(tractions, _quadratic(0.0))
+        across = largest(tractions, _sum_of_shears(kappa))
         found += [(float(np.sqrt(in_plane[0].value)), in_plane), (0.5 * across[0].value, across)]
     stress, maxima = max(found, key=lambda f: f[0])
     x1, x2 = tractions.pressure.interval

@@ -208,8 +208,8 @@ class Density(ABC):
 
         Parameters
         ----------
-        x : array_like
-            Places on the surface, lengths of any shape.
+        x
+            As of the traction itself.
 
         Returns
         -------
@@ -219,7 +219,7 @@ class Density(ABC):
         Raises
         ------
         ValueError
-            If `x` is not made of real numbers.
+            As of the traction itself.
         """
 
     # The evaluation within a form: on 1-d arrays of places that are not so far away that their
@@ -290,7 +290,9 @@ class Density(ABC):
 
         Parameters
         ----------
-        z, side
+        z : array_like
+            Places x + i y, lengths of any shape.
+        side
             As of `cauchy`.
 
         Returns

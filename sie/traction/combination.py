@@ -95,10 +95,8 @@ class Combination(Density):
 
     def _at_infinity(self, x: float) -> float:
         """The sum where terms are infinite: finite where their strengths cancel."""
-        total, size = (
-            self.strength(x),
-            sum(abs(factor * density.strength(x)) for factor, density in self.terms),
-        )
+        total = self.strength(x)
+        size = sum(abs(factor * density.strength(x)) for factor, density in self.terms)
         if abs(total) > CANCELLED * size:
             return math.copysign(math.inf, total)
         return float(np.mean(self(self._beside(x))))

@@ -77,7 +77,7 @@ class SlopeDensity(Density):
     def _corner(self, x: float) -> float:
         return 0.0
 
-    # What a form must know, on 1-d arrays, in units of E*/2 and without the singular ends.
+    # A form defines these on 1-d arrays, in units of E*/2 and without the singular ends.
     @abstractmethod
     def _regular(self, x: Array) -> Array:
         """p inside the contact, x ascending."""
@@ -264,8 +264,8 @@ class SlopeDensity(Density):
         return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
-        """What the singular ends add to F and F', (2, n); `far` without the limit (k2 - k1)/2 of
-        the first.
+        """The part of the singular ends in F and F', (2, n); `far` leaves out the limit
+        (k2 - k1)/2 of the first.
         """
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
         root1, root2 = np.sqrt(left), np.sqrt(right)

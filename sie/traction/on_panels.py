@@ -157,9 +157,8 @@ class OnPanels(SlopeDensity):
     @property
     def _slope_at_edges(self) -> tuple[float, float]:
         p, g = self.panels, self.panels.geometry
-        left = (
-            float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
-        )  # a flat piece there was left out
+        # A flat piece there was left out.
+        left = float(p.series[0] @ (-1.0) ** np.arange(p.degree + 1)) if g.cut_left else 0.0
         return left, float(p.series[-1].sum()) if g.cut_right else 0.0
 
     def _beside(self, x: Array) -> tuple[Array, Array]:
@@ -274,7 +273,7 @@ class SlidingDensity(PanelDensity):
     """The pressure in full sliding."""
 
     def _of_powers(self, laws: list[PowerLaw | Corner], y: Array, b: float) -> Array:
-        """As H and p are conjugate, 1/π PV∫p/(x - t) + p tan πε = H is met with H sin πε cos πε."""
+        """The same with H sin πε cos πε added: then 1/π PV∫p/(x - t) dt + p tan πε = H."""
         slope = np.sum([law.slope_at(y) for law in laws], axis=0)
         cos, sin = self.panels.edge.cos, math.sin(math.pi * self.epsilon)
         return cos * cos * super()._of_powers(laws, y, b) + sin * cos * slope

@@ -205,21 +205,24 @@ class Panels:
         if g.slope.continuous:
             return []
         rise: dict[float, float] = {}
+        least = SEEN_JUMP if g.slope.functions else JUMP
+        # Of coefficients given about x = 0, rounding grows with the distance from there.  The
+        # pieces beside a break decide: others may be as steep as a cusp.
+        steepness = np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length
+        rounding: dict[float, float] = {}
         for k, (lo, hi) in enumerate(g.ends.T.tolist()):
             entering, leaving = self._slope_at_ends[:, k].tolist()
-            if not (g.cut_left and k == 0):
-                rise[lo] = rise.get(lo, 0.0) + entering
-            if not (g.cut_right and k == len(self.series) - 1):
-                rise[hi] = rise.get(hi, 0.0) - leaving
-        least = SEEN_JUMP if g.slope.functions else JUMP
-        # of coefficients given about x = 0, rounding grows with the distance from there
-        steepest = float(
-            (np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length).max(initial=0.0)
-        )
+            for e, jump, cut in (
+                (lo, entering, g.cut_left and k == 0),
+                (hi, -leaving, g.cut_right and k == len(self.series) - 1),
+            ):
+                if not cut:
+                    rise[e] = rise.get(e, 0.0) + jump
+                    rounding[e] = max(rounding.get(e, self.scale), abs(e) * float(steepness[k]))
         return [
             (e, math.copysign(math.inf, jump))
             for e, jump in rise.items()
-            if abs(jump) > least * max(self.scale, abs(e) * steepest)
+            if abs(jump) > least * rounding[e]
         ]
 
     @cached_property
@@ -243,19 +246,21 @@ class Panels:
         """(break, ±inf) where p' ~ -[H']/π ln|x - e| is infinite; -inf where p itself is."""
         g, dH = self.geometry, self._polynomials.dH
         n = np.arange(1.0, len(dH) + 1.0)  # U_m(±1) = (±1)^m (m + 1)
-        steepness: dict[float, list[float]] = {}
-        for side, slopes in ((1, (n * (-1.0) ** (n - 1.0)) @ dH), (0, n @ dH)):
-            for k, slope in enumerate(slopes.tolist()):
-                if not (g.cut_left and k == 0 if side else g.cut_right and k == len(slopes) - 1):
+        slopes: dict[float, list[float]] = {}
+        bounds: dict[float, float] = {}  # of |H'| on the pieces beside a break
+        bound = n @ np.abs(dH)
+        for side, at_ends in ((1, (n * (-1.0) ** (n - 1.0)) @ dH), (0, n @ dH)):
+            for k, slope in enumerate(at_ends.tolist()):
+                if not (g.cut_left and k == 0 if side else g.cut_right and k == len(at_ends) - 1):
                     e = float(g.ends[1 - side, k])
-                    steepness.setdefault(e, [0.0, 0.0])[side] = slope
-        steepest = max((abs(v) for pair in steepness.values() for v in pair), default=0.0)
+                    slopes.setdefault(e, [0.0, 0.0])[side] = slope
+                    bounds[e] = max(bounds.get(e, 0.0), float(bound[k]))
         least = SEEN_JUMP if g.slope.functions else JUMP
         infinite = {e for e, _ in self.jumps}
         return tuple(
             (e, -math.inf if e in infinite else math.copysign(math.inf, before - after))
-            for e, (before, after) in steepness.items()
-            if e in infinite or abs(after - before) > least * steepest
+            for e, (before, after) in slopes.items()
+            if e in infinite or abs(after - before) > least * bounds[e]
         )
 
     # -- quadrature beyond the reach ---------------------------------------------------------------

@@ -53,10 +53,8 @@ class Geometry:
         b = slope.breaks
         floor, floor_tail = (contact.x1, contact.tail1) if lower is None else (lower, 0.0)
         first = max(int(b.searchsorted(floor, side="left" if floor_tail < 0.0 else "right")) - 1, 0)
-        last = min(
-            int(b.searchsorted(contact.x2, side="right" if contact.tail2 > 0.0 else "left")),
-            len(b) - 1,
-        )
+        last = int(b.searchsorted(contact.x2, side="right" if contact.tail2 > 0.0 else "left"))
+        last = min(last, len(b) - 1)
         k = np.arange(first, last)
         if not keep_zero and slope.has_zero:
             k = k[~slope.is_zero[k]]
@@ -65,9 +63,8 @@ class Geometry:
         self.ends = ends = np.empty((2, n))  # of the pieces, lo and hi ...
         ends[0], ends[1] = b[k], b[k + 1]
         self.tails = np.zeros((2, n))  # ... and what their doubles miss
-        # Distances of both ends from the left and the right edge (2, 2, K), over the contact's
-        # width: cos² and sin² of half the angle from the right edge. Only the outer two ends can be
-        # cut by an edge or by `lower`.
+        # Distances (2, 2, K) of both ends from the left and the right edge, over the contact's
+        # width: cos² and sin² of half the angle from the right edge. Only outer ends can be cut.
         width = 2.0 * contact.r
         distance = np.empty((2, 2, n))
         distance[0], distance[1] = contact.from_left(ends), contact.from_right(ends)
@@ -76,11 +73,9 @@ class Geometry:
         if n and k[0] == first and ends[0, 0] <= floor:
             self.cut_left = lower is None
             ends[0, 0], self.tails[0, 0] = floor, floor_tail
-            distance[:, 0, 0] = (
-                (0.0, width)
-                if lower is None
-                else (contact.from_left(lower), contact.from_right(lower))
-            )
+            distance[:, 0, 0] = 0.0, width
+            if lower is not None:
+                distance[:, 0, 0] = contact.from_left(lower), contact.from_right(lower)
             length[0] = distance[0, 1, 0] - distance[0, 0, 0]
         if n and k[-1] == last - 1 and ends[1, -1] >= contact.x2:
             self.cut_right = True
@@ -112,17 +107,13 @@ class Geometry:
         """Some of the pieces; quadrature only."""
         part = copy(self)
         part.k = self.k[chosen]
-        part.ends, part.tails, part.length = (
-            self.ends[:, chosen],
-            self.tails[:, chosen],
-            self.length[chosen],
-        )
+        part.ends = self.ends[:, chosen]
+        part.tails = self.tails[:, chosen]
+        part.length = self.length[chosen]
         part.left, part.right = self.left[:, chosen], self.right[:, chosen]
         part.root_left, part.root_right = self.root_left[:, chosen], self.root_right[:, chosen]
-        part.cut_left, part.cut_right = (
-            self.cut_left and bool(chosen[0]),
-            self.cut_right and bool(chosen[-1]),
-        )
+        part.cut_left = self.cut_left and bool(chosen[0])
+        part.cut_right = self.cut_right and bool(chosen[-1])
         from_edge, sign, length = self.angles
         part.angles = (
             from_edge[chosen],
@@ -269,7 +260,7 @@ class SlidingGeometry(Geometry):
         return offset, angle, whole * w * smooth
 
     def weighted_derivative(self, offset: Array, angle: Array, weight: Array, H: Array) -> Array:
-        """The same from each piece's Chebyshev series: it steers Newton's steps only."""
+        """The same from each piece's Chebyshev series; only Newton's steps depend on it."""
         half = np.maximum(0.5 * self.length[:, None], SHORTEST)
         series = self.chebyshev_slope(max(self.slope.degree + 1, 2))
         # rounding on a piece that short

@@ -227,8 +227,9 @@ def _regions(p: Panels, z: Complex) -> list[Block]:
 
 
 def _meetings(p: Panels, blocks: list[Block], size: int) -> Meetings:
-    """Tells of each point of a block whether the next and the previous piece meet the block's own
-    at a break, and their closed forms serve the point too."""
+    """Whether, for each point of a block, the next and the previous piece meet the block's own at a
+    break and their closed forms serve the point too.
+    """
     meets = p.breaks.meets_next
     if p.many:
         known = np.sort(np.concatenate([_number(p, b) for b in blocks if b.closed] or [NONE]))

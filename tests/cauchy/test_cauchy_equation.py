@@ -13,7 +13,7 @@ import sie
 from sie.cauchy import formulation, kernel, solver, system
 from sie.cauchy.system import System
 from sie.numerics import jacobi
-from sie.numerics.jacobi import Weight
+from sie.numerics.jacobi_weight import Weight
 
 mp = mpmath.mp.clone()
 mp.dps = 40

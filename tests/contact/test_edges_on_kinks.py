@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import sie
-from sie.contact import edge_refinement, edges, normal
+from sie.contact import edge_refinement, edges, tilt_of_moment
 from sie.contact.edges import Search
 from validation.topics import kinks
 from validation.topics.kinks import Shape, Trial, mp
@@ -98,13 +98,13 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
 
     def evaluate(contact):
         evaluations.append(contact)
-        return search.moments(contact)
+        return search.integrals(contact)
 
     newton = edge_refinement.Polish(search.slope, evaluate)
     off = (0.2 if inside else -0.2) * settled.r
     start = settled.moved(off, -off)
-    first = search.moments(start)
-    _, k, done = newton.both(start, target, left_sharp=False)
+    first = search.integrals(start)
+    _, k, done = newton.both(start, target, False, search.touch())
     if (
         trial.scene.profile.convex and min(first.JL, first.JR) > 0.0
     ):  # on a straight part there is no derivative
@@ -124,7 +124,7 @@ def test_the_rounding_of_a_residual_is_its_difference_from_exact_integrals():
         trial = kinks.drawn(seed, "straight pieces", "load, tilt")
         slope = trial.scene.profile.pieces.tilted(trial.scene.tilt)
         contact = sie.solve(trial.scene).normal.edges.contact
-        k = Search(slope, 1.0).moments(contact)
+        k = Search(slope, 1.0).integrals(contact)
         exact = trial.shape.contact(
             mp.mpf(contact.x1) + mp.mpf(contact.tail1),
             mp.mpf(contact.x2) + mp.mpf(contact.tail2),
@@ -186,7 +186,7 @@ def test_where_no_tilt_has_the_moment_few_tilts_are_tried(monkeypatch):
     )
     with contextlib.suppress(sie.ContactError):
         _ = sie.solve(scene).edges
-    assert len(tried) <= normal.MAX_TILTS + 1
+    assert len(tried) <= tilt_of_moment.MAX_TILTS + 1
 
 
 @pytest.mark.parametrize("moment", [-1.79, 1.79, 1e-8])
@@ -216,7 +216,7 @@ def test_the_edges_move_with_the_load_as_their_uncertainty_predicts():
         for change in (-1e-5, 1e-5)
     )
     contact = sie.solve(scene).normal.edges.contact
-    k = Search(scene.profile.pieces.tilted(scene.tilt), 1.0).moments(contact)
+    k = Search(scene.profile.pieces.tilted(scene.tilt), 1.0).integrals(contact)
     alone = k._replace(size1=0.0, size2=0.0)
     moves = [
         off / (EPS + edge_refinement.ROUNDINGS)
@@ -332,9 +332,9 @@ def test_a_flat_base_wider_than_the_contact_is_pressed_by_its_rim():
 def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(
     profile, given, moment, monkeypatch
 ):
-    evaluated, right = [], edges.moments
+    evaluated, right = [], edges.edge_integrals
     monkeypatch.setattr(
-        edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
+        edges, "edge_integrals", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
     )
     with pytest.raises(sie.ContactError):
         _ = sie.solve(sie.Scene(profile=profile, modulus=1.0, moment=moment, **given)).edges
@@ -342,9 +342,9 @@ def test_a_load_beyond_where_doubles_show_the_slope_is_refused_at_once(
 
 
 def test_a_load_where_the_slope_of_a_polynomial_is_no_double_is_refused_at_once(monkeypatch):
-    evaluated, right = [], edges.moments
+    evaluated, right = [], edges.edge_integrals
     monkeypatch.setattr(
-        edges, "moments", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
+        edges, "edge_integrals", lambda *asked, **how: evaluated.append(1) or right(*asked, **how)
     )
     lopsided = sie.Polynomial((0.0, 0.05, 1.0, 0.4, 0.6))
     with pytest.raises(sie.ContactError):

@@ -13,7 +13,7 @@ import sie
 from oracles import normal_contact
 from oracles.normal_contact import mp
 from sie.certificate.quadrature import composite_rule
-from sie.contact.edge_integrals import moments
+from sie.contact.edge_integrals import edge_integrals
 from sie.numerics.cauchy_sums import LEAF, KernelSums
 from sie.numerics.graded_rule import NODES
 from sie.numerics.interval import Interval
@@ -177,9 +177,9 @@ def test_jumps_of_a_slope_of_many_pieces_are_infinite_where_they_are():
 
 def test_moments_with_short_rules_are_those_of_long_ones(monkeypatch):
     slope = spline_slope(2000, 1e-4)
-    short = moments(slope, CONTACT)
+    short = edge_integrals(slope, CONTACT)
     monkeypatch.setattr("sie.contact.edge_integrals.MANY", 10**9)
-    long = moments(slope, CONTACT)
+    long = edge_integrals(slope, CONTACT)
     scale = long.positive + long.negative
     assert short[:3] == pytest.approx(long[:3], abs=1e-15 * scale)
     assert short[3:5] == pytest.approx(long[3:5], rel=1e-13)
@@ -221,7 +221,7 @@ class ExactSpline:
     def value(origin, c, t):
         return c[0] + (t - origin) * (c[1] + (t - origin) * c[2])
 
-    def moments(self):
+    def integrals(self):
         """∫ H dφ, which is zero, and r ∫ H sin φ dφ, which is P/G."""
         rows = [(self.value(o, c, t), s, w) for *_, o, c, nodes in self.pieces for t, s, w in nodes]
         return mp.fsum(w * H for H, _, w in rows), self.r * mp.fsum(w * H * s for H, s, w in rows)
@@ -252,7 +252,7 @@ def test_a_spline_through_a_thousand_samples_has_its_exact_pressure():
     profile = sie.Sampled(x, np.cosh(x) - 1.0 + 0.1 * x**3 + 0.05 * np.abs(x) ** 3)
     solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.5))
     truth = ExactSpline(profile.pieces, *solution.edges)
-    balance, load = truth.moments()
+    balance, load = truth.integrals()
     assert abs(balance) <= 1e-14
     assert float(load) * 0.5 == pytest.approx(0.5, rel=1e-14)
     x1, x2 = solution.edges

@@ -229,6 +229,23 @@ def test_a_wedge_on_the_axis_of_a_cusp_keeps_its_infinite_pressure(axis):
         assert both.pressure.cauchy(axis + 1j * d).real == pytest.approx(0.0, abs=1e-13 * exact)
 
 
+@pytest.mark.parametrize("rise", [1e-6, 0.01, 0.7])
+@pytest.mark.parametrize("place", [-0.3, 0.109375, 1e-3])
+@pytest.mark.parametrize("m", [1.05, 1.5, 1.9, 2.5])
+def test_a_wedge_beside_a_cusp_keeps_its_infinite_pressure(m, place, rise):
+    profile = sie.Power(m, 2.7) + sie.Wedge(rise).shifted(place)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, poisson=0.3, half_width=1.0))
+    assert solution.pressure(place) == np.inf
+    assert solution.elastic_limit().load == 0.0
+
+
+@pytest.mark.parametrize("m", [1.05, 1.5, 1.9])
+def test_a_jump_of_curvature_beside_a_cusp_has_an_infinitely_steep_pressure(m):
+    profile = sie.Power(m, 2.7) + sie.Piecewise((0.25,), ((0.0,), (-0.125, 0.5)))
+    solution = sie.solve(sie.Scene(profile=profile, modulus=2.0, half_width=1.0))
+    assert np.isinf(solution.pressure.cauchy_derivative(0.25).imag)
+
+
 @pytest.mark.parametrize("other", [sie.Power(2.3, 1.0), sie.Power(1.2, 0.1), sie.Power(2.8, 1.0)])
 def test_powers_about_one_axis_add_up(other):
     cusp = sie.Power(1.4, 0.3)

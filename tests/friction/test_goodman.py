@@ -182,7 +182,7 @@ def test_what_is_not_solved_is_refused_with_a_remedy(given, words):
 
 
 def test_full_stick_has_no_approximation():
-    with pytest.raises(ValueError, match="full stick .* leave coupling out"):
+    with pytest.raises(ValueError, match=r"full stick .* leave coupling out"):
         solved(sie.Flat(1.0), friction=float("inf"))
 
 

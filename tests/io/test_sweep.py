@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie import workers
+from sie import progress_bar, sweep_result, workers
 
 module = sys.modules["sie.sweep"]  # `sie.sweep` is the function
 SCENE = sie.Scene(profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, poisson=0.3, normal_load=0.3)
@@ -391,7 +391,7 @@ def test_the_overhead_of_a_sweep_grows_in_proportion_to_its_points(parallel, mon
             counts += 1
             return builtins.len(values)
 
-        for part in (module, workers):
+        for part in (module, sweep_result, workers):
             monkeypatch.setattr(part, "len", count, raising=False)
         sie.sweep(
             SCENE,
@@ -419,7 +419,7 @@ def test_a_quantity_is_nan_by_its_own_names_where_no_point_has_an_answer(want):
 def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
-    monkeypatch.setattr(module, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)

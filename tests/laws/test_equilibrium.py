@@ -27,6 +27,14 @@ def defects(solution):
 
 
 @given(strategies.scenes())
+@example(
+    sie.Scene(
+        profile=sie.Power(8.0, 5.54565460683982)
+        + sie.Wedge(0.7253859731064591).shifted(0.39453125),
+        modulus=1.0,
+        normal_load=1.0,
+    )
+)
 def test_the_pressure_carries_the_load_and_the_moment(scene):
     solution = sie.solve(scene)
     force, moment, rounding = defects(solution)

@@ -174,6 +174,7 @@ def test_a_tiny_tilt_changes_the_answer_by_a_tiny_amount(profile, tilt):
 )
 @example(delta=2.24e-27, radius=1e-20, share=1e-10, side=1.0)
 @example(delta=4.8e-14, radius=1e-20, share=1e-17, side=-1.0)
+@example(delta=3.5789021333826587e-28, radius=4.2253384427860685e-20, share=2.88e-14, side=-1.0)
 def test_a_tiny_tilt_leaves_a_rim_that_is_thinner_than_doubles(delta, radius, share, side):
     """The edge is between the corner and the next double, where the load is 0 and far too much."""
     P = float(rounded_flat.load(half_flat=1.0, radius=radius, modulus=1.0, rim=delta))

@@ -1,0 +1,116 @@
+"""The tilt whose pressure has a given moment, by Newton's method on contacts of given tilts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+from sie.errors import ContactError, LoadError
+from sie.numerics.interval import EPS
+from sie.numerics.root_finding import Bracket
+
+from .edges import Edges, Search
+
+MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
+HUGE = 1e300  # stands for an open end of the bracket
+MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more was not carried
+
+
+def refuse_outside(
+    moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
+) -> None:
+    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or
+    beyond the indenter.
+    """
+    if window[0] < moment / load < window[1]:
+        return
+    acts = f"the moment {moment:.6g} puts the load at x = M/P = {moment / load:.6g}, "
+    if domain[0] < moment / load < domain[1]:
+        raise LoadError(
+            f"{acts}beyond [{window[0]:.6g}, {window[1]:.6g}], where the slope was resolved: "
+            "lower the moment"
+        )
+    raise LoadError(
+        f"{acts}not within the indenter ({domain[0]:.6g}, {domain[1]:.6g}): lower the moment to "
+        "below the load times that length"
+    )
+
+
+def tilt_of_moment(
+    edges_at: Callable[[float], Edges],
+    moment: float,
+    search: Search,
+    at_fixed_width: bool,
+    tilt: float,
+) -> Edges:
+    """The edges at the tilt whose pressure has the moment, by Newton's method in a bracket.
+
+    M falls as the tilt grows; the search starts at `tilt`.
+    """
+    bracket = Bracket((-math.inf, 0.0), (math.inf, 0.0))
+    edges = best = edges_at(tilt)
+    left, missed = MAX_TILTS, [math.inf, math.inf]
+    while left > 0:
+        excess = edges.moment - moment
+        if abs(excess) <= abs(best.moment - moment):
+            best = edges
+        bracket.cut((tilt, 0.0), above=excess > 0.0)
+        if abs(excess) <= 2.0 * EPS * _reach(edges):
+            break
+        falls = _fall_of_moment(edges, search, at_fixed_width)
+        missed.append(abs(excess))
+        astray = missed[-1] > 0.5 * missed[-3]  # to and fro across a part that is nearly flat
+        wanted = tilt + excess / falls if falls > 0.0 else math.inf
+        new, _ = bracket.place((wanted, 0.0), astray)
+        (low, _), (high, _) = bracket.low, bracket.high
+        settled = high - low <= 4.0 * EPS * min(max(abs(low), abs(high)), HUGE)
+        if new == tilt or settled or not math.isfinite(new):
+            break
+        tilt, tried, spent = _carried(edges_at, new, best.tilt, left)
+        left -= spent
+        if tried is None:
+            break
+        edges = tried
+    if abs(best.moment - moment) > MISSED * _reach(best):
+        raise LoadError(
+            f"the moment {moment:.6g} cannot be carried in one patch of contact: the nearest is "
+            f"{best.moment:.6g} at a tilt of {best.tilt:.6g}; lower the moment or raise the load",
+            moment=best.moment,
+            tilt=best.tilt,
+        )
+    return best
+
+
+def _carried(
+    edges_at: Callable[[float], Edges], tilt: float, known: float, most: int
+) -> tuple[float, Edges | None, int]:
+    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be
+    tilted by so much; and the tilts tried.
+    """
+    for tried in range(1, most + 1):
+        if abs(tilt - known) <= 4.0 * EPS * abs(known):
+            return tilt, None, tried
+        try:
+            return tilt, edges_at(tilt), tried
+        except ContactError:
+            tilt = 0.5 * (tilt + known)
+    return tilt, None, most
+
+
+def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
+    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes
+    too, dm/d(tilt) = -π/J0, dP/dm = G r J1.
+    """
+    r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
+    falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)
+    if at_fixed_width:
+        k = replace(search, slope=search.slope.tilted(edges.tilt)).integrals(edges.contact)
+        rise = k.JR + k.JL  # 0 where a power of x underflows, or is straight to rounding
+        falls += edges.contact.m * math.pi * G * r * (k.JR - k.JL) / rise if rise > 0.0 else 0.0
+    return falls
+
+
+def _reach(edges: Edges) -> float:
+    """The moment of the load at the farther edge: what rounding of M is relative to."""
+    return edges.normal_load * (edges.contact.r + abs(edges.contact.m))

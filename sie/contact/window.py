@@ -1,0 +1,99 @@
+"""The window on which a function's slope is resolved, fitted to the contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from sie.numerics.interval import Interval
+from sie.problem.scene import Scene
+
+# A window is refitted while it is longer than the contact by more than this factor ...
+WINDOW = 1.6
+FITTED = 1.25  # ... to the contact times this.
+WINDOW_GROWTH = 8.0
+MOST_GROWN, MOST_SHRUNK = 12, 120
+GROWS = 1.5  # a window so much wider must carry so much more, or no wider one will be tried
+WINDOW_SIZES = np.geomspace(1e-140, 1e140, 561)
+
+
+@dataclass
+class Window:
+    """The part [lo, hi] of an indenter on which its slope is resolved.
+
+    ends       the ends of the indenter
+    grown      how often the window grew, and shrunk: how often it was fitted to a contact
+    settled    whether it grew after it was fitted: then the profile is not convex, and it stays
+    carried    the largest load that the window carried when a search for the contact failed
+    """
+
+    lo: float
+    hi: float
+    ends: tuple[float, float]
+    grown: int = 0
+    shrunk: int = 0
+    settled: bool = False
+    carried: float = 0.0
+
+    @property
+    def is_open(self) -> tuple[bool, bool]:
+        """Whether each end of the window is inside the indenter."""
+        return self.lo > self.ends[0], self.hi < self.ends[1]
+
+    def may_carry_more(self, carried: float) -> bool:
+        """Whether a wider window may carry the load of which this one carries so much."""
+        before, self.carried = self.carried, carried
+        enough = not (before and carried <= GROWS * before)
+        return any(self.is_open) and self.grown < MOST_GROWN and enough
+
+    def grow(self) -> None:
+        middle, half = 0.5 * (self.lo + self.hi), 0.5 * WINDOW_GROWTH * (self.hi - self.lo)
+        self.lo, self.hi = max(middle - half, self.ends[0]), min(middle + half, self.ends[1])
+        self.grown += 1
+
+    def fitted_to(self, contact: Interval) -> bool:
+        """Whether the window fits the contact; if not, it is fitted now."""
+        length = contact.x2 - contact.x1
+        margin = 0.5 * (FITTED - 1.0) * length
+        fitted = max(contact.x1 - margin, self.ends[0]), min(contact.x2 + margin, self.ends[1])
+        stays = self.settled or self.shrunk >= MOST_SHRUNK or fitted == (self.lo, self.hi)
+        if stays or self.hi - self.lo <= WINDOW * length:
+            return True
+        self.lo, self.hi = fitted
+        self.shrunk += 1
+        return False
+
+
+def window_of(scene: Scene) -> Window:
+    """The window at which the search for the contact begins."""
+    return Window(*_first_window(scene), scene.profile.domain)
+
+
+def _first_window(scene: Scene) -> tuple[float, float]:
+    """The interval on which a search begins.
+
+    It is a little more than the contact where symmetry gives that, otherwise the domain where that
+    is finite, or a part around the break nearest to x = 0 that the load or half-width needs: a
+    contact of half-width w under slopes of the size H(w) carries about G w H(w).
+    """
+    profile = scene.profile
+    lo, hi = profile.domain
+    upright = scene.tilt == scene.epsilon == 0.0 and scene.moment is None
+    if scene.half_width is not None and profile.axis is not None and upright:
+        reach = FITTED * scene.half_width
+        return max(lo, profile.axis - reach), min(hi, profile.axis + reach)
+    if np.isfinite(lo) and np.isfinite(hi):
+        return lo, hi
+    centre = min((b for b in (*profile.breaks, lo, hi) if np.isfinite(b)), key=abs, default=0.0)
+    sizes = np.concatenate([centre + WINDOW_SIZES, centre - WINDOW_SIZES])
+    with np.errstate(invalid="ignore", over="ignore"):
+        H = profile.pieces.tilted(scene.tilt)(np.clip(sizes, lo, hi)).reshape(2, -1)
+        # A tilted profile touches first where its slope has risen to 0, on one side: both have to
+        # rise outwards
+        outwards = 0.5 * scene.Estar * WINDOW_SIZES * H * [[1.0], [-1.0]]
+        enough = [np.flatnonzero(~(force < (scene.normal_load or 0.0))) for force in outwards]
+    reaches = [float(WINDOW_SIZES[k[0]]) for k in enough if k.size]
+    given = () if scene.half_width is None else (scene.half_width,)
+    size = max((*given, *reaches), default=1.0)
+    return max(lo, centre - 4.0 * size), min(hi, centre + 4.0 * size)

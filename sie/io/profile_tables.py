@@ -1,0 +1,122 @@
+"""The profile of a scene file, from [profile], [[profile.plus]] and [[profile.of]]."""
+
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+from sie.messages import choices, nearest, shortened, suggestion
+from sie.profiles.base import Profile
+from sie.profiles.kinds import KINDS
+from sie.profiles.row import Periodic, Row
+from sie.profiles.sampled import Sampled
+
+from .scene_tables import (
+    MODIFIERS,
+    Entries,
+    Naming,
+    entries_of,
+    entries_of_file,
+    read_values,
+    require,
+)
+from .toml_values import number, table_of, text
+
+
+def profile_of(value: Any, folder: pathlib.Path) -> Profile:
+    first = dict(table_of("profile", value))
+    plus = first.pop("plus", [])
+    period = first.pop("period", None)
+    if not isinstance(plus, list) or not all(isinstance(term, dict) for term in plus):
+        raise ValueError(
+            "profile.plus is not a list of tables: "
+            "write the header [[profile.plus]], in double brackets, before each term"
+        )
+    total = _term("[profile]", first, folder)
+    for k, term in enumerate(plus, start=1):
+        total = total + _term(
+            "[[profile.plus]]" if len(plus) == 1 else f"[[profile.plus]] number {k}", term, folder
+        )
+    if period is None:
+        return total
+    with Naming("[profile]"):
+        return Periodic(total, number("period", period))
+
+
+def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+    """One term of the profile: its kind, then mirrored, tilted, shifted, raised."""
+    if table.get("kind") == "row":
+        return _row(where, dict(table), folder)
+    kind = _kind(where, table)
+    make, entries = _maker(kind, table, folder)
+    readers = {"kind": text, **entries.readers, **MODIFIERS}
+    values = read_values(where, table, readers, kind=f' of kind "{kind}"')
+    require(f'{where} of kind "{kind}"', values, entries.required)
+    given = {name: v for name, v in values.items() if name in entries.readers}
+    with Naming(where):
+        return _moved(make(**given), values)
+
+
+def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:
+    profile = profile.mirrored() if values.get("mirrored") else profile
+    moved = profile.tilted(values.get("tilted", 0.0)).shifted(values.get("shifted", 0.0))
+    return moved.raised(values.get("raised", 0.0))
+
+
+def _row(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
+    """Indenters on one holder, each a table under [[profile.of]]."""
+    indenters = table.pop("of", [])
+    tables = isinstance(indenters, list) and all(isinstance(one, dict) for one in indenters)
+    if not tables or not indenters:
+        raise ValueError(
+            f'{where} of kind "row" lacks its indenters: '
+            "write the header [[profile.of]], in double brackets, before each"
+        )
+    values = read_values(where, table, {"kind": text, **MODIFIERS}, kind=' of kind "row"')
+    profiles = [
+        _term(f"[[profile.of]] number {k}", dict(one), folder)
+        for k, one in enumerate(indenters, start=1)
+    ]
+    with Naming(where):
+        return _moved(Row(profiles), values)
+
+
+def _kind(where: str, table: dict[str, Any]) -> str:
+    if "kind" not in table:
+        meant = next((key for key in table if nearest(key, ["kind"])), "")
+        raise ValueError(
+            f'{where} has no key "{meant}": did you mean "kind"?'
+            if meant
+            else f"{where} lacks kind: give kind = {choices([*KINDS, 'row'])}"
+        )
+    kind = text(f"{where} kind", table["kind"])
+    if kind not in KINDS:
+        known = [*KINDS, "row"]
+        raise ValueError(f'{where} kind = "{kind}" is not known: {suggestion(kind, known)}')
+    return kind
+
+
+def _maker(
+    kind: str, table: dict[str, Any], folder: pathlib.Path
+) -> tuple[Callable[..., Profile], Entries]:
+    """The function that makes a profile of the kind, and its parameters; a trace may be a file."""
+    make = KINDS[kind]
+    entries, of_file = entries_of(make), entries_of_file()
+    if make is Sampled and table.keys() & (of_file.readers.keys() - entries.readers.keys()):
+        return partial(_trace, folder), of_file
+    return make, entries
+
+
+def _trace(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
+    """A trace in a file, which is named from the scene file's folder."""
+    try:
+        return Sampled.read(folder / path, **options)
+    except OSError as problem:
+        absent = isinstance(problem, FileNotFoundError)
+        why = "there is no such file" if absent else problem.strerror
+        raise ValueError(
+            f'path = "{shortened(path)}" is not read, {why}: '
+            "give the trace's file, from where the scene file is"
+        ) from None

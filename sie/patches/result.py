@@ -1,0 +1,93 @@
+"""What is measured on an answer of several patches."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+GRADING = 0.4  # parts of a panel shrink towards its ends by this factor
+LEAST = 8.0 * float(np.finfo(float).eps)
+WIDE = 79
+
+
+@dataclass(frozen=True)
+class PatchCertificate:
+    """The measured errors, relative to the peak pressure, to P and to P r.
+
+    residual          of the integral equation
+    force, moment     of equilibrium
+    lowest_pressure   the lowest bound of p over its root, relative to the largest, 0 if positive
+    patches           how many there are
+    condition         relative change of the narrowest patch per relative change of the load
+    measured_to       what the measuring sum itself may miss
+    tol               what was asked for
+    tension, overlap  intervals where p < 0 in contact, gap < 0 beside it: () if verified by bounds
+    notes             sentences
+    """
+
+    residual: float
+    force: float
+    moment: float
+    lowest_pressure: float
+    patches: int
+    condition: float
+    measured_to: float
+    tol: float
+    tension: tuple[tuple[float, float], ...] = ()
+    overlap: tuple[tuple[float, float], ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def shear(self) -> None:
+        """The measure of a shear, which is part of `residual` here."""
+
+    @property
+    def error(self) -> float:
+        """The estimated relative error of the pressure."""
+        return max(LEAST, self.residual, self.force, self.moment)
+
+    @property
+    def ok(self) -> bool:
+        allowed = max(self.tol, self.measured_to)
+        return bool(self.error <= allowed and not self.tension and not self.overlap)
+
+    def as_dict(self) -> dict[str, Any]:
+        numbers = {f.name: getattr(self, f.name) for f in fields(self)}
+        numbers |= {name: list(map(list, numbers[name])) for name in ("tension", "overlap")}
+        return numbers | {"notes": list(self.notes), "error": self.error, "ok": self.ok}
+
+    def __str__(self) -> str:
+        rows = [
+            ("patches of contact", f"{self.patches}"),
+            ("integral equation (1), residual / peak", f"{self.residual:.1e}"),
+            ("equilibrium of forces, |∫p - P| / P", f"{self.force:.1e}"),
+            ("equilibrium of moments, |∫px - M| / (P r)", f"{self.moment:.1e}"),
+            ("lowest bound of p / root, over the largest", f"{self.lowest_pressure:+.1e}"),
+            ("narrowest patch, change per change of the load", f"{self.condition:.1e}"),
+        ]
+        allowed = max(self.tol, self.measured_to)
+        verdict = f"certified to {allowed:.0e}" if self.ok else f"NOT certified to {allowed:.0e}"
+        lines = [f"{name:<48} {value:>9}" for name, value in rows]
+        promise = "p >= 0 in contact and gap >= 0 beside it hold by bounds, panel by panel."
+        return "\n".join([*lines, verdict, *textwrap.wrap(promise, WIDE), *self.notes])
+
+
+def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
+    """The first, that of the pressure, with the worst numbers of all: what a shear is made of
+    counts as well.
+    """
+    return replace(
+        found[0],
+        residual=max(c.residual for c in found),
+        force=max(c.force for c in found),
+        moment=max(c.moment for c in found),
+        condition=max(c.condition for c in found),
+        measured_to=max(c.measured_to for c in found),
+        lowest_pressure=min(c.lowest_pressure for c in found),
+        tension=tuple(v for c in found for v in c.tension),
+        overlap=tuple(v for c in found for v in c.overlap),
+    )

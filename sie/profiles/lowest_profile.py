@@ -1,0 +1,122 @@
+"""The lowest of several profiles at every place: a row of indenters has its height."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .base import Profile
+from .slope import Slope, recentred
+
+Array = NDArray[np.float64]
+Runs = list[tuple[float, float, int]]
+INF = float("inf")
+
+SAMPLES = 33  # points between two breaks at which the heights of functions are compared
+FAR = 1e6  # how far beyond the breaks two functions may cross, in lengths of what is between
+BISECTIONS = 200
+
+
+def finite_ends(profile: Profile) -> tuple[float, ...]:
+    """The ends of a profile and of its walls, without infinite ones."""
+    ends = (*profile.domain, *(x for wall in profile.walls for x in wall))
+    return tuple(x for x in ends if abs(x) < INF)
+
+
+def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
+    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there
+    is none.
+    """
+    slopes = [profile.pieces for profile in profiles]
+    ends = np.unique(
+        np.concatenate([s.breaks for s in slopes] + [finite_ends(p) for p in profiles])
+    )
+    found: Runs = []
+    for lo, hi in pairwise(ends.tolist()):
+        inner = _inner(lo, hi)
+        active = [k for k, p in enumerate(profiles) if float(p.height(inner)) < INF]
+        runs: list[Runs] = [[(lo, hi, k)] for k in active]
+        while len(runs) > 1:  # in pairs, so that few heights are compared
+            pairs = zip(runs[::2], runs[1::2], strict=False)
+            merged = [_lower(profiles, slopes, one, other) for one, other in pairs]
+            runs = merged + runs[2 * len(merged) :]
+        found += runs[0] if runs else [(lo, hi, -1)]
+    return found
+
+
+def _lower(profiles: tuple[Profile, ...], slopes: list[Slope], one: Runs, other: Runs) -> Runs:
+    """The lower of two envelopes of the same interval, all heights smooth there."""
+    found: Runs = []
+    ends = sorted({x for lo, hi, _ in one + other for x in (lo, hi)})
+    for lo, hi in pairwise(ends):
+        i, j = (next(k for a, b, k in runs if a <= lo and hi <= b) for runs in (one, other))
+        cuts = [lo, *sorted(_crossings(profiles, slopes, (i, j), lo, hi)), hi]
+        for a, b in pairwise(cuts):
+            inner = _inner(a, b)
+            k = i if float(profiles[i].height(inner)) <= float(profiles[j].height(inner)) else j
+            if found and found[-1][2] == k:
+                found[-1] = found[-1][0], b, k
+            else:
+                found.append((a, b, k))
+    return found
+
+
+def _inner(lo: float, hi: float) -> float:
+    if abs(lo) < INF and abs(hi) < INF:
+        return 0.5 * (lo + hi)
+    if abs(lo) < INF:
+        return lo + max(1.0, abs(lo))
+    return hi - max(1.0, abs(hi)) if abs(hi) < INF else 0.0
+
+
+def _crossings(
+    profiles: tuple[Profile, ...], slopes: list[Slope], pair: tuple[int, int], lo: float, hi: float
+) -> list[float]:
+    """The places between lo and hi where two profiles have the same height."""
+    one, other = pair
+    inner = _inner(lo, hi)
+    if slopes[one].functions or slopes[other].functions:
+        return _sampled_crossings(profiles[one], profiles[other], lo, hi)
+    rows = []
+    for k in (one, other):
+        piece = int(np.searchsorted(slopes[k].breaks, inner)) - 1
+        width = slopes[k].coefficients.shape[1]
+        c = recentred(slopes[k], np.array([piece]), np.array([inner]), width)[0]
+        rows.append(
+            np.concatenate(([float(profiles[k].height(inner))], c / np.arange(1, width + 1)))
+        )
+    n = max(map(len, rows))
+    difference = np.pad(rows[0], (0, n - len(rows[0]))) - np.pad(rows[1], (0, n - len(rows[1])))
+    half = 0.5 * (hi - lo)
+    if half < INF and abs(difference[0]) > np.abs(difference[1:]) @ half ** np.arange(1.0, n):
+        return []
+    if not difference.any():
+        return []
+    roots = np.roots(np.trim_zeros(difference[::-1], "f"))
+    real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots)].real + inner
+    return [float(x) for x in real if lo < x < hi]
+
+
+def _sampled_crossings(one: Profile, other: Profile, lo: float, hi: float) -> list[float]:
+    from scipy.optimize import brentq  # noqa: PLC0415
+
+    def difference(x: Any) -> Any:
+        return one.height(x) - other.height(x)
+
+    centre = _inner(lo, hi)
+    left, right = (x if abs(x) < INF else centre + side * FAR for x, side in ((lo, -1), (hi, 1)))
+    if abs(lo) < INF and abs(hi) < INF:
+        x = left + (right - left) * 0.5 * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, SAMPLES)))
+    else:
+        spread = np.geomspace(1e-3, FAR, 4 * SAMPLES)
+        x = np.concatenate((centre - spread[::-1], [centre], centre + spread))
+        x = x[(x >= left) & (x <= right)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = difference(x)
+    change = np.flatnonzero(
+        np.isfinite(values[:-1] * values[1:]) & (values[:-1] * values[1:] < 0.0)
+    )
+    return [float(brentq(difference, x[k], x[k + 1], xtol=1e-300, rtol=8.9e-16)) for k in change]
