@@ -109,8 +109,10 @@ def growing_contact(rise: Array, n: int, beta: float, friction: float, first: in
     It is flat, or its contact is found in one step, on the first cells.
     """
     grid = Grid((n + 1) / n, n + 1, beta, friction)
-    slip, sticks = np.zeros(n + 1), np.ones(0, dtype=bool)
-    p = q = np.zeros(0)
+    slip: Array = np.zeros(n + 1)
+    sticks = np.ones(0, dtype=bool)
+    p: Array = np.zeros(0)
+    q: Array = np.zeros(0)
     for m in range(first, n + 1):
         guess = np.append(sticks, np.ones(m - len(sticks), dtype=bool))
         p, q, sticks = grid.step(rise[: m + 1], slip, guess)

@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edge_integrals import Moments
+from sie.contact.edge_integrals import EdgeIntegrals
 from sie.contact.pressure import Normal
 from sie.errors import ContactError
 from sie.numerics import chebyshev
@@ -93,19 +93,19 @@ class ContactTable:
                     "approximation does not solve; give a profile that is symmetric, or smooth at "
                     "both edges"
                 )
-            whole = self.search.load(edges.contact, self.search.moments(edges.contact))
+            whole = self.search.load(edges.contact, self.search.integrals(edges.contact))
             self.corner_load = edges.normal_load - whole
         self.first_centre = 0.5 * (z1 + z2)
         self._breaks = [] if self.law else normal.slope(scene.profile).breaks.tolist()
 
-    def contact(self, r: float, near: float) -> tuple[float, Moments]:
+    def contact(self, r: float, near: float) -> tuple[float, EdgeIntegrals]:
         """The centre of the contact of half-width r, from one near to it, and its integrals."""
         if self.search.axis is not None:
             m = self.search.axis
-            return m, self.search.moments(Interval(m - r, m + r))
+            return m, self.search.integrals(Interval(m - r, m + r))
         m = near
         for _ in range(NEWTONS):
-            k = self.search.moments(Interval(m - r, m + r))
+            k = self.search.integrals(Interval(m - r, m + r))
             if not (k.JL > 0.0 and k.JR > 0.0):
                 break
             step = -2.0 * k.I0 / (k.JL + k.JR)
@@ -198,4 +198,4 @@ class ContactTable:
     @cached_property
     def _mean_pressure(self) -> float:
         contact = Interval(self.middle - self.end, self.middle + self.end)
-        return self.search.load(contact, self.search.moments(contact)) / self.end
+        return self.search.load(contact, self.search.integrals(contact)) / self.end
