@@ -217,3 +217,9 @@ def test_scene_file_takes_the_coupling():
         friction = 0.1
     """
     assert parse(text).scene == solved().scene
+
+
+def test_plan_says_that_the_coupling_is_left_out():
+    steps = {step.name: step for step in sie.plan(solved().scene, want="shear").steps}
+    assert "Goodman" in steps["coupling"].reason and not steps["coupling"].run
+    assert steps["slip"].run and not steps["corrective"].run
