@@ -32,7 +32,7 @@ from sie.traction.base import Complex, Density, on_line
 from sie.traction.combination import Combination
 
 from .coupled_profile import NEAREST, _graded
-from .coupled_traction import CoupledTraction, resolved_panels
+from .coupled_traction import CoupledTraction, on_panels, resolved_panels
 from .goodman_functions import GoodmanFlat, goodman_flat
 from .goodman_growth import ContactTable
 from .goodman_shear import GoodmanGrowth
@@ -312,10 +312,20 @@ class GoodmanSlip(Slip):
         else:
             x = (x2 if frame.side > 0.0 else x1) - frame.side * distance
             f_p = self.friction * frame.edge.pressure(distance)
-        q = self.along * self.normal_shear(np.clip(x, x1, x2))
+        q = self.along * self._tabulated_shear(np.clip(x, x1, x2))
         against = (x <= c1) if self.along > 0.0 else (x >= c2)
         d: Array = np.where(against, 2.0 * f_p, f_p - np.where(np.isfinite(q), q, 0.0))
         return np.maximum(d, 0.0)
+
+    def _tabulated_shear(self, x: Array) -> Array:
+        """`normal_shear` from the series of its parts: the zones are looked for in many steps."""
+        y = x - self.contact.m
+        total = np.zeros(x.shape)
+        for factor, part in self.shear.parts.terms:
+            assert isinstance(part, CoupledTraction)
+            values = factor * on_panels(part.panels, np.abs(y))
+            total += np.where(y < 0.0, part.parity * values, values)
+        return self.sign * total
 
     @property
     def frames(self) -> tuple[tuple[DeficitFrame, DeficitFrame], Interval]:
