@@ -28,6 +28,7 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
+from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact, coupled_contact
 from .friction.coupled_traction import CoupledTraction
 from .friction.coverage import refuse_uncovered
@@ -227,7 +228,8 @@ class Solution:
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
         if self.scene.goodman:
-            return goodman_slip(self.load_step(self.scene.tangential_load, 0.0))
+            growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
+            return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         if self._several is not None:
             return PatchSlip(self.scene, self._several, *self._loads)
         return slip(self.load_step(*self._loads))

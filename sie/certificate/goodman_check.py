@@ -14,7 +14,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.goodman import GoodmanSlip
+from sie.friction.states import GrownSlip
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval
 
@@ -29,7 +29,7 @@ NODES, RATIO, LEVELS = 12, 3.0, 17  # panels towards a mark, in the root of the 
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 
 
-def goodman_certificate(state: GoodmanSlip, kind: str, tol: float) -> ShearCertificate:
+def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertificate:
     """Measured on a state and on that under a lighter load; `kind` says what is neglected."""
     pressure, (term,) = state.step.pressure, _terms(state)
     x, weight = term.rule.x, term.rule.weight
@@ -58,7 +58,7 @@ def goodman_certificate(state: GoodmanSlip, kind: str, tol: float) -> ShearCerti
     )
 
 
-def _terms(state: GoodmanSlip) -> list[Term]:
+def _terms(state: GrownSlip) -> list[Term]:
     contact = state.contact
     if any(state.step.normal.edges.sharp):
         x1, x2 = state.step.pressure.interval

@@ -17,7 +17,6 @@ Goodman (1962), J. Appl. Mech. 29, 515.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -34,11 +33,11 @@ from sie.traction.combination import Combination
 from .coupled_profile import NEAREST, _graded
 from .coupled_traction import CoupledTraction, on_panels, resolved_panels
 from .goodman_functions import GoodmanFlat, goodman_flat
-from .goodman_growth import ContactTable
+from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
 from .load_limit import refuse_sliding
 from .slip_zones import Drive, EdgeFrame, SlipZone, SlipZones, edge_frame, slip_zones
-from .states import Slip, Step
+from .states import GrownSlip, Step
 
 Array = NDArray[np.float64]
 
@@ -159,7 +158,7 @@ class GoodmanShear(Density):
 
 
 @dataclass(frozen=True, eq=False)
-class GoodmanSlip(Slip):
+class GoodmanSlip(GrownSlip):
     """The state after the normal load, and Q at constant P."""
 
     step: Step
@@ -227,17 +226,17 @@ class GoodmanSlip(Slip):
         return max(lo, c1), min(hi, c2)
 
     @cached_property
-    def lighter(self) -> GoodmanSlip | None:
+    def lighter(self) -> GoodmanSlip | None:  # type: ignore[override]
         """The state under LIGHTER of the load, where that is another contact."""
         if not self.table.panels:
             return None
         step = self.step
         found = step.contact_under(LIGHTER * step.normal_load, step.normal.edges.tilt)
         before = replace(step, normal=found, pressure=step.pressure_on(found), Q=0.0)
-        return goodman_slip(before)
+        return goodman_slip(before, self.table.search)
 
     @cached_property
-    def marks(self) -> tuple[float, ...]:
+    def marks(self) -> tuple[float, ...]:  # type: ignore[override]
         """Places where q is not smooth, with the edges."""
         (x1, x2), m, k = self.step.pressure.interval, self.contact.m, self.flat.k
         places = {*self.stick[0], *self.normal_stick}
@@ -415,13 +414,17 @@ class GoodmanSlip(Slip):
         return total / self.table.search.half_modulus
 
 
-def goodman_slip(step: Step, economy: Collection[str] | None = None) -> GoodmanSlip:
-    """The state of a scene's contact after P and Q; ContactError where it is not solved."""
+def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
+    """The state of a scene's contact after P and Q; ContactError where it is not solved.
+
+    `search` finds contacts of the same slope up to this one.
+    """
     scene = step.scene
     if step.Q:
         refuse_sliding(scene.friction, step.normal_load, step.Q)
         _refuse_corner(step)
-    table = ContactTable(scene, step.normal, step.economy if economy is None else economy)
+    law = scene.profile.power_law
+    table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law)
     state = GoodmanSlip(step, goodman_flat(abs(scene.beta), scene.friction), table)
     _ = state.sides
     return state.under_tangential_load() if step.Q else state

@@ -13,21 +13,19 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import EdgeIntegrals
-from sie.contact.pressure import Normal
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
-from sie.problem.scene import Scene
+from sie.profiles.power_law import PowerLaw
 
-from .contact_growth import ContactGrowth
 from .coupled_functions import chopped, summed
 
 Array = NDArray[np.float64]
@@ -68,6 +66,35 @@ class Panel:
         return summed(self.centre, self._place(ahead))
 
 
+class Search(Protocol):
+    """The search for contacts of one profile, as far as its growth needs it."""
+
+    half_modulus: float
+    axis: float | None
+
+    def touch(self) -> tuple[float, float]: ...
+
+    def integrals(self, contact: Interval) -> EdgeIntegrals: ...
+
+    def load(self, contact: Interval, k: EdgeIntegrals) -> float: ...
+
+
+class Edge(Protocol):
+    """The contact under the load, which edges are sharp, P and the tilt."""
+
+    @property
+    def contact(self) -> Interval: ...
+
+    @property
+    def sharp(self) -> tuple[bool, bool]: ...
+
+    @property
+    def normal_load(self) -> float: ...
+
+    @property
+    def tilt(self) -> float: ...
+
+
 class ContactTable:
     """The contacts of a scene's profile, at the tilt of a normal contact, up to that contact.
 
@@ -76,14 +103,15 @@ class ContactTable:
     corner_load             what the corners at both ends of a contact carry that no longer grows
     """
 
-    def __init__(self, scene: Scene, normal: Normal, economy: Collection[str]) -> None:
-        edges = normal.edges
-        self.search = ContactGrowth(scene, normal, economy).search
+    def __init__(
+        self, search: Search, edges: Edge, breaks: list[float], law: PowerLaw | None
+    ) -> None:
+        self.search = search
         self.middle, self.end = edges.contact.m, edges.contact.r
         z1, z2 = self.search.touch()
         self.start = min(0.5 * (z2 - z1), self.end)
         upright = edges.tilt == 0.0 and self.search.axis is not None
-        self.law = scene.profile.power_law if upright else None
+        self.law = law if upright else None
         self.corner_load = 0.0
         if any(edges.sharp):
             if self.search.axis is None:
@@ -96,7 +124,7 @@ class ContactTable:
             whole = self.search.load(edges.contact, self.search.integrals(edges.contact))
             self.corner_load = edges.normal_load - whole
         self.first_centre = 0.5 * (z1 + z2)
-        self._breaks = [] if self.law else normal.slope(scene.profile).breaks.tolist()
+        self._breaks: list[float] = [] if self.law else breaks
 
     def contact(self, r: float, near: float) -> tuple[float, EdgeIntegrals]:
         """The centre of the contact of half-width r, from one near to it, and its integrals."""
