@@ -17,10 +17,9 @@ from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.full_stick_check import full_stick_certificate
-from .certificate.goodman_check import goodman_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
-from .certificate.shear_check import shear_certificate
+from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap

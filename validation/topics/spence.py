@@ -17,7 +17,7 @@ import numpy as np
 import sie
 from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
-from sie.certificate.goodman_check import goodman_certificate
+from sie.certificate.shear_check import goodman_certificate
 from sie.friction.goodman import GoodmanSlip
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Map, Record, Table
