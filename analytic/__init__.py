@@ -5,7 +5,7 @@ Each module is one indenter under one kind of load:
 
     hertz, flat, rounded_flat, wedge, power               pressed without friction, or bodies alike
     two_flats, two_parabolas                              two patches, one load
-    wavy, flat_row                                        a row of contacts that repeats
+    wavy, flat_row, parabola_row                          a row of contacts that repeats
     sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
     bonded_flat                                           no slip at all, dissimilar bodies
     cattaneo, cattaneo_rounded                            partial slip, bodies alike
@@ -69,6 +69,7 @@ from analytic import (
     goodman,
     hertz,
     interior,
+    parabola_row,
     periodic,
     power,
     rounded_flat,
@@ -93,6 +94,7 @@ __all__ = [
     "goodman",
     "hertz",
     "interior",
+    "parabola_row",
     "periodic",
     "power",
     "rounded_flat",

@@ -30,13 +30,17 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from .contact.inequalities import slope_rises
 from .contact.pressure import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation, dissipated
 from .friction.memory import SlippedLayer, direction, turning_points
-from .friction.partial_slip import slip
 from .friction.states import OneSignedSlip, Slip
 from .numerics.interval import EPS, Interval
+from .numerics.zones import left_over, within
+from .patches.answer import SeveralPatches
+from .patches.dissipation import PatchDissipation, Untouched
+from .patches.full import FullContact
 from .problem.load_path import Path
 from .problem.request import ECONOMY
 from .problem.scene import Scene, refuse_no_scene
@@ -146,7 +150,9 @@ class History(Sequence[Solution]):
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self.unit = direction(path)
         self.turning_points = turning_points(scene, path)
+        self.largest = max(P for P, _, _ in path.points)
         self._plain: dict[float, Solution] = {}
+        self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
         self._first_loadings: dict[tuple[float, float], Slip] = {}
         self._points: dict[int, PathSolution] = {}
         self._energy: list[float] = []
@@ -179,6 +185,13 @@ class History(Sequence[Solution]):
             self._plain[P] = Solution(replace(self.scene, normal_load=P), self.tol, self.economy)
         return self._plain[P]
 
+    def under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
+        """The contact in several patches under a load at a tilt."""
+        if (load, tilt) not in self._in_patches:
+            any_load = self.plain(self.largest)
+            self._in_patches[load, tilt] = any_load.patches_under(load, tilt)
+        return self._in_patches[load, tilt]
+
     def first_loading(self, P: float, depth: float) -> Slip:
         """The state of the contact under P that never slipped, after the loads depth × unit."""
         key = (P, depth)
@@ -188,11 +201,31 @@ class History(Sequence[Solution]):
             if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
                 Q = math.copysign(f * P, Q)
             near = self._known.setdefault(P, KnownZones())
-            found = slip(plain.load_step(Q, sigma * self._tau, near.guess(depth)))
+            found = plain.first_loading((Q, sigma * self._tau), self.under, near.guess(depth))
             if isinstance(found, OneSignedSlip):
                 near.add(depth, found.found.edges.contact)
             self._first_loadings[key] = found
         return self._first_loadings[key]
+
+    @property
+    def period(self) -> float:
+        return self.scene.profile.period
+
+    @cached_property
+    def in_one_patch(self) -> bool:
+        """Whether the contact is one patch under every load of the path, by a slope that rises."""
+        plain = self.plain(self.largest)
+        if not isinstance(plain.normal, Normal):
+            return False
+        slope = plain.normal.slope(self.scene.profile)
+        return self.scene.profile.convex or slope_rises(plain.slope_density, slope)
+
+    def patches(self, P: float) -> tuple[tuple[float, float], ...]:
+        """The patches of contact under P."""
+        if not self.in_one_patch:
+            return self.under(P, self.plain(self.largest).tilt).patches
+        contact = self.dissipation.contacts.contact(P).interval
+        return ((contact.x1, contact.x2),)
 
     def rows(self) -> list[dict[str, Any]]:
         """For files: the loads of each point, its stick zones, and the energy dissipated up to
@@ -235,7 +268,8 @@ class History(Sequence[Solution]):
                 self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
                 for P, o in zip(loads, layers, strict=True)
             ]
-        return self.dissipation.of_fronts(loads, layers, self.scene.friction).tolist()
+        of_fronts = (self.dissipation if self.in_one_patch else self.work_in_patches).of_fronts
+        return of_fronts(loads, layers, self.scene.friction).tolist()
 
     def _depth_energy(self, P: float, depth: float) -> float:
         return dissipated(self.first_loading(P, depth)) if depth else 0.0
@@ -245,10 +279,23 @@ class History(Sequence[Solution]):
         """The dissipated energy, and the contacts under all loads of the path."""
         return Dissipation(
             self.scene,
-            self.plain(max(P for P, _, _ in self.path.points)).as_one_patch,
+            self.plain(self.largest).as_one_patch,
             self.tol,
             self.economy,
         )
+
+    @cached_property
+    def work_in_patches(self) -> PatchDissipation:
+        """The dissipated energy where the contact is not one patch under every load."""
+        widest = self.plain(self.largest).in_patches
+
+        def under(P: float) -> SeveralPatches | FullContact | Untouched:
+            tilt = widest.edges.tilt
+            if P > 0.0:
+                return self.under(P, tilt)
+            return Untouched(self.scene.profile, tilt, widest.patches)
+
+        return PatchDissipation(under, self.largest, self.period)
 
 
 class KnownZones:
@@ -300,12 +347,20 @@ class PathSolution(Solution):
         return replace(plain, normal_load=P, tangential_load=Q, bulk_stress=sigma) if P else plain
 
     @cached_property
-    def normal(self) -> Normal:
-        return self.history.plain(self.history.turning_points[self.index].loads[0]).as_one_patch
+    def normal(self) -> Normal | SeveralPatches | FullContact:
+        return self._plain.normal
+
+    @cached_property
+    def in_patches(self) -> SeveralPatches | FullContact:
+        return self._plain.in_patches
 
     @cached_property
     def pressure(self) -> SlopeDensity:
-        return self.history.plain(self.history.turning_points[self.index].loads[0]).slope_density
+        return self._plain.slope_density
+
+    @property
+    def _plain(self) -> Solution:
+        return self.history.plain(self.history.turning_points[self.index].loads[0])
 
     @property
     def sheared(self) -> bool:
@@ -379,7 +434,11 @@ class PathSlip(Slip):
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
-        return self.history.plain(self.P).normal.edges.contact
+        return self._plain.normal.edges.contact
+
+    @property
+    def _plain(self) -> Solution:
+        return self.history.plain(self.P)
 
     @property
     def _terms(self) -> list[tuple[float, Slip]]:
@@ -401,7 +460,7 @@ class PathSlip(Slip):
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         now = self._now
-        return ((self.contact.x1, self.contact.x2),) if now is None else now.stick
+        return self._plain.patches if now is None else now.stick
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
@@ -423,11 +482,9 @@ class PathSlip(Slip):
                     self.P - depth / self.friction
                     for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
                 )
-                outer, inner = (
-                    self.history.dissipation.contacts.contact(load).interval
-                    for load in (start, end)
-                )
-                zones += [(outer.x1, inner.x1, gone.sign), (inner.x2, outer.x2, gone.sign)]
+                outer, inner = (self.history.patches(load) for load in (start, end))
+                left = left_over(outer, inner, self.history.period)
+                zones += [(lo, hi, gone.sign) for lo, hi in left]
         return tuple(zones)
 
     @property
@@ -452,18 +509,17 @@ class PathSlip(Slip):
             return ZERO
         if len(terms) == 1 and terms[0][0] == 1.0:
             return terms[0][1].shear
-        full = 0.0
+        full = 0.0  # times the pressure, which is taken once
         rest: list[tuple[float, Density]] = []
         for weight, loading in terms:
-            if (
-                isinstance(loading, OneSignedSlip) and loading.short is None
-            ):  # the pressure is the first term of all differences, and is taken once
-                scale = weight * loading.sign * loading.friction
-                full += scale
-                rest.append((-scale, loading.corrective))
-            else:
-                rest.append((weight, loading.shear))
-        return superposed((full, self.history.plain(self.P).slope_density), *rest)
+            scale, others = loading.parts
+            full += weight * scale
+            rest += [(weight * factor, density) for factor, density in others]
+        return superposed((full, self._plain.pressure), *rest)
+
+    @property
+    def contacts(self) -> tuple[Any, ...]:
+        return tuple(contact for _, loading in self._terms for contact in loading.contacts)
 
     def slip(self, x: Array) -> Array:
         """Relative slip since x came into contact."""
@@ -487,9 +543,7 @@ class PathSlip(Slip):
     def _touches(self, x: Array, P: float) -> NDArray[np.bool_]:
         if P == 0.0:
             return np.zeros(x.shape, dtype=bool)
-        x1, x2 = self.history.plain(P).edges
-        touches: NDArray[np.bool_] = (x >= x1) & (x <= x2)
-        return touches
+        return within(x, self.history.plain(P).patches, self.history.period)
 
     def _refuse_new(self, x: Array, index: int, P0: float, P: float) -> None:
         new = self._touches(x, P) & ~self._touches(x, P0)

@@ -18,7 +18,9 @@ TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
 SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
 OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation")
 STAGES = {
-    **dict.fromkeys(("unverified", "density", "inequalities", "normal", "pressure"), NORMAL),
+    **dict.fromkeys(
+        ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
+    ),
     **dict.fromkeys(OF_SHEAR, SHEAR),
 }
 

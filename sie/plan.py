@@ -186,6 +186,9 @@ def _certificate(stages: set[str]) -> Step:
 
 
 def _resolution(scene: Scene, economy: Collection[str]) -> Step:
+    if asks_for_patches(scene.profile) and scene.profile.pieces.functions:
+        how = "the slope is a function: pieces of Chebyshev series where contact is possible"
+        return Step("resolution", True, how)
     if upright_law(scene, economy) is not None:
         return Step("resolution", False, "the slope is a power law: known exactly")
     if scene.profile.pieces.functions:
@@ -209,6 +212,8 @@ def _edges(scene: Scene, economy: Collection[str]) -> str:
 
 
 def _symmetry(scene: Scene, economy: Collection[str]) -> Step:
+    if asks_for_patches(scene.profile):
+        return Step("symmetry", False, "the edges of all patches are unknown")
     tilted = scene.tilt != 0.0
     if scene.profile.axis is None or tilted or scene.epsilon or "symmetry" not in economy:
         reasons = (
@@ -256,6 +261,8 @@ def _pressure(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
 
 
 def _expansion(scene: Scene, economy: Collection[str]) -> str:
+    if asks_for_patches(scene.profile):
+        return "values of the slope on all patches, summed: no unknown but the edges"
     if scene.epsilon:
         return "exact panels with the edges' exponents"
     if "transform" not in economy:
@@ -298,6 +305,8 @@ def _coupling(scene: Scene) -> Step:
 
 def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     one_way = "zones of stick and slip for Q at constant P, slip in one direction"
+    if asks_for_patches(scene.profile):
+        one_way += " on all patches"
     either = "zones of stick and slip for Q and σ in proportion: one direction or two, by the"
     cases = (
         (scene.friction == 0.0, "f = 0: there is no shear traction"),

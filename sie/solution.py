@@ -20,7 +20,7 @@ from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
-from .certificate.trace_noise import TraceReport, trace_reports
+from .certificate.trace_noise import TraceReport, patch_trace_reports, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
@@ -40,7 +40,7 @@ from .friction.states import Slip, Step
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
-from .patches.friction import PatchSlip
+from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
 from .problem.material import Elastic
@@ -134,10 +134,29 @@ class Solution:
         if isinstance(found, Normal):
             return found
         raise ContactError(
-            f"contact in {len(found.patches)} patches: load paths and cycles are covered for one "
-            "patch only; give tangential_load and bulk_stress of one step, or a load under which "
-            "the patches have merged"
+            f"contact in {len(found.patches)} patches: this is covered for one patch only; give a "
+            "load under which the patches have merged"
         )
+
+    @cached_property
+    def in_patches(self) -> SeveralPatches | FullContact:
+        """The contact as one in several patches, though it may be in one."""
+        return self._several or self.patches_under(self.normal_load, self.tilt)
+
+    def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
+        """The contact of the same profile under another load and tilt, in several patches."""
+        plain = replace(
+            self.scene,
+            normal_load=load,
+            half_width=None,
+            tilt=tilt,
+            moment=None,
+            friction=0.0,
+            tangential_load=0.0,
+            sliding=0,
+            bulk_stress=0.0,
+        )
+        return several_patches(plain)
 
     @property
     def _several(self) -> SeveralPatches | FullContact | None:
@@ -229,9 +248,23 @@ class Solution:
         if self.scene.goodman:
             growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
             return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
-        if self._several is not None:
-            return PatchSlip(self.scene, self._several, *self._loads)
-        return slip(self.load_step(*self._loads))
+        return self.first_loading(self._loads, self.patches_under)
+
+    def first_loading(
+        self, loads: tuple[float, float], under: PatchesUnder, near: Interval | None = None
+    ) -> Slip:
+        """The state after Q and τ on this contact without shear; `under` gives it under other
+        loads and tilts, `near` is as of `load_step`.
+        """
+        if self._several is None:
+            try:
+                return slip(self.load_step(*loads, near))
+            except (InequalityError, LoadError):  # the stick zones may be several
+                if self.scene.profile.convex:
+                    raise
+        state = PatchSlip(self.scene, self.in_patches, loads, under)
+        _ = state.corrective
+        return state
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
         """The load Q and the strain τ on this contact of one patch; `near` is a stick zone that may
@@ -258,11 +291,9 @@ class Solution:
             )
         if self.scene.coupled:
             return coupled_certificate(self.coupled[1], self.scene, self.tol)
-        if self._several is not None:
-            stages = [self._several]
-            if self.sheared and isinstance(self.tangential, PatchSlip):
-                stages += [self.tangential.corrective] if self.tangential.corrective else []
-            return worst_of([stage.certificate(self.tol) for stage in stages])
+        others = self.tangential.contacts if self.sheared else ()
+        if others or self._several is not None:
+            return worst_of([c.certificate(self.tol) for c in (self.in_patches, *others)])
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
@@ -306,6 +337,19 @@ class Solution:
     def patch_loads(self) -> tuple[float, ...]:
         """∫p over each patch, force per length."""
         return (self.normal_load,) if self._several is None else self._several.pressure.loads
+
+    @property
+    def contact_length(self) -> float:
+        """The real length of contact, of all patches together; per period that of one period."""
+        return sum(x2 - x1 for x1, x2 in self.patches)
+
+    @property
+    def gap_volume(self) -> float:
+        """∫ of the gap between the patches, or over one period, where there is an indenter: what a
+        fluid would fill, volume per length of the line of contact.
+        """
+        several = self._several
+        return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
 
     @property
     def half_width(self) -> float:
@@ -663,7 +707,10 @@ class Solution:
         tuple of TraceReport
             One for each trace, () if the profile has none.
         """
-        if self.scene.bonded or self.scene.coupled or self._several is not None:
+        several = self._several
+        if isinstance(several, SeveralPatches):
+            return patch_trace_reports(self.scene, several.edges, several)
+        if self.scene.bonded or self.scene.coupled or several is not None:
             return ()
         return trace_reports(self.scene, self.as_one_patch, self.slope_density)
 

@@ -15,6 +15,7 @@ from analytic._core.parameters import MEANING
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
+BARBER = "J. R. Barber, Contact Mechanics (2018)"
 CIAVARELLA = (
     "M. Ciavarella, D. A. Hills and G. Monno, The influence of rounded edges on indentation by a "
     "flat punch (1998)"

@@ -30,17 +30,21 @@ and the radius of the stylus are not covered.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.edges import Edges
 from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
+from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene
+from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
 from sie.profiles.placed_traces import PlacedTrace, traces_in
+from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import slope_deviations
 from sie.profiles.trace_values import Mended
@@ -54,6 +58,7 @@ FEWEST_NODES, MOST_NODES = 128, 1024  # of the slope's error; beyond, roughness 
 NODES_PER_POINT = 2.0
 INNER = 0.9  # of the contact
 NEAR_EDGE = 0.1  # θ at which κ is taken: 0.005 r from the edge
+DRAWS = 6  # of the noise, on several patches
 NAMED = 3  # outliers or gaps that a row names
 
 
@@ -82,6 +87,8 @@ class TraceReport:
     inner_error         the same over the inner 90 % of the contact; next to an edge that moves by e
                         the pressure changes as sqrt(e)
     edge_errors         of x1 and x2, from the same; 0 for a corner of the indenter
+    unsure_patches      of several patches, those of which an edge moves by more than half of their
+                        width
     """
 
     points: int
@@ -97,6 +104,7 @@ class TraceReport:
     pressure_error: float
     inner_error: float
     edge_errors: tuple[float, float]
+    unsure_patches: int = 0
 
     def as_dict(self) -> dict[str, Any]:
         pairs = {"outliers": list(map(list, self.outliers)), "edge_errors": list(self.edge_errors)}
@@ -134,6 +142,8 @@ class TraceReport:
             "any"
         )
         rows += [] if self.separated else [("", taken)]
+        unsure = f"of {self.unsure_patches} patches an edge moves by more than half of their width"
+        rows += [("", unsure)] if self.unsure_patches else []
         return "\n".join(f"{name:<15} {text}" for name, text in rows)
 
 
@@ -144,20 +154,64 @@ def _listed(shown: Iterable[str], count: int, after: str = "") -> str:
 
 def trace_reports(scene: Scene, normal: Normal, density: SlopeDensity) -> tuple[TraceReport, ...]:
     """A report for each trace in the profile of a scene that was solved."""
-    return tuple(_report(placed, scene, normal, density) for placed in traces_in(scene.profile))
+    found = []
+    for placed in traces_in(scene.profile):
+        reference = placed.trace.reference(_extent(placed, normal.edges.contact))
+        errors = _errors(placed, reference, scene, normal, density)
+        found.append(_report(placed, normal.edges, reference, errors))
+    return tuple(found)
+
+
+def patch_trace_reports(scene: Scene, edges: Edges, several: Answer) -> tuple[TraceReport, ...]:
+    """A report for each trace in the profile of a scene with several patches of contact.
+
+    The error of the reference is drawn: noise of its misfit, smoothed as the reference is.
+    """
+    return tuple(
+        _patch_report(placed, scene, edges, several) for placed in traces_in(scene.profile)
+    )
+
+
+def _patch_report(placed: PlacedTrace, scene: Scene, edges: Edges, several: Answer) -> TraceReport:
+    trace, period = placed.trace, scene.profile.period
+    ends = float(trace.points[0]), float(trace.points[-1])
+    reference = trace.reference(ends if period < np.inf else _extent(placed, edges.contact))
+    x, noise = reference.points, reference.misfit
+    known = trace.height(trace.points) - reference.height(np.clip(trace.points, x[0], x[-1]))
+    draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
+    errors = changes(
+        several,
+        _set(Sampled(trace.points, known), placed, period),
+        [_set(Sampled(x, draw, reference.lam), placed, period) for draw in draws],
+        SPREAD,
+        scene.moment is not None,
+    )
+    report = _report(placed, edges, reference, errors)
+    return replace(report, aside=report.aside and period == np.inf)
+
+
+def _set(error: Sampled, placed: PlacedTrace, period: float) -> Profile:
+    """An error of a trace where the trace stands in the profile."""
+    mirrored = placed.direction < 0.0
+    turned = error.mirrored() if mirrored else error
+    moved = turned.shifted(placed.origin if mirrored else -placed.origin)
+    return Periodic(moved, period) if period < np.inf else moved
+
+
+def _extent(placed: PlacedTrace, contact: Interval) -> tuple[float, float]:
+    """The ends of the contact in the trace."""
+    lo, hi = sorted(placed.origin + placed.direction * end for end in (contact.x1, contact.x2))
+    return lo, hi
 
 
 def _report(
-    placed: PlacedTrace, scene: Scene, normal: Normal, density: SlopeDensity
+    placed: PlacedTrace, edges: Edges, reference: Sampled, errors: Errors | PatchErrors
 ) -> TraceReport:
-    trace, contact = placed.trace, normal.edges.contact
+    trace, contact = placed.trace, edges.contact
     x = placed.x(trace.points)
-    tilt = placed.direction * trace.line[1] + placed.tilt + normal.edges.tilt
+    tilt = placed.direction * trace.line[1] + placed.tilt + edges.tilt
     middle = 0.5 * float(x[0] + x[-1])
-    lo, hi = sorted(placed.origin + placed.direction * end for end in (contact.x1, contact.x2))
-    reference = trace.reference((lo, hi))
     over = trace.heights - reference.height(trace.points)
-    errors = _errors(placed, reference, scene, normal, density)
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
@@ -172,6 +226,7 @@ def _report(
         pressure_error=errors.pressure,
         inner_error=errors.inner,
         edge_errors=errors.edges,
+        unsure_patches=getattr(errors, "unsure", 0),
     )
 
 

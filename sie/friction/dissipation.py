@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edges import Found
+from sie.contact.inequalities import slope_rises
 from sie.contact.pressure import Normal, pressure
 from sie.errors import LoadError
 from sie.numerics import chebyshev
@@ -76,8 +77,8 @@ def dissipated(state: Slip) -> float:
     if not isinstance(state, Slipping):
         return 0.0
     step = state.step
-    if step.tau:
-        return state.work
+    if step.tau or not (step.scene.profile.convex or slope_rises(step.pressure, step.slope)):
+        return state.work  # a smaller load need not touch in one patch
     heat = Dissipation(step.scene, step.normal, step.tol, step.economy)
     fronts = [SlippedLayer(0.0, abs(step.Q), 1.0)]
     return float(heat.of_fronts([step.normal_load], fronts, state.friction)[0])

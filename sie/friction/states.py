@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,18 @@ class Slip(ABC):
     @property
     @abstractmethod
     def shear(self) -> Density: ...
+
+    @property
+    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
+        """q as a multiple of the pressure and the other densities, each times a factor."""
+        return 0.0, ((1.0, self.shear),)
+
+    @property
+    def contacts(self) -> tuple[Any, ...]:
+        """The contacts in several patches, beside that of the pressure, that the shear is made
+        of.
+        """
+        return ()
 
     @abstractmethod
     def slip(self, x: Array) -> Array:
@@ -373,6 +386,13 @@ class OneSignedSlip(Slipping):
         return OneSignedShear(
             self.pressure, self.corrective, self.sign * self.friction, self.step.Q, self.short
         )
+
+    @property
+    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
+        if self.short is not None:
+            return super().parts
+        scale = self.sign * self.friction
+        return scale, ((-scale, self.corrective),)
 
     @property
     def signs(self) -> tuple[float, float]:

@@ -9,7 +9,8 @@ JSON always holds
     sie, title, units {length, force, stress, moment}
     scene (the code that rebuilds it), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
-    patches [[x1, x2], ..], patch_loads [number, ..], where there are several
+    patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
+    several patches
 
 and, where they are wanted,
 
@@ -26,7 +27,7 @@ and, where they are wanted,
     traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
                  outliers [[x, off], ..], gaps [{lo, hi, missing}, ..],
                  mended {left_out, averaged, sorted}, tilt, aside,
-                 pressure_error, inner_error, edge_errors [x1, x2]}, ..]
+                 pressure_error, inner_error, edge_errors [x1, x2], unsure_patches}, ..]
 
 Floats are written as `repr` writes them, so that nothing is lost. JSON has no infinity: it is the
 string "Infinity" or "-Infinity", which Python's float(), NumPy and JavaScript's Number() read as
@@ -136,11 +137,16 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def _patches(solution: Solution) -> dict[str, Any]:
-    """The patches [[x1, x2], ..] and their loads, where there are several."""
+    """The patches [[x1, x2], ..], their loads, length and gaps, where there are several."""
     if len(solution.patches) < 2:
         return {}
     patches = [list(patch) for patch in solution.patches]
-    return {"patches": patches, "patch_loads": list(solution.patch_loads)}
+    return {
+        "patches": patches,
+        "patch_loads": list(solution.patch_loads),
+        "contact_length": solution.contact_length,
+        "gap_volume": solution.gap_volume,
+    }
 
 
 def _gap(solution: Solution, points: int) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from sie.profiles.sampled import Sampled
 
 from .scene_tables import (
     MODIFIERS,
+    TREATMENTS,
     Entries,
     Naming,
     entries_of,
@@ -51,12 +52,22 @@ def _term(where: str, table: dict[str, Any], folder: pathlib.Path) -> Profile:
         return _row(where, dict(table), folder)
     kind = _kind(where, table)
     make, entries = _maker(kind, table, folder)
-    readers = {"kind": text, **entries.readers, **MODIFIERS}
+    treatments = TREATMENTS if KINDS[kind] is Sampled else {}
+    readers = {"kind": text, **entries.readers, **treatments, **MODIFIERS}
     values = read_values(where, table, readers, kind=f' of kind "{kind}"')
     require(f'{where} of kind "{kind}"', values, entries.required)
     given = {name: v for name, v in values.items() if name in entries.readers}
     with Naming(where):
-        return _moved(make(**given), values)
+        return _moved(_treated(make(**given), values), values)
+
+
+def _treated(profile: Profile, values: Mapping[str, Any]) -> Profile:
+    """A trace without its outliers, and level, where the table asks for that."""
+    if not isinstance(profile, Sampled):
+        return profile
+    trace = profile.without_outliers() if values.get("without_outliers") else profile
+    level = values.get("levelled", False)
+    return (trace.levelled() if level is True else trace.levelled(level)) if level else trace
 
 
 def _moved(profile: Profile, values: Mapping[str, Any]) -> Profile:

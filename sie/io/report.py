@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from .scene_file import SceneFile, Units
 
 SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncertain by as much
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
+MANY_ZONES = 8  # so many zones of stick or slip are listed
 COLUMNS, ROWS = 60, 8  # of the text picture
 
 
@@ -65,11 +67,18 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
     loads = solution.patch_loads
     most = max(range(len(patches)), key=lambda k: loads[k])
     lo, hi = (_number(x, solution.half_width) for x in patches[most])
-    length = sum(b - a for a, b in patches)
+    length, period = solution.contact_length, solution.scene.profile.period
+    whole = period if math.isfinite(period) else 2.0 * solution.half_width
+    of_what = "of the period" if math.isfinite(period) else "from x1 to x2"
     share = 100.0 * loads[most] / solution.normal_load
     return (
-        ("patches", f"{len(patches)}, together {_number(length)} {units.length} long"),
+        ("patches", f"{len(patches)}"),
+        (
+            "in contact",
+            f"{_number(length)} {units.length}, {100.0 * length / whole:.3g} % {of_what}",
+        ),
         ("largest share", f"{share:.3g} % of the load on [{lo}, {hi}] {units.length}"),
+        ("gap volume", f"{_number(solution.gap_volume)} {units.length}² between them"),
     )
 
 
@@ -79,7 +88,7 @@ def pressure_summary(solution: Solution, units: Units) -> str:
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
-    mean = solution.normal_load / sum(b - a for a, b in solution.patches)
+    mean = solution.normal_load / solution.contact_length
     rows = _rows(
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),
@@ -110,13 +119,11 @@ def shear_summary(solution: Solution, units: Units) -> str:
     rows = [("shear load", f"Q = {_number(solution.tangential_load)} {units.force}{limit}")]
     if scene.bulk_stress:
         rows.append(("bulk stress", f"{_number(scene.bulk_stress)} {units.stress}"))
-    rows += [
-        ("stick", f"from {_number(lo, r)} to {_number(hi, r)} {units.length}")
-        for lo, hi in solution.stick
-    ] or [("stick", "none")]
-    for lo, hi, sign in slipping(solution):
-        zone = f"from {_number(lo, r)} to {_number(hi, r)} {units.length}"
-        rows.append(("slip", f"{zone}, q = {'+' if sign > 0.0 else '-'}f p"))
+    rows += _zones("stick", [(*zone, "") for zone in solution.stick], r, units.length)
+    slipped = [
+        (lo, hi, f", q = {'+' if sign > 0.0 else '-'}f p") for lo, hi, sign in slipping(solution)
+    ]
+    rows += _zones("slip", slipped, r, units.length) if slipped else []
     rows += [
         ("energy lost", f"{_number(energy)} {units.moment}")
         for energy in energy_of(solution).values()
@@ -125,15 +132,34 @@ def shear_summary(solution: Solution, units: Units) -> str:
     return "\n\n".join([_rows(*rows), *table])
 
 
+def _zones(
+    name: str, zones: Sequence[tuple[float, float, str]], r: float, length: str
+) -> list[tuple[str, str]]:
+    """A row for each zone, or one for all where they are many."""
+    if len(zones) > MANY_ZONES:
+        whole = _number(sum(hi - lo for lo, hi, _ in zones))
+        return [(name, f"in {len(zones)} zones, together {whole} {length} long")]
+    return [
+        (name, f"from {_number(lo, r)} to {_number(hi, r)} {length}{more}")
+        for lo, hi, more in zones
+    ] or [(name, "none")]
+
+
 def _path_table(solution: PathSolution, units: Units) -> str:
     head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
     for point in solution.history.rows():
-        lo, hi = point["stick"][0] if point["stick"] else ("-", "-")
-        cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], lo, hi)
-        shown = "".join(f"{c:>14}" if isinstance(c, str) else f"{_number(c):>14}" for c in cells)
-        lines.append(f"{shown}   {_number(point['energy_lost'])}")
+        zones = point["stick"] or [("-", "-")]
+        cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], *zones[0])
+        lines.append(f"{_cells(cells)}   {_number(point['energy_lost'])}")
+        lines += [_cells(("", "", "", *zone)) for zone in zones[1:MANY_ZONES]]
+        if len(zones) > MANY_ZONES:
+            lines.append(_cells(("", "", "", f"and {len(zones) - MANY_ZONES}", "more")))
     return "\n".join(lines)
+
+
+def _cells(values: Sequence[float | str]) -> str:
+    return "".join(f"{v:>14}" if isinstance(v, str) else f"{_number(v):>14}" for v in values)
 
 
 def stress_summary(solution: Solution, units: Units) -> str:

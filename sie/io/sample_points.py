@@ -17,6 +17,7 @@ POINTS = 401  # in the contact, by default
 # in half-widths.
 BESIDE = 0.25
 REACH = 0.6
+FEWEST = 12  # points on each of several patches, and in each gap
 # Peaks of the pressure: sampled, then narrowed this often among this many points. The last step is
 # below the flat top that rounding leaves.
 PER_BREAK = 4  # points for each break; where there are fewer, breaks are passed over
@@ -35,14 +36,18 @@ def inside(solution: Solution, points: int = POINTS) -> Array:
 
     Between breaks the points are Chebyshev's, dense at both ends. Half of all points are shared out
     by length (in the angle of the contact), half equally, so that a narrow rounded edge has points
-    of its own. The breaks of a trace are too many, and are passed over.
+    of its own. The breaks of a trace are too many, and are passed over. Each of several patches,
+    and each gap, has at least FEWEST points.
     """
     (x1, x2), r, m = solution.edges, solution.half_width, solution.centre
-    ends = np.array([x1, *(b for b in _corners(solution, points) if x1 < b < x2), x2])
+    edges = [x for patch in solution.patches for x in patch] if len(solution.patches) > 1 else []
+    breaks = (b for b in _corners(solution, points) if x1 < b < x2)
+    ends = np.unique([x1, *breaks, *edges, x2])
+    fewest = FEWEST if edges else 1
     angle = np.arccos(np.clip((m - ends) / r, -1.0, 1.0))
     share = 0.5 * np.diff(angle) / np.pi + 0.5 / (len(ends) - 1)
     parts = [
-        lo + (hi - lo) * _gathered(round(points * s))
+        lo + (hi - lo) * _gathered(max(round(points * s), fewest))
         for lo, hi, s in zip(ends[:-1], ends[1:], share, strict=True)
     ]
     return np.unique(np.concatenate([*parts, ends]))
@@ -90,6 +95,8 @@ class Summit:
 def summits(solution: Solution) -> tuple[Summit, ...]:
     """The local maxima of the pressure, from left to right; only the highest are narrowed down."""
     x = np.union1d(inside(solution), [solution.centre])
+    if len(solution.patches) > 1:
+        x = np.union1d(x, solution.pressure.breaks)
     p = solution.pressure(x)
     padded = np.concatenate(([-np.inf], p, [-np.inf]))
     top = np.flatnonzero((p > padded[:-2]) & (p >= padded[2:]))
@@ -110,8 +117,11 @@ def peak(solution: Solution) -> tuple[float, tuple[float, ...]]:
 
 def ceiling(solution: Solution) -> float:
     """The largest pressure that a picture shows: the peak, unless it is infinite or narrow."""
-    x1, x2 = solution.edges
-    p = solution.pressure(x1 + (x2 - x1) * (np.arange(400) + 0.5) / 400.0)
+    starts, stops = np.transpose(solution.patches)
+    before = np.cumsum(stops - starts) - (stops - starts)
+    along = solution.contact_length * (np.arange(400) + 0.5) / 400.0
+    k = np.searchsorted(before, along, side="right") - 1
+    p = solution.pressure(starts[k] + (along - before[k]))
     ordinary = float(np.quantile(p, 0.95, method="lower"))
     largest, _ = peak(solution)
     return largest if largest <= SPIKE * ordinary else ABOVE_ORDINARY * ordinary

@@ -7,7 +7,7 @@
     [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units
     [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
                         order; period repeats it; of kind "sampled" x and h, or path, a file beside
-                        the scene file
+                        the scene file, and without_outliers = true, levelled = true | [lo, hi]
     [[profile.of]]      of kind "row": each indenter on the common holder, like [profile]
     [[profile.plus]]    further terms, each like [profile]: the heights add up, and modifiers act
                         on their own term

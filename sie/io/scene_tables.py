@@ -25,6 +25,7 @@ from .toml_values import (
     Reader,
     columns,
     flag,
+    flag_or_pair,
     number,
     number_or_pair,
     number_or_text,
@@ -93,6 +94,10 @@ MODIFIERS: dict[str, Reader] = {
 }
 
 
+# Of a trace, applied in this order before the others.
+TREATMENTS: dict[str, Reader] = {"without_outliers": flag, "levelled": flag_or_pair}
+
+
 def values_of(name: str, value: Any) -> dict[str, Any]:
     """The values of the table [name], none unknown, each of its type."""
     return read_values(f"[{name}]", table_of(name, value), TABLES[name])
@@ -151,7 +156,8 @@ def _elsewhere(key: str) -> str:
 def _readers_of(kind: str) -> Mapping[str, Reader]:
     """All keys of a kind of profile: of a trace also those of a file."""
     readers = entries_of(KINDS[kind]).readers
-    return {**readers, **entries_of_file().readers} if KINDS[kind] is Sampled else readers
+    of_traces = {**entries_of_file().readers, **TREATMENTS}
+    return {**readers, **of_traces} if KINDS[kind] is Sampled else readers
 
 
 class Naming:

@@ -83,6 +83,15 @@ def number_or_pair(where: str, value: Any) -> float | tuple[float, ...]:
     return numbers(where, value) if isinstance(value, list) else number(where, value)
 
 
+def flag_or_pair(where: str, value: Any) -> bool | tuple[float, ...]:
+    """A truth value or a pair of numbers."""
+    if not isinstance(value, list):
+        return flag(where, value)
+    if len(value) != 2:
+        raise ValueError(f"{where} = {shown(value)} is not a pair: give two ends, [lo, hi]")
+    return numbers(where, value)
+
+
 def whole(where: str, value: Any) -> int:
     """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):

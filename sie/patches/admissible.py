@@ -5,7 +5,9 @@ by samples.
     beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
 
 A panel whose bound says nothing is halved. Where the conditions of the edges hold as well this is
-the answer: the problem is convex. The gap at given points comes from the same series.
+the answer: the problem is convex. At a concave corner, where H jumps down, D falls without bound
+like a logarithm, which no polynomial shows: a patch that covers one is in tension there, on an
+interval that may be too narrow for doubles. The gap at given points comes from the same series.
 """
 
 from __future__ import annotations
@@ -19,7 +21,8 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .intensity import intensities
+from .chord import Points
+from .intensity import intensities, on_patches
 from .newton import State, gap_values
 from .operator import Operator
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
@@ -29,7 +32,9 @@ Index = NDArray[np.int64]
 
 NODES = 8  # on a part of a panel
 DEEPEST = 30  # halvings
+HALVED = 42  # times the distance from a concave corner is: less than CLOSED
 TENSION = 1e-13  # of the largest D: rounding
+CLOSED = 1e-12  # half-widths of its patch: the gap at a concave corner is not told from none
 OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
 
 
@@ -136,7 +141,41 @@ def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
             )
         )
         panel = np.tile(panel[open_], 2)
+    corners, deepest = _at_corners(o)
+    bad += corners
+    lowest = min(lowest, deepest)
     return tuple(_joined(bad)), lowest / scale if scale else 0.0
+
+
+def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float]], float]:
+    """Runs of tension at the concave corners on patches, as `_runs` has them, and the lowest D."""
+    P, pieces = o.patches, o.pieces
+    corners = pieces.never_closed
+    patch = np.searchsorted(P.a, corners, side="right") - 1
+    covered = (patch >= 0) & (corners < P.b[np.maximum(patch, 0)]) & (corners > P.a[patch])
+    corners, patch = corners[covered], patch[covered]
+    if not corners.size:
+        return [], np.inf
+    widths, deepest = [], np.full(corners.shape, np.inf)
+    for side in ("left", "right"):
+        piece = pieces.locate(corners, side)
+        end = pieces.ends[piece] if side == "left" else pieces.ends[piece + 1]
+        edge = P.a[patch] if side == "left" else P.b[patch]
+        room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
+        width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
+        corner = np.broadcast_to(corners[:, None], width.shape)
+        owner, which = (np.broadcast_to(v[:, None], width.shape) for v in (patch, piece))
+        D = on_patches(o, owner, Points(corner, -width if side == "left" else width), which)
+        widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
+        deepest = np.minimum(deepest, D.min(axis=1))
+    left, right = widths
+    open_ = np.maximum(left, right) > CLOSED * P.r[patch]
+    lo, hi = corners - left, corners + right
+    runs = [
+        (int(patch[k]), float(lo[k]), float(lo[k]), float(hi[k]), float(hi[k]))
+        for k in np.flatnonzero(open_)
+    ]
+    return runs, float(deepest[open_].min(initial=np.inf))
 
 
 def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
@@ -381,3 +420,20 @@ def gap(o: Operator, x: Array) -> Array:
     value, _, _ = opening(o, side, panel, t[:, None])
     out[finite[beside]] = np.maximum(value[:, 0], 0.0)
     return out
+
+
+def gap_volume(o: Operator) -> float:
+    """∫ of the gap over all gaps between patches, or of a period, where there is an indenter."""
+    panels = gap_panels(o.patches, o.pieces, outside=True)
+    inner = np.flatnonzero(np.isfinite(panels.width))
+    if not inner.size:
+        return 0.0
+    side = sides(o, panels)
+    panel, lo, hi, _ = _parts(o, panels)
+    kept = np.isin(panel, inner)
+    panel, lo, length = panel[kept], lo[kept, None], (hi - lo)[kept, None]
+    g, w = chebyshev.gauss_legendre(panels.dx.shape[1])
+    t = lo + length * g
+    value, _, _ = opening(o, side, panel, t)
+    _, _, derivative = distance_of(t, panels.width[panel, None])
+    return float((value * derivative * length * w).sum())

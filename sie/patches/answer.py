@@ -16,11 +16,12 @@ from sie.profiles.base import Derived, Profile
 from sie.profiles.row import Row
 from sie.profiles.slope import Slope
 
-from .admissible import Found, gap
+from .admissible import Found, gap, gap_volume
 from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
 from .of_scene import Problem, problem_of
+from .operator import Operator
 from .result import PatchCertificate
 from .solver import contact
 
@@ -49,7 +50,21 @@ class SeveralPatches:
         return self.pressure.patches
 
     def gap(self, x: Array) -> Array:
-        return gap(self.found.operator, x)
+        """The gap at x (1-d), also beyond the window in which contact was looked for."""
+        o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
+        inside = x[np.isfinite(x) & (x >= domain[0]) & (x <= domain[1])]
+        first, last = float(inside.min(initial=lo)), float(inside.max(initial=hi))
+        if (first < lo or last > hi) and not self.problem.chord.periodic:
+            o = Operator(o.patches, self.problem.pieces((min(first, lo), max(last, hi))), o.Y)
+        return gap(o, x)
+
+    @property
+    def window(self) -> tuple[float, float]:
+        return self.found.operator.pieces.domain
+
+    @property
+    def gap_volume(self) -> float:
+        return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
         return certificate(self.found, self.pressure, self.problem.given, tol)
@@ -74,7 +89,12 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
             problem = problem_of(scene)
             return whole(problem, scene) or answered(problem, contact(problem), scene)
-    except (ArithmeticError, np.linalg.LinAlgError):
+    except np.linalg.LinAlgError:
+        raise LoadError(
+            "the conditions of the edges became singular on the way to this load, as they are "
+            "where patches merge: change the load a little"
+        ) from None
+    except ArithmeticError:
         raise LoadError(
             f"the search for the patches left the range of doubles: {arguments.REMEDY}"
         ) from None

@@ -20,21 +20,26 @@ from sie.numerics import chebyshev
 from .admissible import Found
 from .density import PatchPressure
 from .newton import Given, State, conditions
+from .operator import Operator
 from .panels import PatchPanels
 from .result import GRADING, LEAST, PatchCertificate
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+Mask = NDArray[np.bool_]
 
 NODES = 12  # on a part of a panel
 # (panels, levels): where there are no more panels, their parts shrink towards the ends so often
-LEVELS = ((24, 32), (60, 18), (400, 8))
+LEVELS = ((24, 32), (60, 18))
+BENT = 24  # nodes on a whole panel where there are more
 SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
 PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
 EXPLAINED = 16.0  # times an ulp of x
 MOST = 1e-3  # of the peak: where an ulp of x can do more nothing is certified
-# what the sum that measures may miss of a rough profile, whose pieces it does not grade
-ROUGH = 1e-9
+JUMP = 1e-9  # of H: less is rounding
+# what the sum on whole panels may miss where H jumps and p is infinite at their ends
+ROUGH = 1e-7
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
@@ -43,7 +48,6 @@ def certificate(
 ) -> PatchCertificate:
     """Measure an answer; `given` is what was asked, in units of E*/2."""
     o, P = found.operator, found.operator.patches
-    rough = len(o.panels.lo) > LEVELS[-1][0]
     rule = _measure(o.panels, pressure)
     x, weight = rule.x, rule.weight
     p = pressure(x)
@@ -71,7 +75,7 @@ def certificate(
         patches=P.number,
         condition=condition,
         measured_to=max(
-            ROUGH if rough else LEAST, min(EXPLAINED * _rounding(rule, p) / peak, MOST)
+            ROUGH if _misses_jumps(o) else LEAST, min(EXPLAINED * _rounding(rule, p) / peak, MOST)
         ),
         tol=tol,
         tension=tuple((t.lo, t.hi) for t in f.tension),
@@ -114,45 +118,93 @@ class Measure(NamedTuple):
 
     x: Array
     weight: Array
-    patch: Array
+    patch: Index
     at: Array
-    own: Array
+    own: Index
+
+
+def _misses_jumps(o: Operator) -> bool:
+    """Whether H jumps on a patch and panels are not cut into parts."""
+    k, pieces = o.panels, o.pieces
+    if len(k.lo) <= LEVELS[-1][0]:
+        return False
+    x = pieces.ends[1:-1]
+    patch = np.maximum(np.searchsorted(o.patches.a, x) - 1, 0)
+    inner = np.flatnonzero((x > o.patches.a[patch]) & (x < o.patches.b[patch]))
+    below, above = (pieces.value(inner + m, x[inner], 0.0) for m in (0, 1))
+    size = np.maximum(np.abs(below), np.abs(above))
+    return bool((np.abs(above - below) > JUMP * size).any())
 
 
 def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
-    """A composite rule, graded towards the ends of panels, where p' may be infinite and p too."""
-    P = pressure.operator.patches
+    """A composite rule that is finer towards the ends of panels, where p' may be infinite and p
+    too. At an edge p is smooth in the angle.
+
+    The parts of few panels shrink towards such an end. Many are taken whole, with the variable bent
+    there: p has breaks like s² ln s where H' of a spline has, and s^8 ln s is easy.
+    """
     levels = next((level for most, level in LEVELS if len(k.lo) <= most), 0)
+    at_edge = k.lo == 0.0
+    if not levels:
+        whole = np.arange(len(k.lo)), k.lo, k.hi - k.lo
+        return _placed(k, pressure, whole, _bent(at_edge))
     graded = GRADING ** np.arange(1.0, levels + 1.0)
     cuts = (np.array([0.0, 0.5]), graded, 1.0 - graded[::-1], np.ones(1))
-    inside, at_edge = (
-        np.unique(np.concatenate(cuts)),
-        np.unique(np.concatenate(cuts[:1] + cuts[2:])),
-    )
     lows, lengths, panels = [], [], []
-    for chosen, part in (
-        (k.lo > 0.0, inside),
-        (k.lo == 0.0, at_edge),
-    ):  # at an edge p is smooth in the angle
+    for chosen, kept in ((~at_edge, cuts), (at_edge, cuts[:1] + cuts[2:])):
+        part = np.unique(np.concatenate(kept))
         extent = (k.hi - k.lo)[chosen, None]
         lows.append((k.lo[chosen, None] + extent * part[:-1]).ravel())
         lengths.append((extent * np.diff(part)).ravel())
         panels.append(np.repeat(np.flatnonzero(chosen), len(part) - 1))
     lo, length, panel = (np.concatenate(v) for v in (lows, lengths, panels))
-    g, w = chebyshev.gauss_legendre(NODES)
-    patch, right = k.patch[panel], k.right[panel]
+    return _placed(k, pressure, (panel, lo, length), chebyshev.gauss_legendre(NODES))
 
-    def place(angle: Array) -> Array:
-        inward = 2.0 * P.r[patch, None] * np.sin(0.5 * angle) ** 2
-        return np.where(right[:, None], P.b[patch, None] - inward, P.a[patch, None] + inward)
+
+def _bent(at_edge: Mask) -> tuple[Array, Array]:
+    """Gauss' nodes and weights on [0, 1] in a variable whose cube the distance from an end is; from
+    the upper end only where the lower one is an edge.
+    """
+    g, w = chebyshev.gauss_legendre(BENT)
+    both = g**3 * (10.0 - 15.0 * g + 6.0 * g * g), 30.0 * w * (g * (1.0 - g)) ** 2
+    upper = 1.0 - (1.0 - g) ** 3, 3.0 * w * (1.0 - g) ** 2
+    place, weight = (np.where(at_edge[:, None], u, b) for u, b in zip(upper, both, strict=True))
+    return place, weight
+
+
+def _placed(
+    k: PatchPanels,
+    pressure: PatchPressure,
+    parts: tuple[Index, Array, Array],
+    rule: tuple[Array, Array],
+) -> Measure:
+    """The rule on [0, 1], laid on parts (panel, lowest angle, length)."""
+    P = pressure.operator.patches
+    (panel, lo, length), (g, w) = parts, rule
+    patch, right = k.patch[panel], k.right[panel]
+    edge, away = (
+        np.where(right, P.b[patch], P.a[patch])[:, None],
+        np.where(right, -1.0, 1.0)[:, None],
+    )
+
+    def inward(angle: Array) -> Array:
+        return np.asarray(2.0 * P.r[patch, None] * np.sin(0.5 * angle) ** 2)
 
     angle = lo[:, None] + length[:, None] * g
     weight = length[:, None] * w * P.r[patch, None] * np.sin(angle)
+    meant = inward(angle)
+    x = edge + away * meant
+    # the pressure is that of the double x, and goes like the root of its distance from the edge
+    ratio = np.abs(x - edge) / meant
+    sharp = pressure.operator.Y[2 * patch + right] != 0.0
+    weight *= np.where(
+        sharp[:, None], np.sqrt(ratio), 1.0 / np.sqrt(np.where(ratio > 0.0, ratio, 1.0))
+    )
     chosen = np.flatnonzero(length > SHORT * (k.hi - k.lo)[panel])
     chosen = chosen[:: max(len(chosen) // PLACES, 1)]
-    middles = place((lo + 0.5 * length)[:, None])[chosen, 0]
-    everywhere = np.repeat(patch, NODES)
-    return Measure(place(angle).ravel(), weight.ravel(), everywhere, middles, patch[chosen])
+    middles = (edge + away * inward((lo + 0.5 * length)[:, None]))[chosen, 0]
+    everywhere = np.repeat(patch, angle.shape[1])
+    return Measure(x.ravel(), weight.ravel(), everywhere, middles, patch[chosen])
 
 
 def _rounding(rule: Measure, p: Array) -> float:

@@ -17,11 +17,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.numerics import chebyshev
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
 from .chord import Points
-from .intensity import intensities, on_patches
+from .intensity import on_patches
 from .operator import Operator, Targets
+from .panels import graded
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -30,6 +32,8 @@ Mask = NDArray[np.bool_]
 
 AROUND = 16  # points of a circle that give a derivative ...
 NARROW = 0.125  # ... of this part of the distance to the nearest traction
+NODES = 16  # of Gauss' rule on a part of a circle over a patch
+ROOM = 1.0  # half-widths of a patch: such circles end no farther from it
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +70,8 @@ class PatchPressure(Density):
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
-        return float((self.measured[1]).sum())
+        loads, about_centres = self.measured
+        return float((loads * self.operator.patches.c + about_centres).sum())
 
     @property
     def loads(self) -> tuple[float, ...]:
@@ -75,19 +80,44 @@ class PatchPressure(Density):
 
     @cached_property
     def measured(self) -> tuple[Array, Array]:
-        """∫p dx and ∫p x dx over each patch, from the pressure on the nodes."""
-        o = self.operator
-        k, P = o.panels, o.patches
-        panel = np.arange(len(k.lo))
-        angle = 2.0 * np.arcsin(np.sqrt(np.abs(k.points.offset) / (2.0 * P.r[k.patch, None])))
-        D, x = intensities(o, panel, angle)
-        inward = np.abs(k.points.offset)
-        square = P.chord.apart(0.0, inward) * P.chord.apart(2.0 * P.r[k.patch, None], -inward)
-        # p dx = (G/π) W S D  W dν S
-        force = (self.half_modulus / np.pi) * D * square * o.weight**2 / (o.omega * 1.0)
-        total = np.bincount(k.patch, force.sum(axis=1), P.number)
-        moments = np.bincount(k.patch, (force * x).sum(axis=1), P.number)
-        return np.asarray(total, dtype=float), np.asarray(moments, dtype=float)
+        """∫p dx and ∫p (x - c) dx over each patch, c its centre.
+
+        They are -Im ∫F dz and -Im ∫F (z - c) dz over half-circles from gap to gap, on which F is
+        smooth however rough the slope is.
+        """
+        P = self.operator.patches
+        behind = np.concatenate((P.gaps[-1:], P.gaps[:-1]))
+        rooms = [np.minimum(0.5 * gap, ROOM * P.r) for gap in (behind, P.gaps)]
+        radius = P.r + 0.5 * (rooms[0] + rooms[1])
+        left, right = (
+            self._on_quarter_circles(side, room, radius)
+            for side, room in zip((-1.0, 1.0), rooms, strict=True)
+        )
+        return left[0] + right[0], left[1] + right[1]
+
+    def _on_quarter_circles(self, side: float, room: Array, radius: Array) -> tuple[Array, Array]:
+        """Those integrals between the highest points of circles over the patches and their ends,
+        which are `room` beside the right edges (side = 1) or the left ones (side = -1).
+        """
+        P = self.operator.patches
+        g, w = chebyshev.gauss_legendre(NODES)
+        # both edges of a gap are `room` away from the end of the circle in it
+        cuts = [graded(2.0 * end, 4.0, 0.5 * np.pi) for end in (room / radius).tolist()]
+        k = np.repeat(np.arange(P.number), [len(c) - 1 for c in cuts])
+        lo, hi = (np.concatenate(ends) for ends in ([c[:-1] for c in cuts], [c[1:] for c in cuts]))
+        angle = lo[:, None] + (hi - lo)[:, None] * g
+        chord = 1j * np.sin(angle) - 2.0 * side * np.sin(0.5 * angle) ** 2
+        offset = side * room[k, None] + radius[k, None] * chord
+        edge = (P.b if side > 0.0 else P.a)[k]
+        points = Points(np.repeat(edge, NODES), offset.ravel())
+        F = self._potential(points, np.repeat(k, NODES)).reshape(angle.shape)
+        weight = side * radius[k, None] * np.exp(1j * side * angle) * (hi - lo)[:, None] * w
+        arm = side * P.r[k, None] + offset
+        force, moment = ((F * weight * factor).real.sum(axis=1) for factor in (1.0, arm))
+        total = np.zeros((2, P.number))
+        np.add.at(total[0], k, force)
+        np.add.at(total[1], k, moment)
+        return total[0], total[1]
 
     @cached_property
     def breaks(self) -> tuple[float, ...]:

@@ -9,131 +9,152 @@ p* lie in those of p, so that the slip
 
     g = ± f gap*                          gap* that of p*, on the patches of p
 
-has one sign everywhere. A bulk stress tilts the profile of p* by ∓2τ/(f E*) over all patches: then
-both are verified.
+has one sign everywhere. A bulk stress tilts the profile of p* by ∓2τ/(f E*) over all patches. Along
+the step -dp* is then the pressure of a tilted flat punch on the stick zones. If that presses
+everywhere on the patches of p it does so on all that lie within (sweeping a positive charge inwards
+leaves it positive), and the stick zones only shrink; otherwise the answer is verified.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.friction.load_limit import remaining
 from sie.friction.states import Slip
-from sie.numerics import chebyshev
-from sie.numerics.interval import Interval
+from sie.numerics.zones import Zones, left_over, within
 from sie.problem.scene import Scene
-from sie.traction.base import ZERO, Density
+from sie.traction.base import Density
 from sie.traction.combination import superposed
 
-from .answer import SeveralPatches, answered, whole
+from .answer import SeveralPatches
+from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
-from .newton import punch
-from .of_scene import problem_of
+from .newton import conditions, punch
 from .operator import edge_ratio
-from .solver import changed, contact
 
 Array = NDArray[np.float64]
 
-NODES = 40  # between two edges of patches and stick zones
-WITHIN = 1e-9  # of the width of all patches, and of the peak: by less p* may exceed p
+SCANNED = 40  # places on each stick zone
+WITHIN = 1e-9  # of the width of all patches, and of the peak: by less p* may exceed 2p
+Contact = SeveralPatches | FullContact
+# The contact under a load and a tilt.
+PatchesUnder = Callable[[float, float], Contact]
 KIND = "one sign on all patches"
 
 
 class PatchSlip(Slip):
-    """Zones of stick and slip on all patches."""
+    """Zones of stick and slip on all patches after the load Q and the strain τ.
+
+    full     the contact
+    under    the contact of the same profile under another load and tilt
+    """
 
     kind = KIND
 
     def __init__(
-        self, scene: Scene, full: SeveralPatches | FullContact, tangential_load: float, tau: float
+        self,
+        scene: Scene,
+        full: Contact,
+        loads: tuple[float, float],
+        under: PatchesUnder,
     ) -> None:
-        self.scene, self.full = scene, full
-        self.friction = scene.friction
-        self.sign = 1.0 if tangential_load > 0.0 else -1.0
-        self.tangential_load, self.tau = tangential_load, tau
-        self.contact = Interval(*full.pressure.interval)
+        self.scene, self.full, self.under = scene, full, under
+        self.friction, self.period = scene.friction, scene.profile.period
+        self.Q, self.tau = loads
+        self.sign = 1.0 if self.Q > 0.0 else -1.0
+        self.contact = full.edges.contact
 
     @cached_property
-    def corrective(self) -> SeveralPatches | FullContact | None:
-        """p*; None in full sliding."""
-        scene, Q, f = self.scene, self.tangential_load, self.scene.friction
-        assert scene.normal_load is not None
-        if scene.slides:
-            return None
-        if self.tau != 0.0 and scene.profile.period < np.inf:
+    def corrective(self) -> Contact | Untouched:
+        """p* and its gap; the untouched profile in full sliding."""
+        edges, f = self.full.edges, self.friction
+        tilt = edges.tilt - self.sign * self.tau / (f * 0.5 * self.scene.Estar)
+        if self.tau != 0.0 and math.isfinite(self.period):
             raise ContactError(
-                f"bulk_stress = {scene.bulk_stress:g} in one of two bodies that meet "
+                f"bulk_stress = {self.scene.bulk_stress:g} in one of two bodies that meet "
                 "periodically has no periodic "
                 "answer: leave it out, or give it to both bodies as a stress afterwards"
             )
-        if Q == 0.0:
+        if self.Q == 0.0 != self.tau:
             raise ContactError(
-                f"bulk_stress = {scene.bulk_stress:g} without tangential_load makes the patches "
-                "slip both ways: "
+                f"bulk_stress = {self.scene.bulk_stress:g} without tangential_load makes the "
+                "patches slip both ways: "
                 "that is not covered on several patches; give tangential_load"
             )
-        G = 0.5 * scene.Estar
-        left = scene.normal_load - abs(Q) / f
-        tilt = self.full.edges.tilt - self.sign * self.tau / (f * G)
-        problem = problem_of(replace(scene, moment=None, tilt=0.0))
-        problem = changed(problem, load=left / G, tilt=tilt, moment=None)
-        lighter = replace(scene, normal_load=left, moment=None, tangential_load=0.0)
-        full = whole(problem, lighter)
-        if full is not None:
-            return full
-        reduced = answered(problem, contact(problem), lighter)
+        if abs(self.Q) == f * edges.normal_load:
+            return Untouched(self.scene.profile, tilt, self.full.patches)
+        reduced = self.under(remaining(f, edges.normal_load, self.Q), tilt)
         if self.tau != 0.0:
             self._verify(reduced)
         return reduced
 
-    def _verify(self, reduced: SeveralPatches) -> None:
-        inner, outer = reduced.pressure, self.full.pressure
-        room = WITHIN * (self.contact.x2 - self.contact.x1)
-        inside = all(
-            any(a - room <= lo and hi <= b + room for a, b in outer.patches)
-            for lo, hi in inner.patches
-        )
-        k = inner.operator.panels
-        x = k.points.x.ravel()
-        p, p_star = outer(x), inner(x)
-        with np.errstate(invalid="ignore"):
-            excess = np.max(
-                np.where(np.isfinite(p), p_star - p, 0.0), initial=0.0
-            ) > WITHIN * np.max(p[np.isfinite(p)])
-        if not inside or excess:
+    def _verify(self, reduced: Contact) -> None:
+        """Refuse stick zones beyond the patches, or |q| > f p there."""
+        room = WITHIN * 2.0 * self.contact.r
+        wider = tuple((a - room, b + room) for a, b in self.full.patches)
+        x = _places(reduced.patches)
+        p, p_star = self.full.pressure(x), reduced.pressure(x)
+        if left_over(reduced.patches, wider) or (p_star > 2.0 * p + WITHIN * p.max()).any():
             raise ContactError(
                 f"bulk_stress = {self.scene.bulk_stress:g} makes the patches slip both ways under "
-                f"tangential_load = {self.tangential_load:g}: that is not covered on several "
-                "patches; "
+                f"tangential_load = {self.scene.tangential_load or self.Q:g}: that is not covered "
+                "on several patches; "
                 "lower the bulk stress or raise the tangential load"
             )
 
+    @cached_property
+    def advancing(self) -> bool:  # type: ignore[override]
+        if self.tau == 0.0 or not isinstance(self.full, SeveralPatches):
+            return True
+        found, given = self.full.found, self.full.problem.given
+        _, linear = conditions(found.state, found.operator.pieces, given._replace(moment=0.0))
+        edges = 2 * found.state.patches.number
+        sides = np.where(np.arange(edges) % 2 == 0, -1.0, 1.0)
+        tilt = self.sign * self.tau
+        load = np.append(np.zeros(edges - 1), abs(self.Q))
+        rows = linear.matrix[:edges] / np.abs(linear.matrix[:edges]).max(axis=1)[:, None]
+        scale = np.abs(linear.matrix[:edges]).max(axis=1)
+        charges = np.linalg.solve(rows[:, :edges], load / scale - rows[:, edges] * tilt)
+        return bool((sides * charges >= -WITHIN * np.abs(charges).max()).all())
+
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return () if self.corrective is None else self.corrective.patches
+        """Per period those in the period of the patches."""
+        zones, start = self.corrective.patches, self.full.patches[0][0]
+        if math.isinf(self.period):
+            return zones
+        turns = [math.floor((0.5 * (lo + hi) - start) / self.period) for lo, hi in zones]
+        return tuple(
+            sorted(
+                (lo - turn * self.period, hi - turn * self.period)
+                for (lo, hi), turn in zip(zones, turns, strict=True)
+            )
+        )
+
+    @property
+    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
+        f = self.sign * self.friction
+        return f, ((-f, self.corrective.pressure),)
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        return () if isinstance(self.corrective, Untouched) else (self.corrective,)
 
     @cached_property
     def shear(self) -> Density:
-        f = self.sign * self.friction
-        inner = ZERO if self.corrective is None else self.corrective.pressure
-        return superposed((f, self.full.pressure), (-f, inner))
+        scale, others = self.parts
+        return superposed((scale, self.full.pressure), *others)
 
     def slip(self, x: Array) -> Array:
         """g at x (1-d): 0 in stick and beside the patches."""
-        a, b = np.array(self.full.patches).T
-        period = self.scene.profile.period
-        at = x - period * np.floor((x - a[0]) / period) if period < np.inf else x
-        k = np.clip(np.searchsorted(a, at, side="right") - 1, 0, len(a) - 1)
-        inside = (at >= a[k]) & (at <= b[k])
         out = np.where(np.isnan(x), np.nan, 0.0)
-        if self.corrective is None:
-            raise ContactError(
-                "all patches slide: how far is not determined; lower tangential_load below f P"
-            )
+        inside = within(x, self.full.patches, self.period)
         if inside.any():
             out[inside] = self.sign * self.friction * self.corrective.gap(x[inside])
         return out
@@ -141,47 +162,32 @@ class PatchSlip(Slip):
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
         """The parts of the patches beside the stick zones, all slipping one way."""
-        zones = []
-        for a, b in self.full.patches:
-            inner = [zone for zone in self.stick if a <= zone[0] and zone[1] <= b]
-            ends = [a, *(end for zone in inner for end in zone), b]
-            zones += [
-                (lo, hi, self.sign) for lo, hi in zip(ends[::2], ends[1::2], strict=True) if lo < hi
-            ]
-        return tuple(zones)
+        zones = left_over(self.full.patches, self.stick, self.period)
+        return tuple((lo, hi, self.sign) for lo, hi in zones)
 
     @cached_property
     def energy(self) -> float:
-        x, weight = self._rule()
-        return float(self.friction * (weight * self.full.pressure(x)) @ np.abs(self.slip(x)))
+        return self.friction**2 * work(self.corrective, self.full, self.period)
 
     @cached_property
     def shift(self) -> float:
         """∫ slip dμ, μ the pressure of a flat punch on all patches under a unit load."""
+        points, weight = slip_rule(self.full, self.stick, self.period)
+        slip = self.slip(points.x)
         if isinstance(self.full, FullContact):
-            x, weight = self._rule()
-            return float(weight @ self.slip(x)) / self.scene.profile.period
+            return float(weight @ slip) / self.period
         o = self.full.found.operator
         P = o.patches
-        unit = punch(o)
-        x, weight = self._rule()
-        points, k, _ = self.full.pressure.placed(x)
+        _, k, _ = self.full.pressure.placed(points.x)
         T, _ = o.root(k, points)
         rho = edge_ratio(P, np.arange(P.number))[k]
-        D = -(
-            unit * rho / P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
-        ).sum(axis=1)
-        return float((weight * np.abs(T) * D / np.pi) @ self.slip(x))
+        apart = P.chord.apart(points.anchor[:, None] - P.edges, points.offset[:, None])
+        D = -(punch(o) * rho / apart).sum(axis=1)
+        return float((weight * np.abs(T) * D / np.pi) @ slip)
 
-    def _rule(self) -> tuple[Array, Array]:
-        """Places and weights on the slip zones, in the angle between neighbouring edges."""
-        g, w = chebyshev.gauss_legendre(NODES)
-        xs, weights = [], []
-        for a, b in self.full.patches:
-            cuts = {a, b} | {e for zone in self.stick for e in zone if a < e < b}
-            ends = np.array(sorted(cuts))
-            angle = np.pi * g
-            half = 0.5 * np.diff(ends)[:, None]
-            xs.append((ends[:-1, None] + 2.0 * half * np.sin(0.5 * angle) ** 2).ravel())
-            weights.append((half * np.sin(angle) * np.pi * w).ravel())
-        return np.concatenate(xs), np.concatenate(weights)
+
+def _places(zones: Zones) -> Array:
+    """Places on zones, close to their ends too."""
+    lo, hi = np.array(zones).T[..., None]
+    share = np.sin(0.5 * np.pi * (np.arange(SCANNED) + 0.5) / SCANNED) ** 2
+    return np.asarray((lo + (hi - lo) * share).ravel())

@@ -23,7 +23,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
 
-from .admissible import DEEPEST, NODES, TENSION, lower_bound
+from .admissible import CLOSED, DEEPEST, NODES, TENSION, lower_bound
 from .density import AROUND, NARROW
 from .operator import NEAR
 from .pieces import Pieces
@@ -286,6 +286,11 @@ def full_contact(
         return None
     pressure = FullPressure(pieces, start, period, half_modulus, load)
     if not pressure.lowest >= -TENSION:
+        return None
+    # a concave corner opens always, but what doubles do not tell from none
+    corners = pieces.never_closed
+    corners = corners[(corners >= start) & (corners <= start + period)]
+    if (pressure(np.append(corners - CLOSED * period, corners + CLOSED * period)) < 0.0).any():
         return None
     edges = Edges(
         Interval(start, start + period),

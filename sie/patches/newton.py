@@ -199,7 +199,9 @@ def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | No
         size = np.abs(linear.matrix).max(axis=1)
         y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
         mean = np.abs(linear.intensity[~state.sharp]).mean() if (~state.sharp).any() else 1.0
-        D = np.where(state.sharp, 1.0, np.maximum(linear.intensity, SMALL * mean + TINY))
+        # next to a concave corner D is larger by orders than elsewhere: one floor is not for all
+        D = np.where(linear.intensity > 0.0, linear.intensity, SMALL * mean) + TINY
+        D = np.where(state.sharp, 1.0, D)
         k = np.repeat(np.arange(N), 2)
         asked = np.where(state.sharp, 0.0, 2.0 * y[: 2 * N] / D)
         # where the pressure beside an edge is negative the edge has to move in

@@ -97,7 +97,7 @@ class PatchPanels:
     angle: Array
 
 
-def _graded(first: float, growth: float, end: float) -> Array:
+def graded(first: float, growth: float, end: float) -> Array:
     """0, first, first growth, ... below end, end."""
     if not first < end / 1.3:
         return np.array([0.0, end])
@@ -117,7 +117,7 @@ def patch_panels(patches: Patches, pieces: Pieces) -> PatchPanels:
             cuts = np.array([0.0, 0.5 * np.pi])
             if gap < np.inf:
                 nearest = 2.0 * np.arcsinh(np.sqrt(gap / (2.0 * r[i])))
-                cuts = _graded(rule.first * nearest, rule.growth, 0.5 * np.pi)
+                cuts = graded(rule.first * nearest, rule.growth, 0.5 * np.pi)
             inward = b[i] - inner if side else inner - a[i]
             inward = inward[inward < r[i]]
             if inward.size:
@@ -220,7 +220,7 @@ def gap_panels(
                 end = np.sqrt(min(stop, farthest * hull))
                 if not end > 0.0:
                     continue
-            cuts = _graded(rule.first * nearest, rule.growth, end)
+            cuts = graded(rule.first * nearest, rule.growth, end)
             if limit < cuts[1]:
                 cuts = np.concatenate(([0.0, limit], cuts[1:]))
             count = len(cuts) - 1

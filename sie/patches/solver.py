@@ -135,7 +135,8 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
         if not corner:
             raise LoadError(
                 f"the contact reaches the end of the trace at x = {end:.6g}, and what the indenter "
-                "is like beyond is not known: lower the load or the tilt, or measure further out",
+                "is like beyond is not known: lower the load or the tilt, repeat the trace by "
+                "sie.Periodic(trace, period), or measure further out",
                 end=end,
             )
 
@@ -357,7 +358,8 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
     raise LoadError(
         f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
         f"{problem.given.load:.6g}: "
-        "two of them are about to merge, or one to appear; change the load a little"
+        "two of them are about to merge, or one to appear; change the load a little",
+        patches=state.patches.number,
     )
 
 

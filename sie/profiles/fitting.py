@@ -170,7 +170,7 @@ def reason_at_an_end(x: Array, h: Array) -> str:
     if _arched(x, left):
         return (
             "the trace arches upwards: heights of a surface have the other sign, "
-            "scale = (1, -1) turns them over"
+            "scale = (1, -1) turns them over; if h is the gap, the surface is hollow in the middle"
         )
     if int(np.argmin(h)) in (0, len(h) - 1):
         return (

@@ -1,4 +1,4 @@
-"""The traces in a profile that may be tilted, shifted, mirrored and added."""
+"""The traces in a profile that may be tilted, shifted, mirrored, added and repeated."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from sie.errors import ContactError
 
 from . import fitting
 from .base import Derived, Placed, Profile
+from .row import Periodic
 from .sampled import Sampled
 
 Array = NDArray[np.float64]
@@ -35,7 +36,8 @@ class PlacedTrace(NamedTuple):
 
 
 def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
-    """The traces in a profile that may be tilted, shifted, mirrored and added."""
+    """The traces in a profile that may be tilted, shifted, mirrored, added and repeated."""
+    profile = profile.profile if isinstance(profile, Periodic) else profile
     parts = profile.placed if isinstance(profile, Derived) else (Placed(profile, 1.0, 0.0, 0.0),)
     for part, sign, shift, tilt in parts:
         if isinstance(part, Sampled):

@@ -290,7 +290,25 @@ class Sampled(Profile):
         >>> Sampled([0, 1, 2, 3], [0, 1, 4, 9]).smoothed(0.5).lam
         0.5
         """
-        return self._remade(self.heights, smoothing)
+        return self._remade(self.points, self.heights, smoothing, f"smoothed({smoothing!r})")
+
+    def without_outliers(self) -> Sampled:
+        """The trace without the points that stand out of its noise, `outliers`.
+
+        Returns
+        -------
+        Sampled
+
+        Examples
+        --------
+        >>> x = np.linspace(-1.0, 1.0, 101)
+        >>> spiked = Sampled(x, np.where(x == 0.5, 0.3, x**2))
+        >>> len(spiked.without_outliers().points)
+        100
+        """
+        kept = np.delete(np.arange(len(self.points)), self.outliers)
+        call = "without_outliers()"
+        return self._remade(self.points[kept], self.heights[kept], self.smoothing, call)
 
     def levelled(self, between: tuple[float, float] | None = None) -> Sampled:
         """The trace less a least-squares line.
@@ -325,7 +343,9 @@ class Sampled(Profile):
                 "a line needs at least 2"
             )
         offset, slope = fitting.line(self.points[part], self.heights[part])
-        return self._remade(self.heights - (offset + slope * self.points), self.smoothing)
+        heights = self.heights - (offset + slope * self.points)
+        call = "levelled()" if between is None else f"levelled({between!r})"
+        return self._remade(self.points, heights, self.smoothing, call)
 
     def fit_rounded_flat(self) -> fitting.RoundedFlatFit:
         """The rounded flat nearest to the measured points, by least squares.
@@ -359,7 +379,9 @@ class Sampled(Profile):
         """
         return fitting.rounded_flat(self.points, self.heights)
 
-    def _remade(self, heights: Array, smoothing: Smoothing) -> Sampled:
-        made = Sampled(self.points, heights, smoothing)
+    def _remade(self, x: Array, h: Array, smoothing: Smoothing, call: str) -> Sampled:
+        """Another trace made by a call of a method, which is how one from a file is printed."""
+        made = Sampled(x, h, smoothing)
         object.__setattr__(made, "mended", self.mended)
+        object.__setattr__(made, "source", f"{self.source}.{call}" if self.source else "")
         return made

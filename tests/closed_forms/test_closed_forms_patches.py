@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from closed_forms import EPS, Call, coarse, mp, of_every_call, principal_value, resultant
 
-from analytic import cracks, flat, flat_row, hertz, two_flats, two_parabolas, wavy
+from analytic import cracks, flat, flat_row, hertz, parabola_row, two_flats, two_parabolas, wavy
 
 FLATS = {"inner": 1.0, "outer": 2.0, "normal_load": 3.0}
 PARABOLAS = {"inner": 1.0, "outer": 2.0, "radius": 2.0, "modulus": 3.0}
 WAVE = {"half_width": 0.6, "wavelength": 2.0, "amplitude": 0.3, "modulus": 5.0}
+CRESTS = {"half_width": 0.6, "radius": 3.0, "period": 2.0, "modulus": 5.0}
 ROW = {"half_width": 0.6, "period": 2.0, "mean_pressure": 5.0}
 
 
@@ -49,7 +50,7 @@ def test_two_parabolas_solve_their_equation(inner: float, outer: float, part: fl
 
 
 @pytest.mark.parametrize("x", [0.1])
-def test_wave_and_row_of_flats_solve_their_equations(x: float) -> None:
+def test_wave_and_rows_solve_their_equations(x: float) -> None:
     """1/(x-t) and the smooth rest of (pi/L) cot(pi (x-t)/L)."""
     for p, slope in (
         (
@@ -57,6 +58,10 @@ def test_wave_and_row_of_flats_solve_their_equations(x: float) -> None:
             lambda t: mp.mpf(5) / 2 * wavy.slope(t, wavelength=2, amplitude=0.3, lib=mp),
         ),
         (lambda t: flat_row.pressure(t, **ROW, lib=mp), lambda t: 0),
+        (
+            lambda t: parabola_row.pressure(t, **CRESTS, lib=mp),
+            lambda t: mp.mpf(5) / 2 * parabola_row.slope(t, radius=3, period=2, lib=mp),
+        ),
     ):
         own, at = principal_value(p, x, (-mp.mpf(0.6), mp.mpf(0.6)))
 
@@ -126,7 +131,7 @@ def test_edges_of_two_parabolas_invert_load_and_distance(load: float) -> None:
     assert abs(near / c1 - 1) < conditioning * EPS and abs(far / c2 - 1) < 8 * EPS
 
 
-def test_wave_and_row_of_flats_carry_their_mean_pressure() -> None:
+def test_wave_and_rows_carry_their_mean_pressure() -> None:
     ends = (-mp.mpf(0.6), mp.mpf(0.6))
     assert (
         abs(
@@ -138,6 +143,8 @@ def test_wave_and_row_of_flats_carry_their_mean_pressure() -> None:
         < 1e-25
     )
     assert abs(resultant(lambda t: flat_row.pressure(t, **ROW, lib=mp), ends) / 2 - 5) < 1e-22
+    crests = resultant(lambda t: parabola_row.pressure(t, **CRESTS, lib=mp), ends) / 2
+    assert abs(crests / parabola_row.mean_pressure(**CRESTS, lib=mp) - 1) < 1e-22
 
 
 @pytest.mark.parametrize("a", [1e-9, 0.3, 0.999999, 1.0])
@@ -148,6 +155,20 @@ def test_half_width_of_the_wave_inverts_the_mean_pressure(a: float) -> None:
     ) == pytest.approx(a, rel=1e-9)
     exact = wavy.mean_pressure(half_width=mp.mpf(a), **shape, lib=mp)
     assert abs(wavy.half_width(mean_pressure=exact, **shape, lib=mp) - a) < 1e-28
+
+
+@pytest.mark.parametrize("a", [1e-9, 0.3, 0.999999])
+def test_half_width_of_the_row_of_parabolas_inverts_the_mean_pressure(a: float) -> None:
+    shape = {"radius": 3.0, "period": 2.0, "modulus": 5.0}
+    exact = parabola_row.mean_pressure(half_width=mp.mpf(a), **shape, lib=mp)
+    assert abs(parabola_row.half_width(mean_pressure=exact, **shape, lib=mp) / a - 1) < 1e-25
+
+
+def test_a_sparse_row_of_parabolas_is_one() -> None:
+    x = np.linspace(-0.9, 0.9, 7)
+    row = parabola_row.pressure(x, half_width=1.0, radius=3.0, period=1e5, modulus=5.0)
+    one = hertz.pressure(x, half_width=1.0, radius=3.0, modulus=5.0)
+    np.testing.assert_allclose(row, one, rtol=1e-8)
 
 
 # --- potentials
@@ -303,6 +324,14 @@ CALLS: list[Call] = [
     *((wavy.potential, {"z": z, **WAVE}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
     *((flat_row.pressure, {"x": x, **ROW}) for x in (0.1, -6.4, 0.5999)),
     *((flat_row.potential, {"z": z, **ROW}) for z in (0.3, 0.9, 0.3 + 0.1j, -1.4 - 2j, 0.3 + 200j)),
+    (parabola_row.height, {"x": 5.3, "radius": 3.0, "period": 2.0}),
+    (parabola_row.slope, {"x": 5.3, "radius": 3.0, "period": 2.0}),
+    *((parabola_row.pressure, {"x": x, **CRESTS}) for x in (0.1, -6.4, 0.5999)),
+    *((parabola_row.mean_pressure, {**CRESTS, "half_width": a}) for a in (0.1, 0.6, 0.99)),
+    (
+        parabola_row.half_width,
+        {"mean_pressure": 0.7, "radius": 3.0, "period": 2.0, "modulus": 5.0},
+    ),
     (cracks.pair, {"inner": 0.1, "outer": 2.0, "tension": -3.0}),
     (cracks.row, {"half_length": 0.4, "period": 1.0, "tension": 3.0}),
 ]
@@ -344,6 +373,8 @@ def test_invalid_arguments_are_refused(lib) -> None:
         wavy.mean_pressure(**{**WAVE, "half_width": 1.5}, lib=lib)
     with pytest.raises(ValueError, match=r"half_width = 1\.5 is not less than period/2"):
         flat_row.pressure(0.0, **{**ROW, "half_width": 1.5}, lib=lib)
+    with pytest.raises(ValueError, match=r"half_width = 1\.5 is not less than period/2"):
+        parabola_row.pressure(0.0, **{**CRESTS, "half_width": 1.5}, lib=lib)
     with pytest.raises(ValueError, match=r"half_length = 1\.5 is not less than period/2"):
         cracks.row(half_length=1.5, period=2.0, tension=1.0, lib=lib)
     with pytest.raises(ValueError, match="give a smaller load"):

@@ -216,6 +216,16 @@ def test_the_gap_opens_as_the_potential_says(name):
     assert opened[finite] == pytest.approx(H[finite], abs=1e-6)
 
 
+@pytest.mark.parametrize("load", [1e-4, 1e-2])
+def test_the_gap_is_known_far_beyond_a_light_contact(load):
+    """Beside contact g = h - h(0) less what the load presses in, which is about P ln(x/r)."""
+    profile = sie.FromFunction("x - 0.6*sin(12*x + 0.7)", domain=(-2.0, 2.0))
+    solution = solved(profile=profile, normal_load=load)
+    x = np.array([-1.9, -1.0, 1.0, 1.9])
+    raised = profile.height(x) - float(profile.height(np.array([solution.centre]))[0])
+    assert solution.gap(x) == pytest.approx(raised, abs=20.0 * load)
+
+
 def test_a_shift_by_a_period_changes_nothing():
     solution = solved(**SCENES["wave"])
     x = np.linspace(-3.0, 3.0, 13)
@@ -330,13 +340,6 @@ def test_what_is_not_covered_is_refused_with_the_reason(asked, words):
     solution = solved(**asked)
     with pytest.raises(sie.ContactError, match=words):
         _ = solution.check(), solution.stick
-
-
-def test_a_load_path_on_several_patches_is_refused():
-    scene = sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, friction=0.5)
-    path = sie.Path([(0.4, 0.0), (0.4, 0.1), (0.4, -0.1)])
-    with pytest.raises(sie.ContactError, match="2 patches"):
-        _ = sie.follow(scene, path)[-1].stick
 
 
 @given(st.integers(0, 10**9))

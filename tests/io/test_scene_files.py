@@ -443,3 +443,58 @@ def test_a_path_longer_than_a_report_can_list_is_refused():
     most = [[1.0, 0.1 * (-1) ** k] for k in range(MOST_POINTS)]
     assert len(parse(text.format(most)).path) == len(most)
     assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))
+
+
+# -- traces ----------------------------------------------------------------------------------------
+
+TRACE = """
+[profile]
+kind = "sampled"
+x = [-2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2]
+h = [6.0, 3.75, 2.0, 0.75, 0.0, -0.25, 0.0, 0.75, 2.0]
+{}
+[pair]
+modulus = 1.0
+[load]
+normal_load = 0.1
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "made"),
+    [
+        ("levelled = true", lambda t: t.levelled()),
+        ("levelled = [-1, 1]", lambda t: t.levelled((-1, 1))),
+        ("without_outliers = true", lambda t: t.without_outliers()),
+        ("levelled = false", lambda t: t),
+        (
+            "levelled = true\nwithout_outliers = true\nshifted = 1.0",
+            lambda t: t.without_outliers().levelled().shifted(1.0),
+        ),
+    ],
+)
+def test_a_trace_is_treated_in_the_scene_file(line, made):
+    plain = parse(TRACE.format("")).scene.profile
+    assert parse(TRACE.format(line)).scene.profile == made(plain)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("levelled = [1]", r"levelled = \[1\] is not a pair"),
+        ("levelled = [5, 6]", "holds 0 points"),
+        ("levelled = 3", "neither true nor false"),
+        ("outliers = true", "without_outliers"),
+    ],
+)
+def test_a_bad_treatment_is_refused_with_the_remedy(line, words):
+    with pytest.raises(SceneFileError, match=words):
+        parse(TRACE.format(line))
+
+
+def test_only_traces_are_treated():
+    with pytest.raises(SceneFileError, match='it belongs to kind "sampled"'):
+        parse(
+            'profile = {kind = "parabola", radius = 1.0, levelled = true}\n'
+            "pair = {modulus = 1.0}\nload = {normal_load = 1.0}"
+        )

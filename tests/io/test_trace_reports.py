@@ -303,3 +303,33 @@ def test_the_reports_of_a_scene_file_keep_noise_and_certificate_apart():
     assert [gap["missing"] for gap in trace["gaps"]] == [20]
     assert [x for x, _ in trace["outliers"]] == [X[40]]
     assert "traces" not in json.loads(export.json_text(solved(sie.Parabola(1.0)), file))
+
+
+# -- several patches -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("smoothing", [0.0, "gcv"])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_error_stated_for_several_patches_covers_that_of_the_noise(smoothing, seed):
+    x = np.linspace(-2.0, 2.0, 401)
+    clean = 0.1 * np.cos(9.0 * x) + x * x / 8.0
+    noisy = clean + 1e-4 * np.random.default_rng(seed).standard_normal(len(x))
+    given = {"modulus": 1.0, "normal_load": 0.2}
+    measured = sie.solve(sie.Scene(profile=sie.Sampled(x, noisy, smoothing), **given))
+    true = sie.solve(sie.Scene(profile=sie.Sampled(x, clean), **given))
+    (report,) = measured.trace_reports()
+    at = np.linspace(-1.2, 1.2, 2001)
+    error = np.abs(measured.pressure(at) - true.pressure(at)).max() / true.pressure(at).max()
+    assert len(measured.patches) > 1
+    assert error < report.pressure_error < 0.5
+    moved = np.abs(np.subtract(measured.edges, true.edges))
+    assert (moved < 4.0 * np.array(report.edge_errors)).all()
+
+
+def test_a_repeated_trace_has_a_report():
+    x = np.linspace(0.0, 1.0, 101)
+    profile = sie.Periodic(sie.Sampled(x, 0.01 * np.cos(6.0 * np.pi * x)), 1.0)
+    solution = sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.01))
+    (report,) = solution.trace_reports()
+    assert report.points == 101
+    assert not report.aside

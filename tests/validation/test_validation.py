@@ -188,6 +188,7 @@ UNTIMED = (
     "slip",
     "sliding",
     "sampled",
+    "patches",
     "stability",
     "certificate",
     "mutation",

@@ -1,0 +1,102 @@
+"""What errors of the slope change on several patches, to first order.
+
+The conditions of the edges and the pressure are linear in the slope. With δH in place of H they
+give the point charges y that make up for it, and from them
+
+    δp = (E*/2π) |T_i| δD_i,    δD_i of δH and y             edge e moves by 2 y_e / D(e)
+
+Next to a smooth edge that moves by δ the pressure changes as that at the distance δ from it, which
+is no first order. The first error is known and counts in full; the others are samples of an unknown
+one, which counts as so many standard deviations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.profiles.base import Profile
+
+from .admissible import Found
+from .density import PatchPressure
+from .newton import Given, State, conditions
+from .operator import Operator
+from .profile_pieces import of_profile
+
+Array = NDArray[np.float64]
+
+INNER = 0.9  # of each patch
+PLACES = 16  # on each patch
+TOLERANCE = 1e-15  # to which an error that is a function is resolved
+
+
+class PatchErrors(NamedTuple):
+    """The changes by errors of the slope.
+
+    pressure    the largest of the pressure, over its peak
+    inner       the same on the inner part of each patch
+    edges       of the outermost two edges, lengths
+    unsure      the number of patches of which an edge moves by more than their half-width
+    """
+
+    pressure: float
+    inner: float
+    edges: tuple[float, float]
+    unsure: int
+
+
+class Answer(Protocol):
+    """What a contact in several patches holds."""
+
+    @property
+    def found(self) -> Found: ...
+    @property
+    def pressure(self) -> PatchPressure: ...
+
+
+def changes(
+    several: Answer, known: Profile, samples: Sequence[Profile], spread: float, moment: bool
+) -> PatchErrors:
+    """The changes where the profile changes by `known`, and by `spread` times as much as `samples`
+    do; all of the same period. `moment`: whether that is given, and the tilt changes.
+    """
+    P = several.found.state.patches
+    angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES
+    places = P.c[:, None] - INNER * P.r[:, None] * np.cos(angle)
+    first, *others = (_changed(several, error, places, moment) for error in (known, *samples))
+    p, moved = (
+        np.abs(first[k]) + spread * np.sqrt(np.mean([o[k] ** 2 for o in others], axis=0))
+        for k in (0, 1)
+    )
+    pressure = several.pressure
+    peak = float(pressure(places).max())
+    inner = float(p.max()) / peak
+    edges = moved.reshape(-1, 2)
+    capped = np.minimum(edges, P.r[:, None])
+    beside = np.where(edges > 0.0, pressure(np.stack((P.a, P.b), axis=1) + capped * (1, -1)), 0.0)
+    largest = float(beside.max()) / peak
+    unsure = int((edges.max(axis=1) > P.r).sum())
+    return PatchErrors(
+        max(inner, largest), inner, (float(edges[0, 0]), float(edges[-1, 1])), unsure
+    )
+
+
+def _changed(several: Answer, error: Profile, places: Array, moment: bool) -> tuple[Array, Array]:
+    """δp at places and the shifts of the edges (2N,) by an error; sharp edges stay."""
+    state = several.found.state
+    P, sharp = state.patches, state.sharp
+    pieces = of_profile(error, several.found.operator.pieces.domain, TOLERANCE)
+    none = Given(0.0, 0.0, 0.0 if moment else None)
+    still = State(P, np.ones(2 * P.number, dtype=bool), np.zeros(2 * P.number), 0.0)
+    _, linear = conditions(still, pieces, none)
+    size = np.abs(linear.matrix).max(axis=1)
+    y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
+    charged = Operator(P, pieces, y[:-1])
+    G, tilt = several.pressure.half_modulus, float(y[-1])
+    p = PatchPressure(charged, G, tilt, 0.0)(places)
+    _, whole = conditions(state, several.found.operator.pieces, none)
+    shifts = np.where(sharp, 0.0, 2.0 * y[:-1] / np.where(sharp, 1.0, whole.intensity))
+    return p, shifts

@@ -1,0 +1,232 @@
+"""Friction on several patches and per period: one step, paths, cycles, energy.
+
+The mesh solver does not use superposition.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sie
+from oracles.kalker_patches import PatchMesh
+from sie.io.report import summary
+from sie.io.scene_file import SceneFile
+from sie.numerics import chebyshev
+from sie.numerics.zones import left_over
+
+F = 0.5
+TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+WAVY = sie.FromFunction("x - 0.6*sin(12*x + 0.7)", domain=(-2.0, 2.0))
+WAVES = sie.Periodic(
+    sie.FromFunction("0.8*sin(x) + 1.05*sin(3*x + 0.5) + 0.84*sin(7*x + 1.1)"), 2.0 * np.pi
+)
+FLATS = sie.Row([sie.Flat(0.4).shifted(-0.6), sie.Flat(0.55).shifted(0.85)])
+SCENES = {
+    "row": sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, friction=F),
+    "row under a moment": sie.Scene(
+        modulus=1.0, profile=TWO, normal_load=0.4, moment=0.05, friction=F
+    ),
+    "wavy punch": sie.Scene(modulus=1.0, profile=WAVY, normal_load=0.228, friction=F),
+    "merged patches": sie.Scene(modulus=1.0, profile=WAVY, normal_load=0.7, friction=F),
+    "flats": sie.Scene(modulus=1.0, profile=FLATS, normal_load=0.6, friction=F),
+    "period": sie.Scene(modulus=1.0, profile=WAVES, normal_load=3.0, friction=F),
+    "full contact": sie.Scene(modulus=1.0, profile=WAVES, normal_load=60.0, friction=F),
+}
+each = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+
+
+def at_constant_load(scene, *fractions):
+    P = scene.normal_load
+    return sie.follow(scene, sie.Path([(P, k * F * P) for k in fractions]))
+
+
+def places(solution):
+    return np.concatenate([np.linspace(a, b, 23)[1:-1] for a, b in solution.patches])
+
+
+@each
+def test_a_path_of_one_point_is_the_scene(scene):
+    followed = at_constant_load(scene, 0.8)[0]
+    alone = sie.solve(followed.scene)
+    x = places(alone)
+    assert followed.stick == alone.stick
+    assert (followed.shear(x) == alone.shear(x)).all()
+    assert (followed.slip(x) == alone.slip(x)).all()
+
+
+@each
+def test_unloading_is_half_of_the_first_loading_twice(scene):
+    """q = q(Q_max) - 2 q((Q_max - Q)/2), Mindlin & Deresiewicz 1953, and so is the slip."""
+    loaded, unloaded = at_constant_load(scene, 0.9, 0.1)
+    half = at_constant_load(scene, 0.4)[0]
+    x = places(loaded)
+    error = 1e-13 * loaded.pressure(x).max()
+    assert unloaded.shear(x) == pytest.approx(loaded.shear(x) - 2.0 * half.shear(x), abs=error)
+    assert unloaded.slip(x) == pytest.approx(loaded.slip(x) - 2.0 * half.slip(x), abs=1e-13)
+    assert np.array(unloaded.stick) == pytest.approx(np.array(half.stick), abs=1e-13)
+
+
+@each
+def test_a_closed_loop_closes(scene):
+    history = at_constant_load(scene, 0.8, -0.3, 0.5, -0.3, 0.8)
+    first, last, x = history[0], history[4], places(history[0])
+    assert np.array(last.stick) == pytest.approx(np.array(first.stick), abs=1e-13)
+    assert last.shear(x) == pytest.approx(first.shear(x), abs=1e-13 * first.pressure(x).max())
+
+
+@each
+@pytest.mark.parametrize("part", [0.05, 0.7, 0.995])
+def test_friction_obeys_its_laws_on_every_patch(scene, part):
+    solution = at_constant_load(scene, part)[0]
+    x, Q = places(solution), part * F * scene.normal_load
+    p, q = solution.pressure(x), solution.shear(x)
+    stuck = solution.slip(x) == 0.0
+    assert left_over(solution.stick, solution.patches, scene.profile.period) == ()
+    assert solution.shear.resultant == pytest.approx(Q, rel=1e-12)
+    assert (solution.slip(x) >= 0.0).all()
+    assert q[~stuck] == pytest.approx(F * p[~stuck], rel=1e-12)
+    assert (q[stuck] <= F * p[stuck] * (1.0 + 1e-12)).all()
+
+
+def test_patches_that_have_merged_stick_in_several_zones():
+    solution = at_constant_load(SCENES["merged patches"], 0.95)[0]
+    assert len(solution.patches) < len(solution.stick)
+
+
+@settings(max_examples=4)
+@given(st.sampled_from(["row", "wavy punch", "merged patches", "period"]), st.integers(0, 999))
+def test_histories_agree_with_a_mesh_to_its_error(name, seed):
+    """First order: a third of the element, less than half of the error of q."""
+    scene = SCENES[name]
+    turns = np.random.default_rng(seed).uniform(0.2, 0.9, 3) * [1.0, -0.8, 0.6]
+    history = at_constant_load(scene, *turns)
+    errors = []
+    for n in (150, 450):
+        mesh = PatchMesh(history[0].patches, n, 1.0, scene.profile.period)
+        bound, q = F * history[0].pressure(mesh.x), np.zeros(len(mesh.x))
+        slip, worst = np.zeros(len(mesh.x)), []
+        for part, solution in zip(turns, history, strict=True):
+            q, moved = mesh.step(q, bound, part * F * scene.normal_load, 0.0)
+            slip += moved
+            largest = np.abs(solution.slip(mesh.x)).max()
+            worst.append(np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
+            worst.append(np.abs(slip - solution.slip(mesh.x)).max() / largest)
+        errors.append(worst)
+    coarse, fine = np.array(errors)
+    assert fine[::2].max() < 5e-3 and fine[1::2].max() < 5e-2
+    assert fine[::2].sum() < 0.5 * coarse[::2].sum()
+
+
+# -- energy ----------------------------------------------------------------------------------------
+
+
+def oblique(P):
+    """Loads that rise and fall together, with slip and without."""
+    Q = F * P
+    points = [
+        (P, 0.6 * Q),
+        (0.8 * P, 0.5 * Q),
+        (0.9 * P, -0.3 * Q),
+        (P, 0.8 * Q),
+        (0.9 * P, 0.9 * Q),
+    ]
+    return sie.Path(points)
+
+
+@pytest.mark.parametrize("name", ["row", "wavy punch", "merged patches", "full contact"])
+def test_energy_of_a_path_is_that_of_the_path_cut_into_parts(name):
+    scene = SCENES[name]
+    path = oblique(scene.normal_load)
+    lost = [point.energy_lost for point in sie.follow(scene, path)]
+    parts = sie.follow(scene, path.subdivided(2))
+    assert [point.energy_lost for point in parts][::2] == pytest.approx(lost, rel=1e-10)
+
+
+def test_energy_of_a_row_of_one_is_that_of_its_profile():
+    row = sie.Scene(modulus=1.0, profile=sie.Row([TWO.profiles[0]]), normal_load=0.4, friction=F)
+    one = sie.Scene(modulus=1.0, profile=TWO.profiles[0], normal_load=0.4, friction=F)
+    lost = [[s.energy_lost for s in sie.follow(scene, oblique(0.4))] for scene in (row, one)]
+    assert lost[0] == pytest.approx(lost[1], rel=1e-10)
+
+
+def test_the_loop_of_load_over_shift_encloses_the_energy_lost():
+    """∮Q dδ by Gauss' rule on one branch, which the other mirrors."""
+    scene = SCENES["row"]
+    g, w = chebyshev.gauss_legendre(16)
+    Q = 0.6 * np.cos(np.pi * g)
+    history = at_constant_load(scene, 0.6, *Q, -0.6)
+    shift = np.array([s.shift for s in history][1:-1])
+    dQ = -0.6 * F * scene.normal_load * np.pi * np.sin(np.pi * g)
+    area = -2.0 * float((w * shift) @ dQ)
+    lost = history[-1].energy_lost - history[0].energy_lost
+    assert area == pytest.approx(2.0 * lost, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["row", "wavy punch"])
+def test_normal_and_tangential_loads_that_change_together_agree_with_a_mesh(name):
+    """In small steps; patches of the wavy punch appear on the way."""
+    scene = SCENES[name]
+    P = scene.normal_load
+    points = [(0.5 * P, 0.3 * F * P), (P, 0.9 * F * P), (0.8 * P, -0.1 * F * P)]
+    history = sie.follow(scene, sie.Path(points))
+    loads = [points[0]]
+    for start, end in pairwise(points):
+        loads += [tuple(v) for v in np.linspace(start, end, 9)[1:]]
+    pressures = {load: sie.solve(replace(scene, normal_load=load)).pressure for load, _ in loads}
+    mesh = PatchMesh(history[1].patches, 300, 1.0)
+    q, lost = np.zeros(len(mesh.x)), 0.0
+    for load, Q in loads:
+        bound = F * pressures[load](mesh.x)
+        q, moved = mesh.step(q, bound, Q, 0.0)
+        lost += mesh.h * float(np.abs(q * moved).sum())
+        if (load, Q) in points:
+            exact = history[points.index((load, Q))]
+            assert np.abs(q - exact.shear(mesh.x)).mean() < 2e-2 * bound.max()
+    assert lost == pytest.approx(history[-1].energy_lost, rel=3e-2)
+
+
+@each
+def test_slip_at_incipient_sliding_is_the_limit_of_slip(scene):
+    nearly, sliding = (
+        sie.solve(at_constant_load(scene, part)[0].scene) for part in (1 - 1e-7, 1.0)
+    )
+    x = places(sliding)
+    assert sliding.stick == ()
+    assert sliding.slip(x) == pytest.approx(nearly.slip(x), abs=1e-5 * (1.0 + np.ptp(x)))
+    assert sliding.energy_lost == pytest.approx(nearly.energy_lost, rel=1e-4, abs=1e-12)
+
+
+# -- what is written of it -------------------------------------------------------------------------
+
+
+def test_the_table_of_a_path_lists_the_stick_zones_of_every_patch():
+    scene = SCENES["row"]
+    path = ((0.4, 0.0, 0.0), (0.4, 0.12, 0.0))
+    last = sie.follow(scene, sie.Path(path))[-1]
+    table = summary(last, SceneFile(last.scene, path=path, want=("shear",))).split("energy lost")[
+        -1
+    ]
+    for lo, hi in last.stick:
+        assert f"{lo:.6g}" in table and f"{hi:.6g}" in table
+
+
+def test_many_zones_are_summed_in_a_report():
+    teeth = sie.Row([sie.Parabola(1.0).shifted(float(k)) for k in range(10)])
+    scene = sie.Scene(modulus=1.0, profile=teeth, normal_load=0.1, friction=F, tangential_load=0.02)
+    solution = sie.solve(scene)
+    report = summary(solution, SceneFile(scene, want=("shear",)))
+    assert "in 10 zones, together" in report and "in 20 zones, together" in report
+
+
+@pytest.mark.parametrize("profile", [TWO, WAVES], ids=["row", "period"])
+def test_the_plan_of_several_patches_speaks_of_patches(profile):
+    scene = sie.Scene(
+        modulus=1.0, profile=profile, normal_load=0.4, friction=F, tangential_load=0.1
+    )
+    plan = str(sie.plan(scene, want="shear"))
+    assert "on all patches" in plan
+    assert "both edges" not in plan and "DCT" not in plan
