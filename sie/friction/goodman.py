@@ -11,15 +11,14 @@ d vanishes where the bodies slip in that direction already, and is 2 f p where t
 against it. So Δq is the shear of Cattaneo and Mindlin with d in place of f p, on the contact up to
 the slip zone that remains, and the stick zone has their two equations (`slip_zones`).
 
-Goodman (1962), J. Appl. Mech. 29, 515.
+Goodman (1962), J. Appl. Mech. 29, 515; docs/derivations/goodman.md.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,70 +29,24 @@ from sie.numerics.interval import Interval
 from sie.traction.base import Complex, Density, on_line
 from sie.traction.combination import Combination
 
-from .coupled_profile import NEAREST, _graded
-from .coupled_traction import CoupledTraction, on_panels, resolved_panels
+from .coupled_profile import NEAREST
+from .coupled_traction import CoupledTraction, Panels, on_panels, resolved_panels
+from .goodman_frame import DeficitFrame
 from .goodman_functions import GoodmanFlat, goodman_flat
 from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
-from .load_limit import refuse_sliding
-from .slip_zones import Drive, EdgeFrame, SlipZone, SlipZones, edge_frame, slip_zones
+from .load_limit import refuse_corner, refuse_sliding
+from .slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from .states import GrownSlip, Step
 
 Array = NDArray[np.float64]
 
-NODES = 16
 ENERGY_NODES = 24
 LIGHTER = 0.8  # of the load: under it, what stuck then is looked at again
 SMALL = 1e-13  # of the half-width: marks nearer to each other are one
 FIRST_ZONE = 0.25  # of the half-width: where the search for the zones under Q begins
 KIND = "outwards on both sides while the normal load grew, β q neglected (Goodman)"
 KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
-
-
-@dataclass(frozen=True, eq=False)
-class DeficitFrame:
-    """What the shear lacks of the limit, at distances inwards from the end of its zone.
-
-    scale       distance beyond the end to the next place where it is not smooth
-    breaks      distances of such places inside, ascending
-    """
-
-    state: GoodmanSlip
-    side: float
-    scale: float
-    breaks: tuple[float, ...]
-    edge: EdgeFrame | None
-
-    def zone(self, length: float, nearest: float = 1.0) -> SlipZone:
-        """A rule for the zone of this length, in roots at its ends.
-
-        It is graded towards the breaks, and towards the stick zone as far as a part `nearest`.
-        """
-        if length <= 0.0:
-            none = np.zeros(0)
-            return SlipZone(0.0, none, none, none, none)
-        ends = np.array([0.0, *(b for b in self.breaks if b < length), length])
-        width = np.diff(ends)
-        before = np.full(len(width), NEAREST * length)
-        before[0] = self.scale
-        after = np.append(before[1:], nearest * width[-1])
-        owner, first, size, left, kind = _graded(width, np.minimum(before, width), after)
-        x, _, w = gauss_jacobi(NODES, 0.0, 0.0)
-        places = np.array([x * x, x, 1.0 - x * x])
-        weights = np.array([2.0 * x * w, w, 2.0 * x * w])
-        rest = np.array([1.0 - x * x, 1.0 - x, x * x])
-        distance = ends[owner][:, None] + first[:, None] + size[:, None] * places[kind]
-        beyond = (length - ends[1:])[owner][:, None]
-        from_stick = beyond + left[:, None] + size[:, None] * rest[kind]
-        weight = size[:, None] * weights[kind]
-        values = self.state.deficit(distance.ravel(), self)
-        return SlipZone(
-            length,
-            from_stick.ravel(),
-            distance.ravel(),
-            weight.ravel(),
-            weight.ravel() * values / self.state.friction,
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,31 +71,46 @@ class GoodmanShear(Density):
     @cached_property
     def parts(self) -> Combination:
         """The even and the odd part about the centre of the contact."""
-        contact = self.state.contact
-        x1, x2 = self.interval
-        marks = {abs(x - contact.m) for x in self.state.marks}
-        inside = sorted(y for y in marks if SMALL * contact.r < y < (1.0 - SMALL) * contact.r)
-        inner = (*inside, contact.r)
-        power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
-
-        def half(y: Array, parity: float) -> Array:
-            right, left = (self(np.clip(contact.m + s * y, x1, x2)) for s in (1.0, -1.0))
-            values: Array = 0.5 * (right + parity * left)
-            return values
-
-        def part(parity: float, load: float) -> CoupledTraction:
-            def values(y: Array) -> Array:
-                return half(y, parity)
-
-            def panels() -> Any:
-                return resolved_panels((values,), inner, power)[0]
-
-            return CoupledTraction(values, panels, parity, load, inner, contact)
-
-        odd = (1.0, part(-1.0, 0.0))
+        odd = (1.0, self._part(-1.0, 0.0))
         if self.state.symmetric:
             return Combination((odd,))
-        return Combination((odd, (1.0, part(1.0, self.resultant))))
+        return Combination((odd, (1.0, self._part(1.0, self.resultant))))
+
+    def _part(self, parity: float, load: float) -> CoupledTraction:
+        def values(y: Array) -> Array:
+            part: Array = 0.5 * (self._half(y, 1.0) + parity * self._half(y, -1.0))
+            return part
+
+        def panels() -> Panels:
+            right, left = self._halves
+            return right._replace(series=0.5 * (right.series + parity * left.series))
+
+        return CoupledTraction(values, panels, parity, load, self._inner, self.state.contact)
+
+    def _half(self, y: Array, side: float) -> Array:
+        return self(np.clip(self.state.contact.m + side * y, *self.interval))
+
+    @cached_property
+    def _halves(self) -> tuple[Panels, Panels]:
+        """Series of q on both sides of the centre.
+
+        They are resolved together, relative to their largest values: the even part may be rounding.
+        """
+        sides = (1.0,) if self.state.symmetric else (1.0, -1.0)
+        power = -0.5 if any(self.state.step.normal.edges.sharp) else 0.5
+        halves = tuple(partial(self._half, side=side) for side in sides)
+        right, *left = resolved_panels(halves, self._inner, power)
+        return right, left[0] if left else right._replace(series=-right.series)
+
+    @property
+    def _inner(self) -> tuple[float, ...]:
+        """Distances of the marks from the centre, and half the width of the contact."""
+        contact = self.state.contact
+        inner = [0.0]
+        for y in sorted(abs(x - contact.m) for x in self.state.marks):
+            if inner[-1] + SMALL * contact.r < y < (1.0 - SMALL) * contact.r:
+                inner.append(y)
+        return *inner[1:], contact.r
 
     def __call__(self, x: ArrayLike) -> Array:
         return on_line(self.state.traction, x)
@@ -340,7 +308,7 @@ class GoodmanSlip(GrownSlip):
             rest = self.flat.rest * self.contact.r if continues else self.contact.r
             edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
             breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
-            frames.append(DeficitFrame(self, side, rest, breaks, edge))
+            frames.append(DeficitFrame(self.deficit, self.friction, side, rest, breaks, edge))
         interval = Interval(x1, c2) if self.along > 0.0 else Interval(c1, x2)
         return (frames[0], frames[1]), interval
 
@@ -422,20 +390,9 @@ def goodman_slip(step: Step, search: Search) -> GoodmanSlip:
     scene = step.scene
     if step.Q:
         refuse_sliding(scene.friction, step.normal_load, step.Q)
-        _refuse_corner(step)
+        refuse_corner(step.normal.edges.sharp, step.Q)
     law = scene.profile.power_law
     table = ContactTable(search, step.normal.edges, step.slope.breaks.tolist(), law)
     state = GoodmanSlip(step, goodman_flat(abs(scene.beta), scene.friction), table)
     _ = state.sides
     return state.under_tangential_load() if step.Q else state
-
-
-def _refuse_corner(step: Step) -> None:
-    """ContactError at a sharp edge, which sticks against Q until all slides."""
-    if any(step.normal.edges.sharp):
-        raise ContactError(
-            f"tangential_load = {step.Q:g} on a contact that ends at a corner: the corner behind "
-            "sticks until all slides, which Goodman's approximation does not solve; set "
-            "tangential_load = 0, round the corner (sie.RoundedFlat), or give dundurs = 0 to "
-            "neglect β"
-        )

@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 
 DEGREE = 24
 DECAYED = 1e-14  # of a series, its last coefficients
+CARRIED = 1e-10  # of the load, at first touch: more than rounding
 NEGLIGIBLE = 1e-14  # of the load over the half-width: what a short panel may miss of the pressure
 MOST = 200  # panels: beyond, none is cut
 CUT = 0.3  # of a panel: where it is cut
@@ -125,6 +126,8 @@ class ContactTable:
             self.corner_load = edges.normal_load - whole
         self.first_centre = 0.5 * (z1 + z2)
         self._breaks: list[float] = [] if self.law else breaks
+        if self.start:
+            self._refuse_other_starts()
 
     def contact(self, r: float, near: float) -> tuple[float, EdgeIntegrals]:
         """The centre of the contact of half-width r, from one near to it, and its integrals."""
@@ -141,10 +144,25 @@ class ContactTable:
             m += step
             if abs(step) <= SETTLED * (r + abs(m)):
                 return m, k
-        raise ContactError(
-            f"no contact of half-width {r:.6g} leads to this one: it does not grow steadily with "
-            "the load, as Goodman's approximation needs; give a convex profile"
+        raise self._unsteady(r)
+
+    @staticmethod
+    def _unsteady(r: float) -> ContactError:
+        return ContactError(
+            f"no contact in one patch of half-width {r:.6g} leads to this one: it does not grow "
+            "steadily with the load, as Goodman's approximation needs; give a convex profile, or "
+            "dundurs = 0 to neglect β"
         )
+
+    def _refuse_other_starts(self) -> None:
+        """ContactError where the contact at first touch carries a load: it was in several
+        patches.
+        """
+        contact = Interval(self.first_centre - self.start, self.first_centre + self.start)
+        if self.start < self.end:
+            carried = self.search.load(contact, self.search.integrals(contact))
+            if abs(carried) > CARRIED * self._mean_pressure * self.end:
+                raise self._unsteady(self.start)
 
     @cached_property
     def panels(self) -> tuple[Panel, ...]:
@@ -211,6 +229,8 @@ class ContactTable:
             m, k = self.contact(r, m)
             rates[j] = 2.0 * G * r / (1.0 / k.JL + 1.0 / k.JR)
             centres[j] = m - self.middle if self.search.axis is None else 0.0
+        if not (rates >= 0.0).all():
+            raise self._unsteady(float(half_widths[np.argmin(rates)]))
         series = chebyshev.transform(np.stack((rates, centres)))
         panel = Panel(lo, hi, 0.0, *series)
         of_rate = float(np.abs(panel.load_rate[-3:]).max())

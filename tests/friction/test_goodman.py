@@ -87,6 +87,43 @@ def test_certificate_holds_under_tangential_load(part):
     assert solution.shear.resultant == 0.1 * part
 
 
+@pytest.mark.parametrize("part", [1e-6, 0.99, -0.99])
+def test_small_and_large_tangential_loads_are_answered(part):
+    certificate = solved(tangential_load=0.1 * part).check()
+    assert certificate.ok
+    assert certificate.shear.equilibrium < 1e-10
+
+
+@pytest.mark.parametrize("part", [1e-6, 0.3, -0.99])
+def test_a_tilted_parabola_is_the_upright_one_elsewhere_under_tangential_load(part):
+    x = np.linspace(-0.7, 0.7, 9)
+    tilted = solved(tangential_load=0.1 * part, tilt=0.05)
+    upright = solved(tangential_load=0.1 * part)
+    assert tilted.shear(x - 0.05) == pytest.approx(upright.shear(x), abs=1e-14)
+    assert tilted.check().ok
+
+
+def test_a_symmetric_shear_without_symmetry_of_the_profile_is_resolved_in_few_values():
+    shear = solved(tilt=0.05).tangential.shear
+    assert len(shear._halves[0].lo) < 40  # the even part is rounding
+
+
+DOUBLE_WELL = sie.Polynomial((0.0, 0.0, -0.5, 0.0, 1.0))
+
+
+def test_several_patches_are_refused_with_a_remedy():
+    with pytest.raises(
+        sie.ContactError, match=r"2 patches with coupling = 'goodman'.* dundurs = 0"
+    ):
+        _ = solved(DOUBLE_WELL, normal_load=0.05).stick
+
+
+@pytest.mark.parametrize("load", [2.0, 5.0, 50.0])
+def test_patches_that_have_merged_are_refused_too(load):
+    with pytest.raises(sie.ContactError, match=r"does not grow steadily .* convex profile"):
+        _ = solved(DOUBLE_WELL, normal_load=load).stick
+
+
 def test_the_load_to_the_left_mirrors_the_load_to_the_right():
     right, left = solved(tangential_load=0.03), solved(tangential_load=-0.03)
     x = np.linspace(-0.7, 0.7, 9)
