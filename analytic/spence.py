@@ -120,7 +120,7 @@ def load(
 
     >>> args = {"coefficient": 0.5, "exponent": 2, "modulus": 1.0, "friction": 0.3, "dundurs": 0.3}
     >>> round(float(load(half_width=1.0, **args)), 11)
-    0.82616167361
+    0.82616167305
     """
     b, C = positive("half_width", half_width, lib), positive("coefficient", coefficient, lib)
     E, m = positive("modulus", modulus, lib), positive("exponent", exponent, lib)
