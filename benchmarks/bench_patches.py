@@ -33,7 +33,40 @@ def test_a_row_of_parabolas(benchmark, count):
     assert len(patches) == count
 
 
-@pytest.mark.parametrize("points", [300, 1000])
-def test_a_rough_trace(benchmark, points):
+@pytest.mark.parametrize(("points", "load"), [(300, 0.02), (1000, 0.02), (3000, 0.03)])
+def test_a_rough_trace(benchmark, points, load):
     trace = rough(points)
-    assert len(benchmark.pedantic(solved, (trace, 0.02), rounds=1)) > 10
+    assert len(benchmark.pedantic(solved, (trace, load), rounds=1)) > 10
+
+
+def self_similar(points, seed=1):
+    """A trace whose waves shorten with its spacing: the patches for each point are as many."""
+    rng = np.random.default_rng(seed)
+    k, long = np.arange(1, points // 2), points / 250.0
+    amplitude = np.where(k >= long, (np.maximum(k, long) / long) ** -1.3, 1.0) * (k >= long / 4.0)
+    spectrum = np.zeros(points // 2 + 1, dtype=complex)
+    spectrum[1 : points // 2] = amplitude * np.exp(1j * rng.uniform(0.0, 2.0 * np.pi, len(k)))
+    x, h = np.linspace(-1.0, 1.0, points), np.fft.irfft(spectrum, points)
+    ends = 0.5 * np.maximum(np.abs(x) - 0.9, 0.0) ** 2
+    return sie.Sampled(x, h * (10.0 / points / h.std()) + ends)
+
+
+@pytest.mark.parametrize("points", [1000, 3000, 10_000, 30_000])
+def test_a_fixed_density_of_patches(benchmark, points):
+    """The growth exponent is the slope of these times over the number of points."""
+    trace = self_similar(points)
+    assert len(benchmark.pedantic(solved, (trace, 0.01), rounds=1)) > points / 100
+
+
+def test_the_stress_below_two_patches(benchmark):
+    row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+    solution = sie.solve(sie.Scene(profile=row, modulus=MODULUS, poisson=0.3, normal_load=0.4))
+    x, depth = np.meshgrid(np.linspace(-2.0, 2.0, 200), np.linspace(0.01, 2.0, 200))
+    assert solution.patches
+    assert np.isfinite(benchmark(lambda: solution.stress(x, depth).mises)).all()
+
+
+def test_the_elastic_limit_of_two_patches(benchmark):
+    row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
+    scene = sie.Scene(profile=row, modulus=MODULUS, poisson=0.3, normal_load=0.4)
+    assert benchmark(lambda: sie.solve(scene).elastic_limit())

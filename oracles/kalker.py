@@ -70,3 +70,20 @@ class Mesh:
             at = np.where(out, np.sign(new), at)
             free = (free & ~out) | back
         raise AssertionError("the active set does not settle")
+
+    def pressure(self, gap: Array, P: float, guess: Array) -> Array:
+        """The pressure of the normal load P on bodies with this gap before they deform."""
+        n, free = len(gap), guess > 0.0 if guess.any() else np.ones(len(gap), dtype=bool)
+        for _ in range(MOST):
+            m = int(free.sum())
+            K = np.zeros((m + 1, m + 1))
+            K[:m, :m], K[:m, m], K[m, :m] = self.A[np.ix_(free, free)], -1.0, self.h
+            found = np.linalg.solve(K, np.append(-gap[free], P))
+            p = np.zeros(n)
+            p[free] = found[:m]
+            opening = gap + self.A @ p - found[m]
+            out, back = p < 0.0, ~free & (opening < -1e-14 * np.abs(gap).max())
+            if not out.any() and not back.any():
+                return p
+            free = (free & ~out) | back
+        raise AssertionError("the active set does not settle")

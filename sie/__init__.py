@@ -47,6 +47,7 @@ from .profiles.sampled import Sampled
 from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
+from .steady_cycle import SteadyCycle, steady_cycle
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
@@ -86,6 +87,7 @@ __all__ = [
     "Sampled",
     "Scene",
     "Solution",
+    "SteadyCycle",
     "Stress",
     "TraceReport",
     "Wedge",
@@ -95,6 +97,7 @@ __all__ = [
     "plan",
     "scaled",
     "solve",
+    "steady_cycle",
     "superposed",
     "sweep",
 ]

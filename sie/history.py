@@ -1,17 +1,19 @@
 """Slip over a load path: a lazy sequence of solutions, one for each turning point.
 
-The first point is answered like a scene: P alone, then Q and σ in proportion. From each point to
-the next all loads change in proportion to time. What is exact, and covered:
+The first point is answered like a scene: P and the tilt alone, then Q and σ in proportion. From
+each point to the next all loads change in proportion to time. What is exact, and covered:
 
-    constant P, any Q                  every unloading, reloading and nested loop
-    constant P, σ in proportion to Q   the same where the slip zones of the largest amplitude
-                                       opened monotonically; P may change before
-    P and Q at will, σ = 0             Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
+    constant P and tilt, Q alone       every unloading, reloading and nested loop
+    P and Q at will, σ constant        Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
                                        |dQ/dP| on either side of f, or falls
+    P, Q, σ and tilt together          the same superposition of tilted profiles, where both ends of
+                                       the stick zone recede along the step and pass earlier ones
+                                       together (`friction.load_step`)
+    slip of opposite signs             at constant P with σ in proportion to Q; a first loading with
+                                       P changing
 
-With σ = 0 the contacts of one profile at one tilt must be nested: a given moment would tilt it (but
-for moment = 0 of a symmetric profile). `friction.memory` computes the layers that a step changes,
-and `friction.partial_slip` the slip of a single step.
+`friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
+single step, and `friction.moving_work` the energy where the pressure changes meanwhile.
 
 Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
 at (0, 0, 0).
@@ -21,7 +23,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -34,12 +36,17 @@ from .contact.inequalities import slope_rises
 from .contact.pressure import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation, dissipated
-from .friction.memory import SlippedLayer, direction, turning_points
-from .friction.states import OneSignedSlip, Slip
+from .friction.load_step import Contacts
+from .friction.load_steps import turning_points
+from .friction.memory import SlippedLayer
+from .friction.moving_work import work
+from .friction.states import NoSlip, OneSignedSlip, Slip
+from .friction.turning_point import Loads, TurningPoint
 from .numerics.interval import EPS, Interval
 from .numerics.zones import left_over, within
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
+from .patches.friction import PatchSlip
 from .patches.full import FullContact
 from .problem.load_path import Path
 from .problem.request import ECONOMY
@@ -50,6 +57,8 @@ from .traction.combination import superposed
 from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
+# P, and what is added to the scene's tilt or moment.
+Under = tuple[float, float]
 
 
 def follow(
@@ -94,9 +103,16 @@ def follow(
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
     """
-    refuse_no_scene(scene)
     if not isinstance(path, Path):
+        refuse_no_scene(scene)
         raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
+    refuse_uncovered(scene)
+    return History(scene, path, tol, economy)
+
+
+def refuse_uncovered(scene: Scene) -> None:
+    """Raises ValueError or ContactError for a scene without load paths."""
+    refuse_no_scene(scene)
     if scene.bonded:
         raise ValueError(
             "a bonded contact never slips, so its path does not matter: give a finite friction, "
@@ -104,13 +120,11 @@ def follow(
         )
     if scene.beta and scene.friction and not scene.sliding:
         raise ContactError(
-            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: "
-            "pressure and shear "
-            "are coupled, and only a normal load that grows is solved then; solve its points as "
-            "scenes, "
-            "or give dundurs = 0 to neglect β"
+            f"a path of dissimilar bodies (β = {scene.beta:.4g}) with friction is not solved: what "
+            "sticks again after unloading of P or a reversal of Q keeps a slip gradient that "
+            "depends on every state before; solve P, then a Q that grows, as scenes, or give "
+            "dundurs = 0 to neglect β"
         )
-    return History(scene, path, tol, economy)
 
 
 # -- the sequence ----------------------------------------------------------------------------------
@@ -129,6 +143,8 @@ class History(Sequence[Solution]):
         As in `solve`.
     economy : collection of str
         As in `solve`.
+    steps : callable, optional
+        The function that finds the layers at each turning point.
 
     Notes
     -----
@@ -136,8 +152,26 @@ class History(Sequence[Solution]):
     asked for. Stages that the points share are solved once. `history.path` is the path.
     """
 
-    def __init__(self, scene: Scene, path: Path, tol: float, economy: Collection[str]) -> None:
-        first = next(P for P, _, _ in path.points if P > 0.0)
+    def __init__(
+        self,
+        scene: Scene,
+        path: Path,
+        tol: float,
+        economy: Collection[str],
+        steps: Callable[[Scene, Path, Contacts], tuple[TurningPoint, ...]] = turning_points,
+    ) -> None:
+        for turned, held, name in (
+            (path.tilt, scene.moment is not None, "moment"),
+            (path.moment, scene.tilt != 0.0, "tilt"),
+        ):
+            if turned and held:
+                raise ValueError(
+                    f"the scene has a {name}, which what the path turns by would change: give both "
+                    "as tilt or both as moment"
+                )
+        first, turn = next(
+            (P, turn) for (P, _, _), turn in zip(path.points, path.turns, strict=True) if P > 0.0
+        )
         self.scene = replace(
             scene,
             normal_load=first,
@@ -148,16 +182,18 @@ class History(Sequence[Solution]):
         )
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
-        self.unit = direction(path)
-        self.turning_points = turning_points(scene, path)
+        self._first = first, turn
+        self._plain: dict[Under, Solution] = {}
+        self._first_loadings: dict[tuple[Under, complex], Slip] = {}
         self.largest = max(P for P, _, _ in path.points)
-        self._plain: dict[float, Solution] = {}
         self._in_patches: dict[tuple[float, float], SeveralPatches | FullContact] = {}
-        self._first_loadings: dict[tuple[float, float], Slip] = {}
         self._points: dict[int, PathSolution] = {}
         self._energy: list[float] = []
         self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
-        self._known: dict[float, KnownZones] = {}
+        self._known: dict[Under, KnownZones] = {}
+        self._dissipation: dict[float, Dissipation] = {}
+        self._work_in_patches: dict[float, PatchDissipation] = {}
+        self.turning_points = steps(scene, path, self)
 
     def __len__(self) -> int:
         return len(self.turning_points)
@@ -177,35 +213,90 @@ class History(Sequence[Solution]):
     def __iter__(self) -> Iterator[Solution]:
         return (self[k] for k in range(len(self)))
 
-    def plain(self, P: float) -> Solution:
-        """The contact under P without shear."""
-        if P not in self._plain:
-            if P == 0.0:
-                raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
-            self._plain[P] = Solution(replace(self.scene, normal_load=P), self.tol, self.economy)
-        return self._plain[P]
+    # -- the contacts of the path ------------------------------------------------------------------
+
+    @cached_property
+    def arm(self) -> float:
+        """The length by which bulk stress and tilt are made forces: about π times the half-width of
+        the first contact, and a power of 2, which does not round.
+        """
+        return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
+
+    def level(self, loads: Loads) -> complex:
+        """f P, with the tilt beyond that of the first contact as imaginary part."""
+        f, turn = self.scene.friction, loads.turn - self._first[1]
+        if self.curved:
+            normals = self._first, loads.normal
+            first, now = (self.plain(*at).tilt if at[0] else 0.0 for at in normals)
+            turn = now - first if loads.P else 0.0
+        level = f * loads.P
+        return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
+
+    @cached_property
+    def curved(self) -> bool:
+        """Whether the tilt follows from a moment that is carried at changing places."""
+        path, scene = self.path, self.scene
+        if not path.moment and (scene.moment is None or scene.moment == 0.0 == scene.profile.axis):
+            return False
+        normal = {(P, turn) for (P, _, _), turn in zip(path.points, path.turns, strict=True)}
+        return len(normal) > 1
+
+    def shear(self, loads: Loads) -> complex:
+        """Q, with the strain of the bulk stress as imaginary part."""
+        return complex(loads.Q, loads.sigma * self._tau * self.arm) if loads.sigma else loads.Q
+
+    def contact(self, loads: Loads) -> Interval:
+        return self.plain(*loads.normal).as_one_patch.edges.contact
+
+    def half_width(self, loads: Loads) -> float:
+        return self.plain(*loads.normal).half_width
+
+    def plain(self, P: float, turn: float = 0.0) -> Solution:
+        """The contact under P and what is added to the scene's tilt or moment, without shear."""
+        if (P, turn) not in self._plain:
+            self._plain[P, turn] = self._frictionless(P, turn)
+        return self._plain[P, turn]
+
+    def _frictionless(self, P: float, turn: float) -> Solution:
+        if P == 0.0:
+            raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
+        scene = replace(self.scene, normal_load=P)
+        if self.path.moment:
+            scene = replace(scene, moment=(scene.moment or 0.0) + turn)
+        elif turn:
+            scene = replace(scene, tilt=scene.tilt + turn)
+        return Solution(scene, self.tol, self.economy)
+
+    def first_loading(self, normal: Under, depth: complex, turned: bool) -> Slip:
+        """The state of a contact that was never sheared after S has risen to a depth.
+
+        `turned`: slip may have opposite directions at the two edges.
+        """
+        key = (normal, depth)
+        if key not in self._first_loadings:
+            near = self._known.setdefault(normal, KnownZones())
+            guess = None if depth.imag else near.guess(depth.real)
+            found = self._loaded(self.plain(*normal), depth, turned, guess)
+            if isinstance(found, OneSignedSlip) and not depth.imag:
+                near.add(depth.real, found.found.edges.contact)
+            self._first_loadings[key] = found
+        return self._first_loadings[key]
+
+    def _loaded(
+        self, plain: Solution, depth: complex, turned: bool, near: Interval | None = None
+    ) -> Slip:
+        f, P, Q = self.scene.friction, plain.normal_load, depth.real
+        if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
+            Q = math.copysign(f * P, Q)
+        tau = depth.imag / self.arm if depth.imag else 0.0
+        return plain.first_loading((Q, tau), self.under, near, one_sign=not turned)
 
     def under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
         """The contact in several patches under a load at a tilt."""
         if (load, tilt) not in self._in_patches:
-            any_load = self.plain(self.largest)
+            any_load = self.plain(self.largest, self._first[1])
             self._in_patches[load, tilt] = any_load.patches_under(load, tilt)
         return self._in_patches[load, tilt]
-
-    def first_loading(self, P: float, depth: float) -> Slip:
-        """The state of the contact under P that never slipped, after the loads depth × unit."""
-        key = (P, depth)
-        if key not in self._first_loadings:
-            plain, f = self.plain(P), self.scene.friction
-            Q, sigma = depth * self.unit[0], depth * self.unit[1]
-            if abs(Q) >= f * P * (1.0 - 4.0 * EPS):
-                Q = math.copysign(f * P, Q)
-            near = self._known.setdefault(P, KnownZones())
-            found = plain.first_loading((Q, sigma * self._tau), self.under, near.guess(depth))
-            if isinstance(found, OneSignedSlip):
-                near.add(depth, found.found.edges.contact)
-            self._first_loadings[key] = found
-        return self._first_loadings[key]
 
     @property
     def period(self) -> float:
@@ -214,17 +305,17 @@ class History(Sequence[Solution]):
     @cached_property
     def in_one_patch(self) -> bool:
         """Whether the contact is one patch under every load of the path, by a slope that rises."""
-        plain = self.plain(self.largest)
+        plain = self.plain(self.largest, self._first[1])
         if not isinstance(plain.normal, Normal):
             return False
         slope = plain.normal.slope(self.scene.profile)
         return self.scene.profile.convex or slope_rises(plain.slope_density, slope)
 
-    def patches(self, P: float) -> tuple[tuple[float, float], ...]:
+    def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]:
         """The patches of contact under P."""
         if not self.in_one_patch:
-            return self.under(P, self.plain(self.largest).tilt).patches
-        contact = self.dissipation.contacts.contact(P).interval
+            return self.under(P, self.plain(self.largest, turn).tilt).patches
+        contact = self.dissipation(turn).contacts.contact(P).interval
         return ((contact.x1, contact.x2),)
 
     def rows(self) -> list[dict[str, Any]]:
@@ -250,52 +341,90 @@ class History(Sequence[Solution]):
 
     def _step_energies(self, steps: range) -> list[float]:
         """The energies lost in the steps that end at these points."""
-        fronts = [
-            (k, o) for k in steps for slip in self.turning_points[k].slips for o in slip.layers
-        ]
         lost = dict.fromkeys(steps, 0.0)
-        if fronts:
+        upright: dict[float, list[tuple[int, SlippedLayer]]] = {}
+        for k in steps:
+            state = self.turning_points[k]
+            for event in state.slips:
+                for o in event.layers:
+                    depths = o.upper, o.lower, *o.surface
+                    if state.turned or self.curved or any(depth.imag for depth in depths):
+                        lost[k] += o.jump * self._heat(k, o, event.timed)
+                        continue
+                    upright.setdefault(state.loads.turn, []).append((k, o))
+        for turn, fronts in upright.items():
             owners, layers = zip(*fronts, strict=True)
-            loads = [self.turning_points[k].loads[0] for k in owners]
-            for k, o, heat in zip(owners, layers, self._heat(loads, layers), strict=True):
+            loads = [self.turning_points[k].loads.P for k in owners]
+            work_of = self.dissipation(turn) if self.in_one_patch else self.work_in_patches(turn)
+            heats = np.array(work_of.of_fronts(loads, layers, self.scene.friction))
+            for k, o, heat in zip(owners, layers, heats.tolist(), strict=True):
                 lost[k] += o.jump * heat
         return list(lost.values())
 
-    def _heat(self, loads: Sequence[float], layers: Sequence[SlippedLayer]) -> Iterable[float]:
-        """The energy that each overwritten layer dissipated, per jump."""
-        if self.unit[1]:
-            return [
-                self._depth_energy(P, o.lower) - self._depth_energy(P, o.upper)
-                for P, o in zip(loads, layers, strict=True)
-            ]
-        of_fronts = (self.dissipation if self.in_one_patch else self.work_in_patches).of_fronts
-        return of_fronts(loads, layers, self.scene.friction).tolist()
+    def _heat(self, index: int, o: SlippedLayer, timed: bool) -> float:
+        """The energy that an overwritten layer dissipated, per jump, on a path with bulk stress or
+        tilt.
+        """
+        state = self.turning_points[index]
+        if not any(o.surface):
+            upper, lower = (self._depth_energy(state, depth) for depth in (o.upper, o.lower))
+            return lower - upper
+        if not timed:
+            raise ContactError(
+                f"step {index} of the path, to {state.loads}: one end of the stick zone is held up "
+                "or passes an earlier one before the other while P or the tilt changes, and the "
+                "energy lost meanwhile depends on the way; the state at its end does not",
+                step=index,
+            )
+        if self.curved:
+            raise ContactError(
+                f"step {index} of the path, to {state.loads}: the tilt follows from the moment, "
+                "and the energy lost while it changes is not covered; give tilt in place of moment",
+                step=index,
+            )
+        start, end = self.turning_points[index - 1].loads, state.loads
+        rise = self.level(end) - self.level(start)
+        times = [1.0 - (surface / rise).real for surface in o.surface]
 
-    def _depth_energy(self, P: float, depth: float) -> float:
-        return dissipated(self.first_loading(P, depth)) if depth else 0.0
+        def on_the_way(share: float) -> Slip:
+            time = times[0] + share * (times[1] - times[0])
+            surface = o.surface[0] + share * (o.surface[1] - o.surface[0])
+            depth = o.upper + share * (o.lower - o.upper) - surface
+            plain = self._frictionless(*start.towards(end, time).normal)
+            if not depth:
+                return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
+            return self._loaded(plain, depth, state.turned)
 
-    @cached_property
-    def dissipation(self) -> Dissipation:
-        """The dissipated energy, and the contacts under all loads of the path."""
-        return Dissipation(
-            self.scene,
-            self.plain(self.largest).as_one_patch,
-            self.tol,
-            self.economy,
-        )
+        part = times[1] - times[0]
+        strain = 0.5 * self.scene.Estar * (end.turn - start.turn)
+        return work(on_the_way, part * (end.P - start.P), part * strain)
 
-    @cached_property
-    def work_in_patches(self) -> PatchDissipation:
+    def _depth_energy(self, state: TurningPoint, depth: complex) -> float:
+        if not depth:
+            return 0.0
+        found = self.first_loading(state.loads.normal, depth, state.turned)
+        return found.energy if isinstance(found, PatchSlip) else dissipated(found)
+
+    def dissipation(self, turn: float) -> Dissipation:
+        """The dissipated energy, and the contacts under all loads of the path, at one tilt."""
+        if turn not in self._dissipation:
+            normal = self.plain(self.largest, turn).as_one_patch
+            self._dissipation[turn] = Dissipation(self.scene, normal, self.tol, self.economy)
+        return self._dissipation[turn]
+
+    def work_in_patches(self, turn: float) -> PatchDissipation:
         """The dissipated energy where the contact is not one patch under every load."""
-        widest = self.plain(self.largest).in_patches
+        if turn not in self._work_in_patches:
+            widest = self.plain(self.largest, turn).in_patches
 
-        def under(P: float) -> SeveralPatches | FullContact | Untouched:
-            tilt = widest.edges.tilt
-            if P > 0.0:
-                return self.under(P, tilt)
-            return Untouched(self.scene.profile, tilt, widest.patches)
+            def under(P: float) -> SeveralPatches | FullContact | Untouched:
+                tilt = widest.edges.tilt
+                if P > 0.0:
+                    return self.under(P, tilt)
+                return Untouched(self.scene.profile, tilt, widest.patches)
 
-        return PatchDissipation(under, self.largest, self.period)
+            self._work_in_patches[turn] = PatchDissipation(under, self.largest, self.period)
+        return self._work_in_patches[turn]
 
 
 class KnownZones:
@@ -342,9 +471,15 @@ class PathSolution(Solution):
     @cached_property
     def scene(self) -> Scene:  # type: ignore[override]
         """The scene of the path with the loads of this point."""
-        P, Q, sigma = self.history.turning_points[self.index].loads
-        plain = self.history.scene
-        return replace(plain, normal_load=P, tangential_load=Q, bulk_stress=sigma) if P else plain
+        loads = self.history.turning_points[self.index].loads
+        if loads.P == 0.0:
+            return self.history.scene
+        plain = self._plain.scene
+        return replace(plain, tangential_load=loads.Q, bulk_stress=loads.sigma)
+
+    @property
+    def _plain(self) -> Solution:
+        return self.history.plain(*self.history.turning_points[self.index].loads.normal)
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
@@ -357,10 +492,6 @@ class PathSolution(Solution):
     @cached_property
     def pressure(self) -> SlopeDensity:
         return self._plain.slope_density
-
-    @property
-    def _plain(self) -> Solution:
-        return self.history.plain(self.history.turning_points[self.index].loads[0])
 
     @property
     def sheared(self) -> bool:
@@ -407,9 +538,9 @@ class PathSlip(Slip):
     def __init__(self, history: History, index: int) -> None:
         self.history, self.index = history, index
         self.state = history.turning_points[index]
-        self.P = self.state.loads[0]
+        self.normal = self.state.loads.normal
         self.friction = history.scene.friction
-        if history.unit[1]:
+        if self.state.straight:
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
@@ -418,9 +549,9 @@ class PathSlip(Slip):
         A scene means one monotonic loading and has an answer; after a return the state depends on
         the path.
         """
-        depth, turned = self.state.memory.deepest
-        if turned and not self.history.first_loading(self.P, depth).advancing:
-            Q, sigma = (depth * unit for unit in self.history.unit)
+        depth, returned = self.state.memory.deepest
+        if returned and depth.imag and not self._loading(depth).advancing:
+            Q, sigma = depth.real, depth.imag / self.history.shear(Loads(0.0, 0.0, 1.0)).imag
             raise ContactError(
                 f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
                 f"{sigma:.6g}, zones of slip have "
@@ -430,7 +561,13 @@ class PathSlip(Slip):
 
     @property
     def advancing(self) -> bool:  # type: ignore[override]
-        return not self.history.unit[1] or all(loading.advancing for _, loading in self._terms)
+        memory = self.state.memory
+        if not (self.state.straight and memory.total.imag):
+            return True
+        return all(loading.advancing for _, loading in self._terms)
+
+    def _loading(self, depth: complex) -> Slip:
+        return self.history.first_loading(self.normal, depth, self.state.turned)
 
     @property
     def contact(self) -> Interval:  # type: ignore[override]
@@ -438,21 +575,19 @@ class PathSlip(Slip):
 
     @property
     def _plain(self) -> Solution:
-        return self.history.plain(self.P)
+        return self.history.plain(*self.normal)
 
     @property
     def _terms(self) -> list[tuple[float, Slip]]:
         return [
-            (weight, self.history.first_loading(self.P, depth))
-            for depth, weight in self.state.memory.corners
-            if depth
+            (weight, self._loading(depth)) for depth, weight in self.state.memory.corners if depth
         ]
 
     @property
     def _now(self) -> Slip | None:
         """The first loading whose depth is that of the last step's slip."""
         return (
-            self.history.first_loading(self.P, self.state.memory.top.thickness)
+            self._loading(self.state.memory.top.thickness)
             if self.state.last and self.state.memory.top
             else None
         )
@@ -479,10 +614,10 @@ class PathSlip(Slip):
         for gone in self.state.slips:
             if gone is not self.state.last:
                 start, end = (
-                    self.P - depth / self.friction
+                    self.normal[0] - depth.real / self.friction
                     for depth in (gone.layers[0].surface[0], gone.layers[-1].lower)
                 )
-                outer, inner = (self.history.patches(load) for load in (start, end))
+                outer, inner = (self.history.patches(load, self.normal[1]) for load in (start, end))
                 left = left_over(outer, inner, self.history.period)
                 zones += [(lo, hi, gone.sign) for lo, hi in left]
         return tuple(zones)
@@ -523,50 +658,48 @@ class PathSlip(Slip):
 
     def slip(self, x: Array) -> Array:
         """Relative slip since x came into contact."""
-        if all(state.loads[0] == self.P for state in self.history.turning_points[: self.index + 1]):
+        past = self.history.turning_points[: self.index + 1]
+        if all(state.loads.normal == self.normal for state in past):
             return sum(
                 (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
             )
-        total, P0 = np.zeros(x.shape), 0.0
-        for index, state in enumerate(self.history.turning_points[: self.index + 1]):
-            P = state.loads[0]
-            if P == 0.0:
+        total = np.zeros(x.shape)
+        for index, (before, state) in enumerate(pairwise((past[0], *past))):
+            if state.loads.P == 0.0:
                 continue
-            if index and P > P0 and state.slips:
-                self._refuse_new(x, index, P0, P)
-            total = np.where(self._touches(x, min(P0, P) if index else P), total, 0.0) + _step_slip(
-                self.history, index, x
-            )
-            P0 = P
+            if state.slips and index:
+                self._refuse_new(x, index, before.loads, state.loads)
+            stayed = self._touches(x, before.loads) & self._touches(x, state.loads)
+            total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
         return total
 
-    def _touches(self, x: Array, P: float) -> NDArray[np.bool_]:
-        if P == 0.0:
+    def _touches(self, x: Array, loads: Loads) -> NDArray[np.bool_]:
+        if loads.P == 0.0:
             return np.zeros(x.shape, dtype=bool)
-        return within(x, self.history.plain(P).patches, self.history.period)
+        return within(x, self.history.plain(*loads.normal).patches, self.history.period)
 
-    def _refuse_new(self, x: Array, index: int, P0: float, P: float) -> None:
-        new = self._touches(x, P) & ~self._touches(x, P0)
+    def _refuse_new(self, x: Array, index: int, before: Loads, loads: Loads) -> None:
+        new = self._touches(x, loads) & ~self._touches(x, before)
         if new.any():
             raise ContactError(
                 f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it "
                 "slips: how far it slipped since is not "
-                f"covered; ask for points within the contact under P = {P0:.6g}",
+                f"covered; ask for points within the contact under P = {before.P:.6g}",
                 step=index,
             )
 
     def slip_now(self, x: Array) -> Array:
-        return _step_slip(self.history, self.index, x)
+        return step_slip(self.history, self.index, x)
 
     @cached_property
     def shift(self) -> float:
         past = self.history.turning_points[: self.index + 1]
         loads = [
-            (state.loads[0], before.loads[0])
+            (state.loads.normal, before.loads.normal)
             for before, state in pairwise((past[0], *past))
             if state.memory.top
         ]
-        if any(P != self.P for pair in loads for P in pair):
+        if any(normal != self.normal for pair in loads for normal in pair):
             raise ContactError(
                 "the rigid-body shift is counted against a contact of constant width: P changed "
                 "while it was sheared"
@@ -574,13 +707,20 @@ class PathSlip(Slip):
         return sum(weight * loading.shift for weight, loading in self._terms)
 
 
-def _step_slip(history: History, index: int, x: Array) -> Array:
+def step_slip(history: History, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.turning_points[index]
-    P, out = state.loads[0], np.zeros(x.shape)
+    normal, out = state.loads.normal, np.zeros(x.shape)
     if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):
-                if depth > 0.0:
-                    out += sign * o.jump * state.last.sign * history.first_loading(P, depth).slip(x)
+                if sign < 0.0 and depth == o.surface[0]:
+                    continue  # slip began at the edges
+                at, under = depth, normal
+                if state.turned and sign < 0.0 and any(o.surface):
+                    at = depth - o.surface[0]
+                    under = history.turning_points[index - 1].loads.normal
+                if at.real > 0.0 or at.imag:
+                    loading = history.first_loading(under, at, state.turned)
+                    out += sign * o.jump * state.last.sign * loading.slip(x)
     return out

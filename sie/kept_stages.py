@@ -17,11 +17,13 @@ NORMAL = frozenset(
 TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
 SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
 OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation")
+PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
     **dict.fromkeys(
         ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
     ),
     **dict.fromkeys(OF_SHEAR, SHEAR),
+    **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
 }
 
 

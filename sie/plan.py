@@ -33,6 +33,8 @@ FULL_STICK: dict[str, tuple[str, ...]] = {
 }
 # ... and for dissimilar bodies in partial slip.
 COUPLED = {name: ("coupled", *stages) for name, stages in FULL_STICK.items()}
+# And for these under P, then Q.
+SHEARED = {name: ("pressed", "tangential_search", *stages) for name, stages in COUPLED.items()}
 
 
 @dataclass(frozen=True)
@@ -139,6 +141,8 @@ def plan(
 
 
 def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
+    if scene.tangential_load:
+        return _of_sheared(scene, names)
     stages = {stage for name in names for stage in COUPLED[name]}
     asked = "pressure" in stages
     how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
@@ -148,6 +152,23 @@ def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
         Step("edges", True, growth, "normal"),
         Step("pressure", asked, "flats superposed" if asked else "not asked for", "pressure"),
         Step("inequalities", False, "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"),
+        Step("slip", False, "the shear and the slip come with the pressure"),
+    )
+    return Plan(steps + _last(stages, names))
+
+
+def _of_sheared(scene: Scene, names: tuple[str, ...]) -> Plan:
+    """The steps of dissimilar bodies under P, then Q."""
+    stages = {stage for name in names for stage in SHEARED[name]}
+    asked = "pressure" in stages
+    how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
+    steps = (
+        Step("coupling", True, how, "pressed"),
+        Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
+        Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
+        Step("edges", True, "found with the zones", "normal"),
+        Step("pressure", asked, "with the edges" if asked else "not asked for", "pressure"),
+        Step("inequalities", False, "the certificate measures p >= 0 and |q| <= f p"),
         Step("slip", False, "the shear and the slip come with the pressure"),
     )
     return Plan(steps + _last(stages, names))

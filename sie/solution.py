@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import arguments
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
+from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
@@ -28,8 +29,11 @@ from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
 from .friction.contact_growth import ContactGrowth
-from .friction.coupled_contact import CoupledContact, coupled_contact
-from .friction.coupled_traction import CoupledTraction
+from .friction.coupled_contact import CoupledContact
+from .friction.coupled_normal import coupled_contact
+from .friction.coupled_sheared import ShearedContact, sheared_contact
+from .friction.coupled_tangential import TangentialSearch, tangential_search
+from .friction.coupled_traction import OnHalves
 from .friction.coverage import refuse_uncovered
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
@@ -96,7 +100,7 @@ class Solution:
         if self.scene.bonded:
             return Normal(self.bonded[0], False)
         if self.scene.coupled:
-            return Normal(self.coupled[0], True)
+            return Normal(self.coupled[0], not self.scene.tangential_load)
         if asks_for_patches(self.scene.profile):
             return self._in_patches()
         try:
@@ -189,10 +193,26 @@ class Solution:
         return full_stick_contact(self.scene, self.tol)
 
     @cached_property
-    def coupled(self) -> tuple[Edges, CoupledContact]:
+    def coupled(self) -> tuple[Edges, CoupledContact | ShearedContact]:
         """The edges and the state of dissimilar bodies in partial slip."""
-        frictionless = partial(normal_contact, tol=self.tol, economy=ECONOMY)
-        return coupled_contact(self.scene, self.tol, frictionless)
+        if self.scene.tangential_load:
+            return sheared_contact(self.scene, self.tangential_search)
+        return self.pressed
+
+    @cached_property
+    def pressed(self) -> tuple[Edges, CoupledContact]:
+        """The same under the normal load alone."""
+        return coupled_contact(self.scene, self._frictionless)
+
+    @cached_property
+    def tangential_search(self) -> TangentialSearch:
+        """The search for the zones of dissimilar bodies under any tangential load after that."""
+        return tangential_search(
+            self.scene, self.pressed[1], lambda scene: self._frictionless(scene).edges
+        )
+
+    def _frictionless(self, scene: Scene) -> Normal:
+        return normal_contact(scene, self.tol, ECONOMY)
 
     @property
     def normal_and_shear(self) -> JacobiDensity:
@@ -201,7 +221,7 @@ class Solution:
         return self.bonded[1]
 
     @cached_property
-    def pressure(self) -> SlopeDensity | Component | CoupledTraction:
+    def pressure(self) -> SlopeDensity | Component | OnHalves:
         """The contact pressure p, a `Density` in units of stress.
 
         Returns
@@ -234,7 +254,9 @@ class Solution:
         """Whether the shear is found after the pressure: partial slip, or similar bodies
         sliding.
         """
-        return sheared(self.scene, self.economy) and not (self.scene.epsilon or self.scene.bonded)
+        scene = self.scene
+        elsewhere = scene.epsilon or scene.bonded or scene.coupled
+        return sheared(scene, self.economy) and not elsewhere
 
     @property
     def carries_shear(self) -> bool:
@@ -260,14 +282,18 @@ class Solution:
             )
 
     def first_loading(
-        self, loads: tuple[float, float], under: PatchesUnder, near: Interval | None = None
+        self,
+        loads: tuple[float, float],
+        under: PatchesUnder,
+        near: Interval | None = None,
+        one_sign: bool = False,
     ) -> Slip:
         """The state after Q and τ on this contact without shear; `under` gives it under other
-        loads and tilts, `near` is as of `load_step`.
+        loads and tilts, `near` is as of `load_step`, `one_sign` as of `slip`.
         """
         if self._several is None:
             try:
-                return slip(self.load_step(*loads, near))
+                return slip(self.load_step(*loads, near), one_sign)
             except (InequalityError, LoadError):  # the stick zones may be several
                 if self.scene.profile.convex:
                     raise
@@ -299,7 +325,10 @@ class Solution:
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
             )
         if self.scene.coupled:
-            return coupled_certificate(self.coupled[1], self.scene, self.tol)
+            state = self.coupled[1]
+            if isinstance(state, ShearedContact):
+                return sheared_certificate(state, self.scene, self.tol)
+            return coupled_certificate(state, self.scene, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
             return worst_of([c.certificate(self.tol) for c in (self.in_patches, *others)])
@@ -466,7 +495,8 @@ class Solution:
         -----
         In full sliding it is the slip at incipient sliding, when the last stick zone vanishes.
         Where dissimilar bodies are pressed together it is counted from when a point came into
-        contact: what slipped first sticks later, and keeps its slip.
+        contact: what slipped first sticks later, and keeps its slip. Where their contact spreads
+        under a tangential load, it is counted from when that load began.
 
         Examples
         --------
@@ -494,7 +524,7 @@ class Solution:
         Raises
         ------
         ContactError
-            As for `slip`.
+            As for `slip`, and for dissimilar bodies under a tangential load.
         """
         self._refuse_unknown_slip()
         if self.scene.coupled:
@@ -513,7 +543,7 @@ class Solution:
         Raises
         ------
         ContactError
-            As for `slip`.
+            As for `energy_lost`.
 
         Notes
         -----
@@ -525,6 +555,11 @@ class Solution:
         Johnson, Contact Mechanics (1985), § 2.2.
         """
         self._refuse_unknown_slip()
+        if self.scene.coupled and self.scene.tangential_load:
+            raise ContactError(
+                f"the shift of dissimilar bodies (β = {self.scene.beta:.4g}) is counted from that "
+                "without slip, which oscillates next to the edges and is not solved; `slip` is"
+            )
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:

@@ -43,7 +43,7 @@ LAYERS = (
     ("plan", "kept_stages"),
     ("solution",),
     ("smoothing_search", "history"),
-    ("sweep", "charts"),
+    ("sweep", "charts", "steady_cycle"),
     ("io",),
     ("plots",),
     ("command_parser", "cli", "__main__"),

@@ -108,8 +108,15 @@ def _drift(state: CoupledContact, x: Array, gamma: Array, beta: float) -> float:
     lighter = replace(state, ahead=ahead, corner_load=0.0, load=load, kinks=kinks)
     inside = x < 0.999 * state.flat.c * b
     x = x[inside]
-    before = _principal(_values(lighter), b, x, lighter.shear(x), -1.0) + beta * lighter.pressure(x)
+    before = gradient_of_slip(lighter, x, beta)
     return float(np.abs(gamma[inside] - before).max(initial=0.0))
+
+
+def gradient_of_slip(state: CoupledContact, y: Array, beta: float) -> Array:
+    """γ = 1/π PV∫q/(x - t) dt + β p at 0 < y < b."""
+    Hq = _principal(_values(state), state.b, y, state.shear(y), -1.0)
+    gamma: Array = Hq + beta * state.pressure(y)
+    return gamma
 
 
 def _values(state: CoupledContact) -> Values:

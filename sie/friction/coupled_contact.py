@@ -1,15 +1,11 @@
-"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: edges,
-P', tractions.
+"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: zones,
+tractions, slip, gap and dissipated energy, from P' and the half-width b (`coupled_normal`).
 
-The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
-stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
-carry. Where b reaches a corner at the indenter's end, what is left of the load is that of a flat
-punch. β < 0 only turns the sign of the shear and of the slip.
+β < 0 only turns the sign of the shear and of the slip.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -18,20 +14,14 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.contact.edges import Edges
-from sie.contact.pressure import Normal
-from sie.errors import ContactError, LoadError
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, interval_about
-from sie.problem.scene import Scene
 from sie.profiles.base import Profile
-from sie.profiles.resolution import refined
-from sie.profiles.slope import Slope
 from sie.traction.base import on_line, zero_or_nan
 
 from .coupled_flat import FULL_STICK
-from .coupled_functions import FlatFunctions, flat_functions
-from .coupled_growth import Piece, load_slope, power_law_growth, solved_growth
+from .coupled_functions import FlatFunctions
+from .coupled_growth import load_slope
 from .coupled_profile import GrowthPanel, Superposition, _graded, _rules
 from .coupled_traction import CoupledTraction, Panels, resolved_panels
 
@@ -273,177 +263,3 @@ class CoupledContact:
         g = self.flat.slip(t, e, from_c)
         rate: Array = s * self.flat.friction * (p @ (weight * g))
         return rate
-
-
-def refuse_unsolved(scene: Scene, remedy: str) -> None:
-    """Raises ContactError for what is asked of dissimilar bodies with friction beyond a monotone
-    normal load."""
-    pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
-    if scene.tangential_load:
-        raise ContactError(
-            f"{pair} under tangential_load = {scene.tangential_load:g}: only the normal load is "
-            "solved for them, "
-            "not how Q then changes stick and slip; set tangential_load = 0, let them slide "
-            f"(sliding = ±1), set friction = 0, or {remedy}"
-        )
-    if scene.tilt or scene.moment:
-        name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
-        raise ContactError(
-            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
-            "contact "
-            f"only under a symmetric profile; set {name} = 0, set friction = 0, or {remedy}"
-        )
-
-
-def _axis(scene: Scene, bound: Edges) -> float:
-    """The axis of the profile, or of the frictionless contact if h' is odd about it there."""
-    profile, contact = scene.profile, bound.contact
-    if profile.axis is not None:
-        return profile.axis
-    y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
-    right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
-    uneven = float(np.abs(right + left).max() / np.abs(right).max())
-    if uneven > EVEN:
-        raise ContactError(
-            f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
-            f"{uneven:.2g} of the "
-            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as "
-            "others tilt "
-            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to "
-            "neglect β"
-        )
-    return contact.m
-
-
-def coupled_contact(
-    scene: Scene, tol: float, frictionless: Callable[[Scene], Normal]
-) -> tuple[Edges, CoupledContact]:
-    """The edges and the state; ContactError where no contact answers.
-
-    `frictionless` solves the normal problem of a scene; its contact bounds the search.
-    """
-    beta, profile = scene.beta, scene.profile
-    flat = flat_functions(abs(beta), scene.friction)
-    half_modulus = 0.5 * scene.Estar
-    bound = frictionless(
-        Scene(
-            profile=profile,
-            modulus=scene.Estar,
-            normal_load=scene.normal_load,
-            half_width=scene.half_width,
-        )
-    )
-    widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
-    axis = _axis(scene, bound.edges)
-    law = profile.power_law
-    kinks: tuple[float, ...] = ()
-    if law is not None:
-        slope = half_modulus * law.exponent * law.coefficient * widest ** (law.exponent - 1.0)
-        growth: tuple[GrowthPanel, ...] = (
-            power_law_growth(flat, law.exponent, slope, widest * WIDER),
-        )
-    else:
-        pieces = _pieces(profile.pieces, axis, widest, half_modulus)
-        kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
-        growth = solved_growth(flat, pieces) if pieces else ()
-    ahead, load, corner = _width(growth, widest, sharp, scene)
-    _refuse_falling(growth, ahead, axis)
-    b = (growth[0].origin if growth else 0.0) + ahead
-    contact = interval_about(axis, b).rounded((axis,))
-    state = CoupledContact(
-        flat,
-        growth,
-        corner,
-        axis,
-        ahead,
-        load,
-        math.copysign(1.0, beta),
-        half_modulus,
-        tuple(k for k in kinks if k < b),
-    )
-    edges = Edges(
-        contact, load, contact.m * load, 0.0, (corner > 0.0, corner > 0.0), 0.0, 0.0, 0.0, 0
-    )
-    return edges, state
-
-
-def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> list[Piece]:
-    """E*/2 h' on the right of the axis, piece by piece, without a flat base."""
-    _lo, hi = slope.domain
-    end = min(axis + widest * WIDER, hi)
-    resolved = refined(slope, axis, end, EPS)
-    inner = resolved.breaks[(resolved.breaks > axis) & (resolved.breaks < end)]
-    ends = [axis, *inner.tolist(), end]
-    declared = set(slope.breaks.tolist())
-    rises = dict(slope.rises)
-    pieces: list[Piece] = []
-    for left, right in itertools.pairwise(ends):
-        k = int(
-            np.clip(
-                np.searchsorted(resolved.breaks, left, "right") - 1, 0, len(resolved.origins) - 1
-            )
-        )
-        if not pieces and resolved.is_zero[k]:
-            continue
-
-        def H(ahead: Array, k: int = k, left: float = left) -> Array:
-            at = np.array([left])
-            values: Array = resolved.local(np.array([k]), at, np.zeros(1), ahead.reshape(1, -1))
-            return half_modulus * values.reshape(ahead.shape)
-
-        jumps = left in rises or (not pieces and left > axis and float(H(np.zeros(1))[0]) > 0.0)
-        pieces.append(Piece(left - axis, right - axis, H, jumps, left in declared))
-    return pieces
-
-
-def _width(
-    growth: tuple[GrowthPanel, ...], widest: float, sharp: bool, scene: Scene
-) -> tuple[float, float, float]:
-    """b beyond the flat base, P and what a corner at the end of the indenter carries of it."""
-
-    def load(ahead: float) -> float:
-        return sum(panel.load(ahead) for panel in growth)
-
-    if not growth:
-        assert scene.normal_load is not None
-        return widest, scene.normal_load, scene.normal_load
-    farthest = widest - growth[0].origin
-    if scene.normal_load is None:
-        return farthest, load(farthest), 0.0
-    P, most = scene.normal_load, load(farthest * WIDER)
-    if most >= P:
-        return _root(load, P, farthest * WIDER), P, 0.0
-    if sharp:
-        return farthest, P, P - load(farthest)
-    raise LoadError(
-        f"the coupled contact of half-width {widest:.6g} carries {most:.6g} of {P:.6g}: "
-        "friction should not make it softer; give dundurs = 0 to neglect β"
-    )
-
-
-def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
-    """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
-    from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
-
-    hi = farthest
-    while load(0.5 * hi) > P and hi > TINIEST * farthest:
-        hi *= 0.5
-    if load(hi) <= P:
-        return hi
-    return float(brentq(lambda a: load(a) / P - 1.0, 0.5 * hi, hi, xtol=1e-300, rtol=4.0 * EPS))
-
-
-def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
-    """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
-    there."""
-    for panel in growth:
-        s, mass = panel.places
-        near = s < ahead
-        if (mass[near] < -FALLING * np.abs(mass).max()).any():
-            where = axis + panel.origin + float(s[near][np.argmin(mass[near])])
-            raise ContactError(
-                "the contact of dissimilar bodies with friction would not grow steadily at x = "
-                f"{where:.6g}: "
-                "coupled slip is solved for convex profiles; smooth the profile, or give dundurs "
-                "= 0 to neglect β"
-            )

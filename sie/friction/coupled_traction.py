@@ -48,8 +48,78 @@ class Panels(NamedTuple):
     power: float
 
 
+class OnHalves(Density):
+    """A traction with panels on both sides of a place `middle` of the contact."""
+
+    contact: Interval
+
+    @property
+    def middle(self) -> float:
+        raise NotImplementedError
+
+    @property
+    def sharp(self) -> bool:
+        """Whether the traction is infinite at the edges."""
+        return False
+
+    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        """(F, F') at z - middle, Im z > 0 (F' is 0 where it is not asked for)."""
+        raise NotImplementedError
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        return self.contact.x1, self.contact.x2
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        def principal(flat: Array) -> Array:
+            z = (flat - self.middle) + 1j * shallow(self.contact.r)
+            values: Array = self._potentials(np.asarray(z, dtype=complex), derivative=False)[0].real
+            if self.sharp:  # as for other sharp edges
+                values[(flat == self.contact.x1) | (flat == self.contact.x2)] = 0.0
+            return values
+
+        return self._on_line(principal, x)
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._at(z, side, derivative=False)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self._at(z, side, derivative=True)
+
+    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
+        return self._at(z, side, derivative=False), self._at(z, side, derivative=True)
+
+    def _at(self, z: ArrayLike, side: int, derivative: bool) -> Complex:
+        def potential(flat: Complex) -> Complex:
+            real = flat.imag == 0.0
+            raised = flat - self.middle
+            raised.imag[real] = shallow(self.contact.r)
+            values: Complex = reflected(
+                lambda u: self._potentials(u, derivative)[int(derivative)], raised
+            )
+            if real.any():
+                if derivative:
+                    values.imag[real] *= side
+                else:
+                    x = flat.real[real]
+                    values[real] = on_surface(values.real[real], self._on_surface(x), side)
+            return values
+
+        return self._in_plane(potential, z, side, derivative)
+
+    def _on_surface(self, x: Array) -> Array:
+        """The traction at x, as the potential has it."""
+        return self(x)
+
+    def _potential(self, z: Any) -> Complex:
+        return self._potentials(z, derivative=False)[0]
+
+    def _derivative(self, z: Any) -> Complex:
+        return self._potentials(z, derivative=True)[1]
+
+
 @dataclass(frozen=True, eq=False)
-class CoupledTraction(Density):
+class CoupledTraction(OnHalves):
     """A traction on axis ± b, even or odd about the axis.
 
     values      its values at 0 <= y <= b
@@ -72,8 +142,16 @@ class CoupledTraction(Density):
         return self.resolved()
 
     @property
-    def interval(self) -> tuple[float, float]:
-        return self.contact.x1, self.contact.x2
+    def middle(self) -> float:
+        return self.contact.m
+
+    @property
+    def sharp(self) -> bool:
+        return self.panels.power < 0.0
+
+    @cached_property
+    def _half(self) -> HalfPotential:
+        return HalfPotential(self.panels)
 
     @property
     def resultant(self) -> float:  # type: ignore[override]
@@ -83,7 +161,7 @@ class CoupledTraction(Density):
     def moment(self) -> float:  # type: ignore[override]
         if self.parity > 0.0:
             return self.contact.m * self.load
-        x, w = self._quadrature
+        x, w = self._half.quadrature
         return 2.0 * float(w @ x)
 
     @property
@@ -103,53 +181,29 @@ class CoupledTraction(Density):
 
         return on_line(value, x)
 
-    def hilbert(self, x: ArrayLike) -> Array:
-        def principal(flat: Array) -> Array:
-            z = (flat - self.contact.m) + 1j * shallow(self.contact.r)
-            values: Array = self._potentials(np.asarray(z, dtype=complex), derivative=False)[0].real
-            if self.panels.power < 0.0:  # a sharp edge, as for others
-                values[(flat == self.contact.x1) | (flat == self.contact.x2)] = 0.0
-            return values
+    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        F, dF = self._half(z, derivative)
+        G, dG = (v.conj() for v in self._half(-z.conj(), derivative))
+        return F - self.parity * G, dF + self.parity * dG
 
-        return self._on_line(principal, x)
 
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._at(z, side, derivative=False)
+@dataclass(frozen=True, eq=False)
+class HalfPotential:
+    """1/π ∫_0^b f(t)/(z - t) dt and its derivative, at Im z > 0, from panels of f."""
 
-    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._at(z, side, derivative=True)
+    panels: Panels
 
-    def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
-        return self._at(z, side, derivative=False), self._at(z, side, derivative=True)
-
-    def _at(self, z: ArrayLike, side: int, derivative: bool) -> Complex:
-        def potential(flat: Complex) -> Complex:
-            real = flat.imag == 0.0
-            raised = flat - self.contact.m
-            raised.imag[real] = shallow(self.contact.r)
-            values: Complex = reflected(
-                lambda u: self._potentials(u, derivative)[int(derivative)], raised
-            )
-            if real.any():
-                if derivative:
-                    values.imag[real] *= side
-                else:
-                    x = flat.real[real]
-                    values[real] = on_surface(values.real[real], self(x), side)
-            return values
-
-        return self._in_plane(potential, z, side, derivative)
-
-    def _potential(self, z: Any) -> Complex:
-        return self._potentials(z, derivative=False)[0]
-
-    def _derivative(self, z: Any) -> Complex:
-        return self._potentials(z, derivative=True)[1]
-
-    # -- panels ------------------------------------------------------------------------------------
+    def traction(self, y: Array) -> Array:
+        """f at 0 <= y <= b."""
+        lo, hi, series, power = self.panels
+        y = np.minimum(y, hi[-1])
+        k = np.minimum(np.searchsorted(hi, y), len(hi) - 1)
+        part = (y - lo[k]) / (hi - lo)[k]
+        values: Array = chebyshev.evaluate(series.T[:, k], 2.0 * part - 1.0)
+        return values * np.where(k == len(hi) - 1, 1.0 - part, 1.0) ** power
 
     @cached_property
-    def _quadrature(self) -> tuple[Array, Array]:
+    def quadrature(self) -> tuple[Array, Array]:
         """y and f dy of the far rule."""
         p = self.panels
         x, _, w = gauss_jacobi(DEGREE, 0.0, 0.0)
@@ -160,14 +214,9 @@ class CoupledTraction(Density):
         mass[-1] = half[-1] * w * (p.series[-1] @ _polynomials(x))
         return y.ravel(), mass.ravel()
 
-    def _potentials(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
-        """(F, F') at z - axis, Im z > 0 (F' is 0 where it is not asked for)."""
-        F, dF = self._of_right_half(z, derivative)
-        G, dG = (v.conj() for v in self._of_right_half(-z.conj(), derivative))
-        return F - self.parity * G, dF + self.parity * dG
-
-    def _of_right_half(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
-        y, mass = self._quadrature
+    def __call__(self, z: Complex, derivative: bool) -> tuple[Complex, Complex]:
+        """Both; the derivative is 0 where it is not asked for."""
+        y, mass = self.quadrature
         F, dF = np.empty_like(z), np.zeros_like(z)
         step = max(1, TOGETHER // len(y))
         for i in range(0, len(z), step):
@@ -188,7 +237,7 @@ class CoupledTraction(Density):
         self, k: int, near: NDArray[np.intp], z: Complex, F: Complex, dF: Complex | None
     ) -> None:
         """Panel k by recurrence in place of the far rule."""
-        p, (y, mass) = self.panels, self._quadrature
+        p, (y, mass) = self.panels, self.quadrature
         own = slice(k * DEGREE, (k + 1) * DEGREE)
         inverse = 1.0 / (z[:, None] - y[own])
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

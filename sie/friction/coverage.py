@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from sie.errors import ContactError
 from sie.problem.scene import Scene
 
-from .coupled_contact import refuse_unsolved
+from .coupled_refusals import refuse_unsolved
 from .load_limit import refuse_sliding
 
 # The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
@@ -22,11 +21,5 @@ def refuse_uncovered(scene: Scene) -> None:
         return
     if scene.normal_load is not None and not scene.slides:
         refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
-    if scene.beta != 0.0 and scene.bulk_stress != 0.0 and scene.friction != 0.0:
-        raise ContactError(
-            f"bulk_stress = {scene.bulk_stress:g} under dissimilar bodies (β = {scene.beta:.4g}) "
-            f"with friction: how it shifts their zones of stick is not solved; {NEGLECTED}; or set "
-            "friction = 0"
-        )
-    if scene.coupled:
+    if scene.beta != 0.0 and scene.friction != 0.0 and (scene.coupled or scene.bulk_stress):
         refuse_unsolved(scene, NEGLECTED)

@@ -127,7 +127,7 @@ class Dissipation:
         nothing next to the largest one.
         """
         rows = [
-            (P, *(-d / friction for d in (o.lower, o.upper, *o.surface[::-1])))
+            (P, *(-d.real / friction for d in (o.lower, o.upper, *o.surface[::-1])))
             for P, o in zip(loads, fronts, strict=True)
         ]
         for P, _, _, *surface in rows:

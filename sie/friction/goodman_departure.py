@@ -12,7 +12,7 @@ from sie.contact.pressure import pressure
 from sie.errors import ContactError
 from sie.problem.scene import Scene
 
-from .coupled_contact import coupled_contact
+from .coupled_normal import coupled_contact
 from .goodman_functions import goodman_flat
 
 NEGLECT = "note: β q is left out of the normal equation (Goodman's approximation)"
@@ -26,7 +26,7 @@ def departure(scene: Scene, tol: float) -> str:
         if scene.tilt or scene.moment:
             raise ContactError("not symmetric")
         upright = replace(scene, coupling="full", tangential_load=0.0, moment=None)
-        _, state = coupled_contact(upright, tol, lambda one: normal_contact(one, tol))
+        _, state = coupled_contact(upright, lambda one: normal_contact(one, tol))
     except ContactError:
         return f"{NEGLECT}; how far the answer is from the coupled one is not known here"
     k, c = goodman_flat(abs(scene.beta), scene.friction).k, state.flat.c

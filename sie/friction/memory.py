@@ -1,220 +1,96 @@
 """Load-history memory: the direction in which each layer of a contact was last sheared.
 
-Let the contact grow from nothing to its normal load P, layer by layer: the pressure is
-p = ∫ (∂p/∂P') dP', and so is every shear traction that slip at the edges can leave behind,
+A contact has a level Λ = f P + i π r₀ f E*/2 θ (θ its tilt, r₀ a length of the path), and carries
+S = Q + i π r₀ τ. The shear that slip leaves is made of pressures p[Λ] of one profile,
 
-    q = ∫_0^P κ(P') ∂p/∂P' dP',      Q = ∫_0^P κ dP',      |κ| <= f
+    q = f Σ κ_k (p[Λ_k] - p[Λ_k+1]),     S = Σ κ_k (Λ_k - Λ_k+1),     |κ| <= 1,
 
-because 1/π PV∫ ∂p/∂P'/(x - t) dt = 0 within the contact of P' (Mindlin & Deresiewicz 1953; Jäger
-1998). A change of Q at constant P overwrites κ by ± f from the top (the edges) down, to the depth
-that carries the change. This is Masing's rule, in which a larger change erases the smaller turning
-points. A growing P adds a layer with κ = dQ/dP, which does not slip while |dQ/dP| <= f; a falling P
-removes layers. Thickness is counted in Q: f dP'.
+in nested contacts, of which that of Λ_0 is the present one: equation (12) is linear, and p[Λ] has
+the resultant Re Λ/f and the strain of the profile tilted by θ. A layer is the part between two
+contacts, Λ_k - Λ_k+1 its thickness. Below the last one κ = 0.
 
-At constant P the same holds of any step that opens slip zones monotonically, also with a bulk
-stress in proportion to Q: depth is then the amplitude of the step (Q, σ) that reaches it in a
-contact that never slipped. The derivation uses only that the zones grow with the amplitude.
+Slip of the sign s at both edges overwrites κ by s from the top down. While Λ rises by dΛ and S by
+dS the front carries s dS - dΛ through layers of the jump 1 - s κ. This is Masing's rule, in which a
+larger change erases the smaller turning points, for P, Q, bulk stress and tilt together (Mindlin &
+Deresiewicz 1953; Jäger 1998; docs/derivations/layered-memory.md). A contact that grows with
+dS = κ dΛ, |κ| <= 1, gets a layer without slip; one that shrinks loses layers.
+
+At constant P and tilt the same holds where slip has opposite directions at the two edges, for S in
+proportion: depth is then the amplitude of the step that reaches it in a contact that never slipped.
+`load_step` tests what this rests on: nested contacts, and fronts that only run inwards.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
-from sie.errors import ContactError
 from sie.numerics.interval import EPS
-from sie.problem.load_path import Path
-from sie.problem.scene import Scene
 
-from .load_limit import refuse_sliding
-
-# A layer below this fraction of the whole memory is what rounding left of one that was wiped out.
+# A layer below this fraction of all that slipped is what rounding left of one that was wiped out.
 NOTHING = 8.0 * EPS
 # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
 BALANCED = 1e-12
 ROUNDED = 4.0 * EPS  # of f P: by so much a rise in proportion may exceed |dQ| = f dP
-# of the largest bulk stress: what (Q, σ) may be off a straight line through the origin
+# of a step: what it may be off the direction of another one that is in proportion to it
 PROPORTIONAL = 1e-12
 
+# Whether the contact at the first depth lies within that at the second; both are depths below the
+# level from which the step starts.
+Within = Callable[[complex, complex], bool]
 
-# -- the steps of a path ---------------------------------------------------------------------------
 
+class SlippedLayer(NamedTuple):
+    """A layer between two depths that slipped in a step; κ jumped there by `jump` > 0.
 
-@dataclass(frozen=True)
-class TurningPoint:
-    """A turning point of a path.
-
-    loads     P, Q and σ
-    memory    the layers there
-    slips     the slip since the last turning point, in the order of time
+    Depths are counted from the level at the end of the step; `surface` is how deep the contact's
+    level was when the front was at `upper` and at `lower`.
     """
 
-    loads: tuple[float, float, float]
-    memory: LoadMemory
-    slips: tuple[SlipEvent, ...] = ()
-
-    @property
-    def last(self) -> SlipEvent | None:
-        """The slip at the end of the step; None if nothing slips in the present contact."""
-        return self.slips[-1] if self.slips and self.slips[-1].layers[-1].lower > 0.0 else None
-
-
-def direction(path: Path) -> tuple[float, float]:
-    """(Q, σ) of one unit of amplitude: (1, 0) without bulk stress."""
-    _, Q, sigma = max(path.points, key=lambda point: abs(point[2]))
-    return (Q, sigma) if sigma else (1.0, 0.0)
-
-
-def turning_points(scene: Scene, path: Path) -> tuple[TurningPoint, ...]:
-    """The layers after each step of a path.
-
-    Raises ContactError, with the step, where one is not covered.
-    """
-    unit, f = direction(path), scene.friction
-    state = TurningPoint((0.0, 0.0, 0.0), LoadMemory(0.0))
-    found = []
-    for k, loads in enumerate(path.points):
-        P, Q, _ = loads
-        if f == 0.0 and Q != 0.0:
-            raise ValueError(
-                f"Q of point {k} = {Q:g} without friction: a frictionless contact carries none; "
-                "give friction > 0"
-            )
-        try:
-            refuse_sliding(f, P, Q)
-            before = TurningPoint((P, 0.0, 0.0), LoadMemory(_size(f, P, unit))) if k == 0 else state
-            state = _stepped(scene, before, loads, unit)
-        except ContactError as problem:
-            raise type(problem)(
-                f"step {k} of the path, to (P, Q, σ) = {_shown(loads)}: {problem}", step=k
-            ) from None
-        found.append(state)
-    return tuple(found)
-
-
-def _shown(loads: tuple[float, float, float]) -> str:
-    return f"({', '.join(f'{v:.6g}' for v in loads)})"
-
-
-def _size(f: float, P: float, unit: tuple[float, float]) -> float:
-    return f * P / abs(unit[0]) if unit[0] else math.inf
-
-
-def _stepped(
-    scene: Scene, before: TurningPoint, loads: tuple[float, float, float], unit: tuple[float, float]
-) -> TurningPoint:
-    (P0, Q0, sigma0), (P, Q, sigma), f = before.loads, loads, scene.friction
-    if f == 0.0:
-        return TurningPoint(loads, LoadMemory(0.0))
-    amplitude = sigma / unit[1] if unit[1] else Q
-    if abs(amplitude * unit[0] - Q) > PROPORTIONAL * max(abs(unit[0]), f * P * EPS):
-        raise ContactError(
-            f"(Q, σ) is not in proportion to ({unit[0]:.6g}, {unit[1]:.6g}), the path's largest "
-            "bulk stress: the zones of slip of one direction do not contain those of the other; "
-            "keep Q and σ in proportion, or leave σ out"
-        )
-    if P == P0:
-        return _sheared(loads, before.memory, amplitude)
-    if (Q0, sigma0) == (Q, sigma) == (0.0, 0.0) and before.memory.top is None:
-        return TurningPoint(loads, LoadMemory(_size(f, P, unit)))  # nothing was ever sheared
-    if unit[1]:
-        raise ContactError(
-            "P changes on a path with a bulk stress, after it or together with it: no "
-            "superposition is exact then; "
-            "reach P before Q and σ and keep it constant, or leave σ out"
-        )
-    if scene.moment is not None and not (scene.moment == 0.0 == scene.profile.axis):
-        raise ContactError(
-            "P changes at a given moment, which tilts the profile: its contacts are not nested; "
-            "give tilt instead"
-        )
-    if P > P0:
-        rise = f * (P - P0)
-        k = (Q - Q0) / rise
-        memory = replace(before.memory.raised(rise, min(max(k, -1.0), 1.0)), size=f * P)
-        if abs(Q - Q0) <= rise + ROUNDED * f * P:
-            return TurningPoint(loads, memory)
-        sheared = _sheared(loads, memory, Q)
-        return replace(sheared, slips=tuple(slip.while_raised(rise) for slip in sheared.slips))
-    memory, slips = before.memory.lowered(f * (P0 - P), (Q - Q0) / (f * (P0 - P)))
-    return TurningPoint(loads, replace(memory, size=f * P), slips)
-
-
-def _sheared(
-    loads: tuple[float, float, float], memory: LoadMemory, amplitude: float
-) -> TurningPoint:
-    step = amplitude - memory.total
-    if abs(step) <= 4.0 * EPS * max(abs(amplitude), abs(memory.total)):
-        return TurningPoint(loads, memory)
-    new, done = memory.sheared(step)
-    return TurningPoint(loads, new, (SlipEvent(math.copysign(1.0, step), done),) if done else ())
-
-
-# -- the layers ------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class SlippedLayer:
-    """A layer between two depths that slipped in a step; κ jumped there by `jump` > 0, times f.
-
-    Depths are counted from P at the end of the step; `surface` says how deep P was when the front
-    was at `upper` and at `lower`.
-    """
-
-    upper: float
-    lower: float
+    upper: complex
+    lower: complex
     jump: float
-    surface: tuple[float, float] = (0.0, 0.0)
+    surface: tuple[complex, complex] = (0.0, 0.0)
 
-    def moved(self, depth: float) -> SlippedLayer:
+    def moved(self, depth: complex) -> SlippedLayer:
         """The same, counted from a surface that is so much higher."""
+        if not depth:
+            return self
         start, end = self.surface
         return SlippedLayer(
             self.upper + depth, self.lower + depth, self.jump, (start + depth, end + depth)
         )
 
 
-@dataclass(frozen=True)
-class SlipEvent:
-    """Slip in one direction: its sign, and the layers that it overwrote, from the top down."""
+class SlipEvent(NamedTuple):
+    """Slip in one direction: its sign, and the layers that it overwrote, from the top down.
+
+    `timed` is False where the front passed a corner with one end before the other: then `surface`
+    is not where the contact's level was.
+    """
 
     sign: float
     layers: tuple[SlippedLayer, ...]
-
-    def while_raised(self, thickness: float) -> SlipEvent:
-        """The same slip if P rose by this thickness during it, and not before."""
-        whole = math.fsum(o.jump * (o.lower - o.upper) for o in self.layers)
-        used, found = 0.0, []
-        for o in self.layers:
-            before, used = used, used + o.jump * (o.lower - o.upper)
-            found.append(
-                replace(
-                    o,
-                    surface=(
-                        thickness * (1.0 - before / whole),
-                        thickness * (1.0 - min(used / whole, 1.0)),
-                    ),
-                )
-            )
-        return SlipEvent(self.sign, tuple(found))
+    timed: bool = True
 
 
 class Layer(NamedTuple):
-    """A layer: thickness, κ/f, the layer below, and Q and depth of it with all below.
+    """A layer: thickness, κ, the layer below, and S and depth of it with all below.
 
     Memories share the layers below.
     """
 
-    thickness: float
+    thickness: complex
     k: float
     below: Layer | None
-    total: float
-    depth: float
+    total: complex
+    depth: complex
 
 
-def _laid(thickness: float, k: float, below: Layer | None) -> Layer:
+def _laid(thickness: complex, k: float, below: Layer | None) -> Layer:
     """A layer on others; one with those of the same κ."""
     if below is not None and below.k == k:
         thickness, below = thickness + below.thickness, below.below
@@ -222,21 +98,31 @@ def _laid(thickness: float, k: float, below: Layer | None) -> Layer:
     return Layer(thickness, k, below, thickness * k + total, thickness + depth)
 
 
+def simple(change: complex) -> complex:
+    """The same, as a float where the imaginary part is 0."""
+    return change if change.imag else change.real
+
+
+def in_proportion(one: complex, other: complex) -> bool:
+    """Whether two changes have one direction, or opposite ones."""
+    ratio = one / other if other else complex(one)
+    return abs(ratio.imag) <= PROPORTIONAL * abs(ratio)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class LoadMemory:
-    """Layers from the top down; below them κ = 0. `size` is all that can be overwritten: f P, or
-    infinite.
+    """The level of a contact, and its layers from the top down; below them κ = 0.
 
-    >>> LoadMemory(math.inf).sheared(3.0)[0].sheared(-2.0)[0].layers
+    >>> LoadMemory(9.0).changed(0.0, 3.0)[0].changed(0.0, -2.0)[0].layers
     ((1.0, -1.0), (2.0, 1.0))
     """
 
-    size: float
+    level: complex
     top: Layer | None = None
 
     @property
-    def layers(self) -> tuple[tuple[float, float], ...]:
-        """(thickness, κ/f) from the top down."""
+    def layers(self) -> tuple[tuple[complex, float], ...]:
+        """(thickness, κ) from the top down."""
         found, layer = [], self.top
         while layer is not None:
             found.append((layer.thickness, layer.k))
@@ -244,129 +130,145 @@ class LoadMemory:
         return tuple(found)
 
     def __repr__(self) -> str:
-        return f"<load memory of {self.size:g}: {self.layers}>"
+        return f"<load memory of {self.level:g}: {self.layers}>"
 
     @property
-    def total(self) -> float:
-        """Q."""
+    def total(self) -> complex:
+        """S."""
         return self.top.total if self.top else 0.0
 
     @property
-    def deepest(self) -> tuple[float, bool]:
+    def deepest(self) -> tuple[complex, bool]:
         """The largest depth to which κ was overwritten, and whether that was more than once."""
-        return (
-            (min(self.top.depth, self.size), self.top.below is not None)
-            if self.top
-            else (0.0, False)
-        )
+        return (self.top.depth, self.top.below is not None) if self.top else (0.0, False)
 
     @property
-    def corners(self) -> tuple[tuple[float, float], ...]:
+    def corners(self) -> tuple[tuple[complex, float], ...]:
         """(depth, κ above - κ below) wherever κ jumps, from the top down."""
-        found, depth = [], 0.0
+        found: list[tuple[complex, float]] = []
+        depth: complex = 0.0
         for (thickness, k), (_, after) in pairwise((*self.layers, (0.0, 0.0))):
             depth += thickness
-            found.append((min(depth, self.size), k - after))
+            found.append((depth, k - after))
         return tuple(found)
 
-    def sheared(self, step: float) -> tuple[LoadMemory, tuple[SlippedLayer, ...]]:
-        """(new memory, overwritten layers) after Q changed by `step` at constant P."""
-        sign, left, depth = math.copysign(1.0, step), abs(step), 0.0
-        layer = self.top
-        done = []
-        while left > 0.0:
-            thickness, k, below = layer[:3] if layer else (self.size - depth, 0.0, None)
-            jump = abs(sign - k)
-            taken = left / jump if jump * thickness > left else thickness
-            if 0.0 < thickness - taken <= NOTHING * (depth + taken):
-                taken = thickness
-            if jump and depth + taken > depth:  # not by rounding alone
-                done.append(SlippedLayer(depth, depth + taken, jump))
-            if taken < thickness and layer:
-                below = _laid(thickness - taken, k, below)
-            layer = below
-            depth += taken
-            left = 0.0 if taken < thickness else max(left - jump * taken, 0.0)
-            if left <= NOTHING * abs(step) or (layer is None and depth >= self.size):
-                break
-        return LoadMemory(self.size, _laid(depth, sign, layer) if depth else layer), tuple(done)
+    def changed(
+        self, rise: complex, shear: complex, sign: float = 0.0, within: Within | None = None
+    ) -> tuple[LoadMemory, tuple[SlipEvent, ...]]:
+        """(new memory, slip in the order of time) after changes of Λ and S in proportion to time.
 
-    def raised(self, thickness: float, k: float) -> LoadMemory:
+        `sign` is that of slip; where it is 0, both changes are real, and the sign follows. Without
+        `within` all layers are in proportion to the step.
+
+        Where P falls a layer is removed without slip if κ = dS/dΛ. Otherwise slip in the direction
+        of dS - κ dΛ runs down from the edges, faster than the edges retreat. In a deeper layer it
+        may be slower: where the edges catch up with it, all slipped zones have left the contact,
+        and the same two cases hold for the layer below.
+        """
+        memory, left = self, 1.0
+        slips: list[SlipEvent] = []
+        while left > NOTHING:
+            k = memory.top.k if memory.top else 0.0
+            moves, pulls = left * rise, left * shear
+            direction, taken = sign or math.copysign(1.0, shear.real), 1.0
+            sticks = abs(pulls) <= moves.real + ROUNDED * (memory.level + moves).real
+            if not sign and moves.real > 0.0 and sticks:
+                k = min(max(pulls.real / moves.real, -1.0), 1.0)
+                return memory.raised(moves, k), tuple(slips)
+            if not sign and rise.real < 0.0:
+                excess = (shear - k * rise).real
+                if abs(excess) <= BALANCED * max(abs(shear), abs(k * rise)):
+                    top = memory.top.thickness.real if memory.top else math.inf
+                    taken = min(top / -moves.real, 1.0)
+                    memory = memory._thinned(-moves.real * taken)
+                    left *= 1.0 - taken
+                    continue
+                direction = math.copysign(1.0, excess)
+            memory, taken, event = memory._followed(direction, moves, pulls, within)
+            left *= 1.0 - taken
+            if event.layers:
+                moved = tuple(o.moved(left * rise) for o in event.layers)
+                slips.append(event._replace(layers=moved))
+        return memory, tuple(slips)
+
+    def raised(self, thickness: complex, k: float) -> LoadMemory:
         """The memory after P has risen, with a new layer on top."""
         nothing = k == 0.0 and (self.top is None or (self.top.k == 0.0 and self.top.below is None))
-        return LoadMemory(self.size + thickness, None if nothing else _laid(thickness, k, self.top))
+        return LoadMemory(
+            self.level + thickness, None if nothing else _laid(thickness, k, self.top)
+        )
 
     def _thinned(self, thickness: float) -> LoadMemory:
         """P lowered, and Q by what the top carried: it is taken off."""
         layer, left = self.top, thickness
         while layer is not None and left > 0.0:
             t, k, below = layer[:3]
-            layer = _laid(t - left, k, below) if t - left > NOTHING * self.size else below
-            left -= min(t, left)
-        return LoadMemory(self.size - thickness, layer)
+            rest = (t - left).real
+            layer = _laid(t - left, k, below) if rest > NOTHING * abs(self.level) else below
+            left -= min(t.real, left)
+        return LoadMemory(self.level - thickness, layer)
 
-    def lowered(self, thickness: float, rate: float) -> tuple[LoadMemory, tuple[SlipEvent, ...]]:
-        """(new memory, slip in the order of time) after P fell while Q changed.
-
-        `rate` is the change of Q for each unit of thickness.
-
-        A layer is removed without slip where κ = -rate. Otherwise slip in the direction of
-        rate + κ runs down from the edges, faster than the edges retreat. In a deeper layer it may
-        be slower: where the edges catch up with it, all slipped zones have left the contact, and
-        the same two cases hold for the layer below.
+    def _followed(
+        self, sign: float, rise: complex, shear: complex, within: Within | None
+    ) -> tuple[LoadMemory, float, SlipEvent]:
+        """Slip of this sign until the end of the step, or until the edges catch up with it: (new
+        memory, part of the step, slip), depths counted from the level then.
         """
-        memory, gone = self, 0.0
-        slips: list[SlipEvent] = []
-        while thickness - gone > NOTHING * thickness:
-            top, k = memory.top[:2] if memory.top else (math.inf, 0.0)
-            if abs(rate + k) <= BALANCED * max(abs(rate), abs(k)):
-                taken = min(top, thickness - gone)
-                memory = memory._thinned(taken)
-            else:
-                sign = math.copysign(1.0, rate + k)
-                memory, taken, done = memory._followed_down(
-                    sign, 1.0 + sign * rate, thickness - gone
-                )
-                if done:
-                    slips.append(SlipEvent(sign, tuple(o.moved(gone - thickness) for o in done)))
-            gone += taken
-        return memory, tuple(slips)
-
-    def _followed_down(
-        self, sign: float, pull: float, most: float
-    ) -> tuple[LoadMemory, float, list[SlippedLayer]]:
-        """Slip that P follows down: `pull` of Q for each unit of thickness taken off, until that is
-        `most` or all that slipped has gone.
-        """
-        layer, depth, taken = self.top, 0.0, 0.0
+        pull = sign * shear - rise  # what the front carries in the whole step
+        layer, left, timed = self.top, pull, True
+        depth: complex = 0.0
         done: list[SlippedLayer] = []
-        while taken < most and depth < self.size:
-            thickness, k, below = layer[:3] if layer else (self.size - depth, 0.0, None)
-            if k == sign:
+        time = caught = 0.0
+        while time < 1.0:
+            thickness, k, below = layer[:3] if layer else (math.inf, 0.0, None)
+            if layer and k == sign:
                 layer, depth = below, depth + thickness
                 continue
-            jump = abs(sign - k)
-            speed = pull / jump  # of the front, where that of P is 1
-            caught = (depth - taken) / (1.0 - speed) if speed < 1.0 else math.inf
-            passed = thickness / speed
-            time = min(passed, caught, most - taken)
-            way = thickness if time == passed else min(time * speed, thickness)
-            done.append(SlippedLayer(depth, depth + way, jump, (taken, taken + time)))
-            depth, taken = depth + way, taken + time
-            layer = (
-                _laid(thickness - way, k, below)
-                if layer and thickness - way > NOTHING * self.size
-                else below
-            )
+            jump = 1.0 - sign * k
+            taken, start = left / jump, time
+            passes, in_time = _passed(layer, depth, taken, within)
+            timed = timed and in_time
+            if passes:
+                taken = thickness
+                left -= jump * thickness
+            ended = not passes or abs(left) <= NOTHING * abs(pull)
+            time = 1.0 if ended else 1.0 - abs(left / pull)
+            caught = _caught(depth + rise * start, pull / jump, -rise, start) if rise else math.inf
+            if caught < time:
+                passes, time = False, caught
+                taken = min(((caught - start) * pull / jump).real, taken.real)
+            done.append(SlippedLayer(depth, depth + taken, jump, (-rise * start, -rise * time)))
+            depth += taken
+            rest = thickness - taken
+            if layer and (passes or (rise and abs(rest) <= NOTHING * abs(self.level))):
+                layer = below
+            elif layer:
+                layer = _laid(rest, k, below)
             if time == caught:
-                depth = taken
-            if time != passed:
+                depth = -rise * time
                 break
-        else:
-            taken = most  # the bodies slide
-        left = depth - taken
-        return (
-            LoadMemory(self.size - taken, _laid(left, sign, layer) if left > 0.0 else layer),
-            taken,
-            done,
-        )
+        on_top = depth + rise * time
+        top = _laid(on_top, sign, layer) if on_top else layer
+        moved = tuple([o.moved(rise * time) for o in done if o.lower != o.upper])
+        return LoadMemory(self.level + rise * time, top), time, SlipEvent(sign, moved, timed)
+
+
+def _passed(
+    layer: Layer | None, depth: complex, taken: complex, within: Within | None
+) -> tuple[bool, bool]:
+    """Whether a front passes the corner below a layer, and whether both its ends do so at once."""
+    if layer is None:
+        return False, True
+    thickness = layer.thickness
+    if within is not None and not in_proportion(taken, thickness):
+        passes = within(depth + taken, depth + thickness)
+        return passes, not passes
+    ahead = (1.0 - (taken / thickness).real) * abs(thickness)
+    return ahead <= NOTHING * abs(depth + taken), True
+
+
+def _caught(ahead: complex, speed: complex, fall: complex, start: float) -> float:
+    """When the edges catch up with a front that is so far ahead at a time; inf if they do not."""
+    if fall.real <= 0.0 or ahead.imag or speed.imag or fall.imag or speed.real >= fall.real:
+        return math.inf
+    return start + ahead.real / (fall.real - speed.real)

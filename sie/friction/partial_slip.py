@@ -62,8 +62,9 @@ SMALLEST = 1e-60
 HARDLY = 1e-40
 
 
-def slip(step: Step) -> Slip:
-    """The state of a scene's contact after its Q and σ.
+def slip(step: Step, one_sign: bool = False) -> Slip:
+    """The state of a scene's contact after its Q and σ; `one_sign`: slip is positive at both edges,
+    whatever Q and σ, as in a layer of a memory.
 
     Raises ContactError where no single stick zone answers.
     """
@@ -81,6 +82,8 @@ def slip(step: Step) -> Slip:
         )
     if abs(Q) == f * P and "sliding" in step.economy:
         return sliding(step)
+    if one_sign:
+        return _one_signed(step, 1.0)
     if math.pi * step.pressure.contact.r * abs(tau) <= abs(Q):
         return _one_signed(step, math.copysign(1.0, Q))
     # Against Q only next to a sharp edge that holds, where the stick zone reaches it and all slip

@@ -247,21 +247,25 @@ class Slipping(Slip):
         return left, right
 
     @cached_property
-    def _integrals(self) -> tuple[float, float]:
-        f, width = self.friction, 2.0 * self.contact.r
-        energy = shift = 0.0
+    def _integrals(self) -> tuple[float, float, float, float]:
+        """∫f p |slip| dx, ∫slip dμ, f ∫|slip| dμ and f ∫|slip| (x - m) dμ, dμ = dx/(π w)."""
+        f, half = self.friction, self.contact.r
+        energy = shift = spread = lever = 0.0
         for r, z, sign in zip(self.frames, self.zones, self.signs, strict=True):
             if z.length > 0.0:
-                opening = self._opening(z.from_edge, r)
-                energy += f * f * float(z.force @ opening)
-                from_other_edge = (width - z.length) + z.from_stick
-                shift += (
-                    sign
-                    * f
-                    / math.pi
-                    * float((z.weight * opening) @ (1.0 / np.sqrt(z.from_edge * from_other_edge)))
-                )
-        return energy, shift
+                opening = f * self._opening(z.from_edge, r)
+                energy += f * float(z.force @ opening)
+                from_other_edge = (2.0 * half - z.length) + z.from_stick
+                moved = z.weight * opening / np.sqrt(z.from_edge * from_other_edge) / math.pi
+                shift += sign * float(moved.sum())
+                spread += f * float(moved.sum())
+                lever += f * r.side * float(moved @ (half - z.from_edge))
+        return energy, shift, spread, lever
+
+    def work_of(self, dP: float, strain: float) -> float:
+        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
+        _, _, spread, lever = self._integrals
+        return dP * spread - math.pi * strain * lever
 
     @property
     def work(self) -> float:

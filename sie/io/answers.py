@@ -47,7 +47,7 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} where it is not known, as of dissimilar bodies in full sliding."""
+    """The dissipated energy; {} where it is not known, as of dissimilar bodies that slide."""
     try:
         return {"energy_lost": solution.energy_lost}
     except ContactError:

@@ -22,10 +22,9 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 
 from .chord import Points
-from .intensity import intensities, on_patches
-from .newton import State, gap_values
-from .operator import Operator
+from .operator import Operator, gap_values, intensities, on_patches
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
+from .state import Findings, Overlap, State, Tension
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -36,43 +35,6 @@ HALVED = 42  # times the distance from a concave corner is: less than CLOSED
 TENSION = 1e-13  # of the largest D: rounding
 CLOSED = 1e-12  # half-widths of its patch: the gap at a concave corner is not told from none
 OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
-
-
-class Tension(NamedTuple):
-    """An interval with tension: [lo, hi] of patch k."""
-
-    patch: int
-    lo: float
-    hi: float
-
-
-class Overlap(NamedTuple):
-    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the
-    largest g of that gap.
-    """
-
-    gap: int
-    lo: float
-    hi: float
-    x: float
-    depth: float
-    largest: float
-
-
-@dataclass(frozen=True)
-class Findings:
-    """The violations of the inequalities; none if the patches are the answer.
-
-    lowest      the lowest bound of D over the largest D
-    """
-
-    tension: tuple[Tension, ...]
-    overlap: tuple[Overlap, ...]
-    lowest: float
-
-    @property
-    def ok(self) -> bool:
-        return not self.tension and not self.overlap
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +49,7 @@ class Found:
 
 
 def findings(o: Operator) -> Findings:
-    tension, lowest = _tensions(o)
+    tension, lowest = tensions(o)
     return Findings(tension, _overlaps(o), lowest)
 
 
@@ -110,7 +72,8 @@ def lower_bound(values: Array) -> Array:
 # -- on the patches --------------------------------------------------------------------------------
 
 
-def _tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+    """Where the patches pull, and the lowest bound of D over the largest D."""
     k = o.panels
     parts = np.stack((k.lo, k.hi), axis=1)
     panel = np.arange(len(k.lo))
@@ -164,8 +127,8 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
         room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
         width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
         corner = np.broadcast_to(corners[:, None], width.shape)
-        owner, which = (np.broadcast_to(v[:, None], width.shape) for v in (patch, piece))
-        D = on_patches(o, owner, Points(corner, -width if side == "left" else width), which)
+        which = np.broadcast_to(piece[:, None], width.shape)
+        D = on_patches(o, patch, Points(corner, -width if side == "left" else width), which)
         widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
         deepest = np.minimum(deepest, D.min(axis=1))
     left, right = widths
@@ -285,7 +248,7 @@ def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tup
 
 
 def sides(o: Operator, panels: GapPanels) -> Side:
-    reference, _, T, D = gap_values(o, panels)
+    reference, T, D = gap_values(o, panels)
     sign = np.where(panels.right, -1.0, 1.0)
     phi = sign[:, None] * T * D / (np.pi * panels.root)
     n = phi.shape[1]

@@ -19,10 +19,11 @@ from sie.numerics import chebyshev
 
 from .admissible import Found
 from .density import PatchPressure
-from .newton import Given, State, conditions
+from .newton import conditions
 from .operator import Operator
 from .panels import PatchPanels
 from .result import GRADING, LEAST, PatchCertificate
+from .state import Given, State
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -226,10 +227,11 @@ def _residual(pressure: PatchPressure, rule: Measure, p: Array) -> float:
     for k in range(0, len(at), TOGETHER):
         some = slice(k, k + TOGETHER)
         distance = at[some, None] - rule.x
-        distance[distance == 0.0] = np.inf
+        distance[distance == 0.0] = np.nan
         kernel = 1.0 / distance
         if chord.periodic:
             kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
+        kernel[np.isnan(kernel)] = 0.0
         taken_out = np.where(rule.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ rule.weight
     H = o.pieces.value(o.pieces.locate(at), at, 0.0) + pressure.tilt

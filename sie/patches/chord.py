@@ -63,7 +63,7 @@ class Chord:
             return step + offset
         return (step - self.period * np.rint(step / self.period)) + offset
 
-    def distance(self, x: Any, lo: float, hi: float) -> Any:
+    def distance(self, x: Any, lo: Any, hi: Any) -> Any:
         """The distance of x from [lo, hi], or from its nearest repetition."""
         middle = 0.5 * (lo + hi)
         return np.abs(self.difference(x - middle)) - 0.5 * (hi - lo)

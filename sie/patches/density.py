@@ -21,8 +21,8 @@ from sie.numerics import chebyshev
 from sie.traction.base import Density, in_order, on_surface, reflected, refuse_side, zero_or_nan
 
 from .chord import Points
-from .intensity import on_patches
-from .operator import Operator, Targets
+from .measure import Targets
+from .operator import Operator, at_edges, blocks, on_patches
 from .panels import graded
 
 Array = NDArray[np.float64]
@@ -168,9 +168,12 @@ class PatchPressure(Density):
         piece = o.pieces.locate(points.x)
         at_end = points.x == o.patches.b[k]
         piece = np.where(at_end, o.pieces.locate(points.x, "left"), piece)
-        T, _ = o.root(k, points)
+        at = blocks(k, points.x)
+        T, _ = o.root(k[at[:, 0]], points[at])
+        p = np.empty(x.shape)
         with np.errstate(divide="ignore", invalid="ignore"):
-            p = (self.half_modulus / np.pi) * np.abs(T) * on_patches(o, k, points, piece)
+            D = on_patches(o, k[at[:, 0]], points[at], piece[at])
+            p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
         edges = points.offset == 0.0
         if edges.any():
             at = 2 * k[edges] + (points.anchor[edges] == o.patches.b[k[edges]])
@@ -225,20 +228,14 @@ class PatchPressure(Density):
         reference = np.where(
             follows, pieces.value(piece, z.anchor, z.offset), pieces.value(piece, real, 0.0)
         )
-        T, S = o.root(k, z)
-        D = np.empty(z.offset.shape, dtype=np.result_type(T, reference))
-        followed = np.where(follows, piece, -1)
-        order = np.argsort(k, kind="stable")
-        for some in np.split(order, np.flatnonzero(np.diff(k[order])) + 1):
-            i = int(k[some[0]])
-            runs = some[np.argsort(np.real(z.x[some]), kind="stable")]
-            for part in np.array_split(runs, max(len(runs) // 128, 1)):
-                x = np.real(z.x[part])
-                group = o.group(i, float(x.min()), float(x.max()))
-                D[part] = group.D(
-                    Targets(z[part], reference[part], followed[part], S[part], k[part])
-                )
-        return self.half_modulus * (reference + self.tilt - T * D / np.pi)
+        F = np.empty(z.offset.shape, dtype=np.result_type(z.offset, reference))
+        at = blocks(k, np.real(z.x))
+        i, place, value = k[at[:, 0]], z[at], reference[at]
+        T, S = o.root(i, place)
+        followed = np.where(follows, piece, -1)[at]
+        D = o.D(Targets(i, np.arange(len(i)), place, value, followed, k[at], S))
+        F[at] = self.half_modulus * (value + self.tilt - T * D / np.pi)
+        return F
 
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)
@@ -263,6 +260,20 @@ class PatchPressure(Density):
         points, k, _ = self.placed(z.real)
         return np.asarray(self._potential(Points(points.anchor, points.offset + 1j * z.imag), k))
 
+    @cached_property
+    def steepness(self) -> PatchPressure | None:
+        """p' as a traction of its own; None where p has jumps of the slope or is infinite.
+
+        Shifting the profile and all edges shifts F: F' is that of H' with the point charges by
+        which moving edges change F.
+        """
+        o = self.operator
+        P = o.patches
+        if o.Y.any() or o.pieces.jumps(P.a, P.b).any():
+            return None
+        derived = Operator(P, o.pieces.derivative, -0.5 * at_edges(o))
+        return PatchPressure(derived, self.half_modulus, 0.0, 0.0)
+
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         refuse_side(side)
         z = arguments.complexes("z", z)
@@ -272,6 +283,16 @@ class PatchPressure(Density):
         )
 
     def _derivative(self, z: Complex, side: int) -> Complex:
+        points, _, inside = self.placed(z.real)
+        at_edge = inside & (z.imag == 0.0) & (points.offset == 0.0)
+        out = np.full(z.shape, complex(np.inf, np.inf))
+        if self.steepness is not None:
+            out[~at_edge] = self.steepness._cauchy(z[~at_edge], side)
+        else:
+            out[~at_edge] = self._around(z[~at_edge], side)
+        return out
+
+    def _around(self, z: Complex, side: int) -> Complex:
         """By Cauchy's formula on a circle that touches no traction; in contact from the values of p
         beside it.
         """
@@ -295,22 +316,12 @@ class PatchPressure(Density):
         o = self.operator
         piece = o.pieces.locate(points.x)
         steep = self.half_modulus * o.pieces.curvature(piece, points.x)
-        room = np.minimum(
-            np.abs(points.offset),
-            np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x),
-        )
-        room = np.maximum(
-            np.where(room > 0.0, room, np.abs(points.offset)), np.spacing(np.abs(points.x))
-        )
-        step = 0.05 * room
+        room = np.minimum(points.x - o.pieces.ends[piece], o.pieces.ends[piece + 1] - points.x)
+        room = np.minimum(np.abs(points.offset), np.where(room > 0.0, room, np.inf))
+        step = 0.05 * np.maximum(room, np.spacing(np.abs(points.x)))
         weights = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
         places = points.x[:, None] + step[:, None] * np.array([-2.0, -1.0, 1.0, 2.0])
-        slope = (self(places) @ weights) / step
-        out = np.empty(x.shape, dtype=complex)
-        out.real, out.imag = steep, -side * slope
-        edges = points.offset == 0.0
-        out[edges] = complex(np.inf, np.inf)
-        return out
+        return np.asarray(steep - 1j * side * (self(places) @ weights) / step)
 
     def _of_force(self, z: Any) -> Any:
         if self.period < np.inf:

@@ -144,7 +144,7 @@ class PatchDissipation:
         found = []
         for P, o in zip(loads, fronts, strict=True):
             L, Y, low, high = (
-                self._level(P - d / friction) for d in (o.lower, o.upper, *o.surface[::-1])
+                self._level(P - d.real / friction) for d in (o.lower, o.upper, *o.surface[::-1])
             )
             found.append(friction * friction * self._front(L, Y, high, low))
         return np.array(found)

@@ -35,8 +35,8 @@ from sie.traction.combination import superposed
 from .answer import SeveralPatches
 from .dissipation import Untouched, slip_rule, work
 from .full import FullContact
+from .measure import edge_ratio
 from .newton import conditions, punch
-from .operator import edge_ratio
 
 Array = NDArray[np.float64]
 

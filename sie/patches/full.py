@@ -25,7 +25,7 @@ from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_
 
 from .admissible import CLOSED, DEEPEST, NODES, TENSION, lower_bound
 from .density import AROUND, NARROW
-from .operator import NEAR
+from .measure import NEAR
 from .pieces import Pieces
 from .result import GRADING, LEAST, PatchCertificate
 

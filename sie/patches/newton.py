@@ -15,17 +15,17 @@ charge itself.
 
 from __future__ import annotations
 
-import itertools
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .chord import Points
-from .operator import Operator, Targets, edge_ratio
-from .panels import GapPanels, Patches
+from .measure import edge_ratio
+from .operator import Operator, at_edges, gap_values
+from .panels import Patches
 from .pieces import Pieces
+from .state import Event, Given, State
+from .sums import add, parts
 
 Array = NDArray[np.float64]
 
@@ -39,36 +39,14 @@ TINY = 1e-200
 MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
+QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
+ULPS = 8.0  # of the largest edge: no step tells less
+# times that an edge is asked back, and the part of the mean: only clear tension counts from then on
+TURNS, CLEARLY = 3, 0.03
+GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
 CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
+TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
-
-
-class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2."""
-
-    load: float
-    tilt: float
-    moment: float | None
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Patches, charges of sharp edges (0 at smooth ones), and the tilt."""
-
-    patches: Patches
-    sharp: NDArray[np.bool_]  # (2N,)
-    charge: Array  # (2N,)
-    tilt: float
-
-
-class Event(NamedTuple):
-    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
-    "smooth" and edge k.
-    """
-
-    kind: str
-    number: int
-    others: tuple[int, ...] = ()  # patches that vanish as well
 
 
 class Linear(NamedTuple):
@@ -78,6 +56,12 @@ class Linear(NamedTuple):
     matrix: Array
     intensity: Array
 
+    @property
+    def solution(self) -> Array:
+        """Charges at the edges, and the change of the tilt, that meet the conditions."""
+        size = np.abs(self.matrix).max(axis=1)
+        return np.asarray(np.linalg.solve(self.matrix / size[:, None], -self.missed / size))
+
 
 def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Linear]:
     P = state.patches
@@ -86,21 +70,8 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     k = np.repeat(np.arange(N), 2)
     tilt = state.tilt + o.H0
     missed, matrix = np.zeros(2 * N + 1), np.zeros((2 * N + 1, 2 * N + 1))
-    intensity = np.empty(2 * N)
-    S = o.others(k, Points(e, np.zeros(2 * N)))
-    edge_piece = np.where(np.arange(2 * N) % 2 == 0, pieces.locate(e), pieces.locate(e, "left"))
-    value = pieces.value(edge_piece, e, 0.0)
-    for i, group in o.at_edges():
-        own = slice(2 * i, 2 * i + 2)
-        C, plain = group.closure()
-        missed[i] = C + tilt * plain
-        matrix[i, 2 * N] = plain
-        smooth = np.flatnonzero(~state.sharp[own]) + 2 * i
-        if smooth.size:
-            x = Points(e[smooth], np.zeros(len(smooth)))
-            intensity[smooth] = group.D(
-                Targets(x, value[smooth], edge_piece[smooth], S[smooth], k[smooth])
-            )
+    C, plain = o.closures()
+    missed[:N], matrix[:N, 2 * N] = C + tilt * plain, plain
     ratio = edge_ratio(P, np.arange(N))
     matrix[:N, : 2 * N] = ratio * chord.cosine(e - P.c[:, None])
     K, across = closures(o, ratio)
@@ -117,7 +88,7 @@ def conditions(state: State, pieces: Pieces, given: Given) -> tuple[Operator, Li
     charged = matrix[:, : 2 * N] @ o.Y
     charged[N : 2 * N - 1] = 0.0  # D contains them
     charged[2 * N] *= given.moment is not None
-    intensity[state.sharp] = 0.0
+    intensity = np.where(state.sharp, 0.0, at_edges(o))
     return o, Linear(missed + charged, matrix, intensity)
 
 
@@ -127,131 +98,172 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     N = P.number
     if N == 1:
         return np.zeros(0), np.zeros((0, 2))
-    reference, _, T, D = gap_values(o)
-    integral = np.bincount(k.gap, ((reference - T * D / np.pi) * k.dx).sum(axis=1), N - 1)
+    reference, T, D = gap_values(o)
     base = pieces.value(pieces.locate(P.b[:-1], "left"), P.b[:-1], 0.0)
+    excess = (reference - base[k.gap, None] - T * D / np.pi) * k.dx
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
-    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - (integral - base * width)
+    integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
+    K = (pieces.rises(P.b[:-1], P.a[1:]) - base * width) - integral
+    return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
+
+
+def across_gaps(o: Operator, weight: Array) -> Array:
+    """Σ weight/d(x, e) over the nodes x of each gap and all edges e, (N - 1, 2N)."""
+    P, k = o.patches, o.gaps
     e = P.edges
-    across = np.zeros((N - 1, 2 * N))
-    starts = np.flatnonzero(np.diff(k.gap, prepend=-1))
-    rows = max((1 << 20) // max(k.dx.shape[1] * 2 * N, 1), 1)
-    parts = np.empty((len(k.gap), 2 * N))
-    for start in range(0, len(k.gap), rows):
-        some = slice(start, start + rows)
-        away = P.chord.apart(k.points.anchor[some, :, None] - e, k.points.offset[some, :, None])
-        parts[some] = np.einsum("pn,pne->pe", T[some] * k.dx[some], 1.0 / away)
-    across[k.gap[starts]] = np.add.reduceat(parts, starts)
-    return K, -across * ratio[: N - 1] / np.pi
-
-
-def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Array, Array, Array]:
-    """The reference value of H, S_i, T_i and D_i on the nodes of gap panels.
-
-    i is the patch to the left; outside on the left the first one.
-    """
-    panels = o.gaps if panels is None else panels
-    P, pieces = o.patches, o.pieces
-    shape = panels.dx.shape
-    at_edge = pieces.value(panels.piece, panels.points.anchor[:, 0], 0.0)
-    continued = pieces.value(panels.piece[:, None], panels.points.anchor, panels.points.offset)
-    reference = np.where(panels.follows[:, None], continued, at_edge[:, None])
-    owner = np.maximum(panels.gap, 0)
-    nearer = (panels.gap + panels.right) % P.number
-    anchors = np.broadcast_to(panels.points.anchor, shape)
-    flat = Points(anchors.ravel(), panels.points.offset.ravel())
-    T, S = (np.asarray(v).reshape(shape) for v in o.root(np.repeat(owner, shape[1]), flat))
-    D = np.empty(shape)
-    starts = np.append(np.flatnonzero(np.diff(panels.gap, prepend=-2)), len(panels.gap))
-    for start, stop in itertools.pairwise(starts):
-        some = slice(start, stop)
-        x = Points(anchors[some].ravel(), panels.points.offset[some].ravel())
-        i = int(owner[start])
-        place = (
-            P.chord.difference(x.anchor - P.c[i], x.offset) + P.c[i] if P.chord.periodic else x.x
+    out = np.zeros((P.number - 1, len(e)))
+    for some in parts(len(k.gap), k.dx.shape[1] * len(e)):
+        step = P.chord.apart(
+            k.points.anchor[some, :, None] - e[:, None], k.points.offset[some, None, :]
         )
-        piece = np.where(panels.follows[some], panels.piece[some], -1)
-        group = o.group(i, float(place.min()), float(place.max()))
-        values = group.D(
-            Targets(
-                x,
-                reference[some].ravel(),
-                np.repeat(piece, shape[1]),
-                S[some].ravel(),
-                np.repeat(nearer[some], shape[1]),
-            )
-        )
-        D[some] = values.reshape(stop - start, shape[1])
-    return reference, S, T, D
+        sums = np.reciprocal(step, out=step) @ weight[some, :, None]
+        add(out, k.gap[some], sums[..., 0])
+    return out
 
 
-def solve(state: State, pieces: Pieces, given: Given) -> tuple[State, Event | None, int]:
-    """Edges that meet the conditions, or the event that stopped the search on its way; and the
-    steps.
+class Damping(NamedTuple):
+    """What limits the next moves of the edges, (2N,) each.
+
+    trust      the most that an edge moves after it was asked back
+    moved      its last move
+    insists    steps in a row in which it was asked for more than is allowed
+    turns      how often it was asked back
     """
-    low, high = (np.repeat(v, 2) for v in pieces.solid_around(state.patches.c))
-    outward = np.where(np.arange(2 * state.patches.number) % 2 == 0, -1.0, 1.0)
-    before, insists = np.inf, np.zeros(2 * state.patches.number, dtype=int)
-    for step in range(MOST_STEPS):
-        P = state.patches
-        N = P.number
-        _o, linear = conditions(state, pieces, given)
-        size = np.abs(linear.matrix).max(axis=1)
-        y = np.linalg.solve(linear.matrix / size[:, None], -linear.missed / size)
-        mean = np.abs(linear.intensity[~state.sharp]).mean() if (~state.sharp).any() else 1.0
-        # next to a concave corner D is larger by orders than elsewhere: one floor is not for all
-        D = np.where(linear.intensity > 0.0, linear.intensity, SMALL * mean) + TINY
-        D = np.where(state.sharp, 1.0, D)
-        k = np.repeat(np.arange(N), 2)
-        asked = np.where(state.sharp, 0.0, 2.0 * y[: 2 * N] / D)
-        # where the pressure beside an edge is negative the edge has to move in
-        pulls = linear.intensity < -SMALL * mean
-        asked = np.where(pulls & ~state.sharp, -INWARD * outward * P.r[k], asked)
+
+    trust: Array
+    moved: Array
+    insists: Array
+    turns: Array
+
+    def limited(self, state: State, asked: Array) -> Damping:
+        P, outward = state.patches, state.outward
+        r = np.repeat(P.r, 2)
         gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
-        r = P.r[k]
         most = np.where(
             asked * outward > 0.0,
             np.minimum(OUTWARD * r, INTO_GAP * gaps),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
-        unknown = (
-            state.sharp.any() and not state.charge.any()
-        )  # D depends on the charges: they first
-        move = np.zeros(2 * N) if unknown else np.clip(asked, -most, most)
-        insists = np.where((np.abs(asked) > most) & ~unknown, insists + 1, 0)
-        charge = np.where(state.sharp, state.charge + y[: 2 * N], 0.0)
-        e = P.edges + move
-        largest = float(np.max(np.abs(asked) / r)) if (~state.sharp).any() else 0.0
-        charges = np.abs(y[: 2 * N][state.sharp]).max(initial=0.0) / max(
-            np.abs(charge).max(initial=0.0), 1e-300
-        )
-        largest = max(largest, charges)
-        sharp = state.sharp
-        ends = ((e <= low) & (outward < 0.0)) | ((e >= high) & (outward > 0.0))
-        if (ends & ~sharp).any():
-            e, sharp = np.where(ends, np.where(outward < 0.0, low, high), e), sharp | ends
-            largest = np.inf
-        tilt = state.tilt + float(y[2 * N]) if given.moment is not None else state.tilt
-        state = State(Patches(e[::2], e[1::2], P.chord), sharp, charge, tilt)
-        wrong = sharp & (charge * outward < 0.0)
-        if largest < FINAL or (largest < SETTLED and largest >= 0.5 * before):
-            return (
-                state,
-                (Event("smooth", int(np.flatnonzero(wrong)[0])) if wrong.any() else None),
-                step + 1,
-            )
-        before = largest
-        if insists.max() >= INSISTS:
-            worst = int(np.argmax(insists))
-            if asked[worst] * outward[worst] <= 0.0:
-                shrinking = (2 * insists >= INSISTS) & (asked * outward <= 0.0)
-                return state, Event("vanish", worst // 2, tuple(k[shrinking].tolist())), step + 1
-            gap = worst // 2 if worst % 2 else (worst // 2 - 1) % N
-            closed = state.patches.gaps[gap] < CLOSED * state.patches.r.min()
-            if closed or gap not in held_open(state.patches, pieces):
-                return state, Event("merge", gap), step + 1
-            insists[:] = 0
-    return state, Event("stall", -1), MOST_STEPS
+        back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
+        turns, last = self.turns + back, np.abs(self.moved)
+        growth = 1.0 + GROWTH / (1.0 + turns**2)
+        trust = np.where(back, 0.5 * last, np.maximum(growth * last, self.trust))
+        allowed = np.minimum(most, trust)
+        insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
+        return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
+
+
+def solve(
+    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
+) -> tuple[State, Event | None, int]:
+    """Edges that meet the conditions, or the event that stopped the search on its way; and the
+    number of steps. `accuracy`: half-widths that the last step may have, and the most steps.
+    """
+    enough, most = accuracy
+    ends = pieces.solid_around(state.patches.c)
+    none = np.zeros(2 * state.patches.number)
+    damping = Damping(none + np.inf, none, none, none)
+    sizes: list[float] = []
+    for step in range(most):
+        _, linear = conditions(state, pieces, given)
+        y = linear.solution
+        asked = wished(state, linear, y, damping.turns)
+        # D depends on the charges: they first
+        unknown = state.sharp.any() and not state.charge.any()
+        damping = damping.limited(state, none if unknown else asked)
+        size = relative_size(state, y, asked)
+        state, clipped = moved(state, damping.moved, y, (ends, given.moment is not None))
+        sizes.append(np.inf if clipped else size)
+        if _settled(sizes, enough):
+            wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
+            return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
+        event = _event(state, asked, damping.insists, pieces)
+        if event is not None:
+            return state, event, step + 1
+        if damping.insists.max() >= INSISTS:
+            damping.insists[:] = 0
+    return state, Event("stall", -1), most
+
+
+def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
+    """The moves that the edges are asked for, (2N,)."""
+    N = state.patches.number
+    smooth = ~state.sharp
+    mean = np.abs(linear.intensity[smooth]).mean() if smooth.any() else 1.0
+    # next to a concave corner D is larger by orders than elsewhere: one floor is not for all
+    D = np.where(linear.intensity > 0.0, linear.intensity, SMALL * mean) + TINY
+    D = np.where(smooth, D, 1.0)
+    # where the pressure beside an edge is negative the edge has to move in
+    threshold = np.where(turns < TURNS, SMALL, CLEARLY) * mean
+    pulls = (linear.intensity < -threshold) & smooth
+    inward = -INWARD * state.outward * np.repeat(state.patches.r, 2)
+    return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
+
+
+def relative_size(state: State, y: Array, asked: Array) -> float:
+    """The largest move over its half-width, of what edges in doubles can tell, or the largest
+    change of a charge over the largest charge.
+    """
+    P, sharp = state.patches, state.sharp
+    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges).max()), 0.0)
+    change = y[: len(sharp)][sharp]
+    largest = np.abs(state.charge[sharp] + change).max(initial=0.0)
+    return max(
+        float((told / np.repeat(P.r, 2)).max()),
+        float(np.abs(change).max(initial=0.0) / max(largest, TINY)),
+    )
+
+
+def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tuple[State, bool]:
+    """The state after a step, and whether edges became sharp at the ends of the indenter."""
+    (low, high), turns = limits
+    low, high = np.repeat(low, 2), np.repeat(high, 2)
+    n, outward, sharp = len(move), state.outward, state.sharp
+    e = state.patches.edges + move
+    charge = np.where(sharp, state.charge + y[:n], 0.0)
+    ends = ((e <= low) & (outward < 0.0)) | ((e >= high) & (outward > 0.0))
+    clipped = bool((ends & ~sharp).any())
+    if clipped:
+        e, sharp = np.where(ends, np.where(outward < 0.0, low, high), e), sharp | ends
+    tilt = state.tilt + float(y[n]) if turns else state.tilt
+    return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
+
+
+def _settled(sizes: list[float], enough: float) -> bool:
+    """Whether the last step is small enough, what follows is by the steps' quadratic decrease, or
+    only rounding is left.
+    """
+    last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
+    if last < enough:
+        return True
+    decreased = last < QUADRATIC and before < QUADRATIC and last * (last / before) ** 2 < enough
+    return decreased or (last < SETTLED and last >= 0.5 * before)
+
+
+def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
+    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
+    row; or what a single edge insists on.
+    """
+    P, out = state.patches, asked * state.outward > 0.0
+    single = insists >= INSISTS
+    both = (insists >= TOGETHER).reshape(-1, 2) & ~out.reshape(-1, 2)
+    shrinking = both.all(axis=1) | (single & ~out).reshape(-1, 2).any(axis=1)
+    growing = out & (insists >= TOGETHER)
+    closing = growing[1::2] & np.roll(growing[::2], -1)
+    outward = single & out
+    closing |= outward[1::2] | np.roll(outward[::2], -1)
+    closed = P.gaps < CLOSED * P.r.min()
+    if not P.chord.periodic:
+        closing[-1] = closed[-1] = False
+    kept = np.flatnonzero(closing & ~closed)
+    if kept.size:
+        closing[sorted(held_open(P, pieces).intersection(kept.tolist()))] = False
+    vanished, merged = np.flatnonzero(shrinking), np.flatnonzero(closing | closed)
+    if merged.size and P.number > 1:  # full contact is no event: it is ruled out before
+        return Event("merge", int(merged[0]), tuple(merged.tolist()))
+    if vanished.size:
+        return Event("vanish", int(vanished[0]), tuple(vanished.tolist()))
+    return None
 
 
 def punch(o: Operator) -> Array:

@@ -22,9 +22,10 @@ from sie.profiles.base import Profile
 
 from .admissible import Found
 from .density import PatchPressure
-from .newton import Given, State, conditions
+from .newton import conditions
 from .operator import Operator
 from .profile_pieces import of_profile
+from .state import Given, State
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,9 @@ from numpy.typing import NDArray
 from sie.problem.scene import Scene
 
 from .chord import Chord
-from .newton import Given
 from .pieces import Pieces
 from .profile_pieces import of_profile
+from .state import Given
 
 Array = NDArray[np.float64]
 
@@ -64,3 +65,7 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         chord=Chord(profile.period),
         given=Given(scene.normal_load / G, scene.tilt, moment),
     )
+
+
+def changed(problem: Problem, **changes: Any) -> Problem:
+    return replace(problem, given=problem.given._replace(**changes))

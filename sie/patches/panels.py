@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 
+Runs = tuple[Index, Array, Array]
+
+
 class Rule(NamedTuple):
     """Nodes on a panel; the first panel at an edge, over the angle of the nearest singularity, and
     how the next ones grow.
@@ -36,6 +39,7 @@ class Rule(NamedTuple):
 
 LONG, SHORT = Rule(16, 1.5, 4.0), Rule(8, 0.5, 2.0)
 FINE = Rule(16, 0.5, 2.0)  # where values between the nodes are asked for as well
+SLACK = 1.3  # the last panel of a graded row is longer than the others by no more
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
 # half-widths of the whole contact: how far out the gap is looked at where the indenter does not end
 FARTHEST = 1e4
@@ -99,35 +103,47 @@ class PatchPanels:
 
 def graded(first: float, growth: float, end: float) -> Array:
     """0, first, first growth, ... below end, end."""
-    if not first < end / 1.3:
+    if not first < end / SLACK:
         return np.array([0.0, end])
-    count = int(np.ceil(np.log(end / first / 1.3) / np.log(growth)))
+    count = int(np.ceil(np.log(end / first / SLACK) / np.log(growth)))
     return np.concatenate(([0.0], first * growth ** np.arange(max(count, 1)), [end]))
+
+
+def _graded(rule: Rule, nearest: Array, end: Array, breaks: tuple[Index, Array]) -> Runs:
+    """Panels of rows from 0 to `end` (R,), graded over the distance `nearest` (R,) of the nearest
+    singularity, cut at breaks (row, place) as well: the row and the ends of each, ascending.
+    """
+    first, every = rule.first * nearest, np.arange(len(end))
+    steps = np.ceil(np.log(np.maximum(end / first, 1e-300) / SLACK) / np.log(rule.growth))
+    count = np.where(first < end / SLACK, np.maximum(steps, 1.0), 0.0).astype(int)
+    graded = np.repeat(every, count)
+    power = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    row = np.concatenate((every, graded, breaks[0], every))
+    place = np.concatenate((np.zeros(len(end)), first[graded] * rule.growth**power, breaks[1], end))
+    order = np.lexsort((place, row))
+    row, place = row[order], place[order]
+    panel = (row[1:] == row[:-1]) & (place[1:] > place[:-1])
+    return row[:-1][panel], place[:-1][panel], place[1:][panel]
 
 
 def patch_panels(patches: Patches, pieces: Pieces) -> PatchPanels:
     rule = patches.rule(pieces)
-    a, b, r = patches.a, patches.b, patches.r
+    a, b, r, N = patches.a, patches.b, patches.r, patches.number
     behind = np.concatenate((patches.gaps[-1:], patches.gaps[:-1]))
-    lows, highs, owner, right = [], [], [], []
+    # rows: both halves of each patch, counted from a and from b
+    gaps = np.stack((behind, patches.gaps), axis=1).ravel()
+    nearest = 2.0 * np.arcsinh(np.sqrt(gaps / (2.0 * np.repeat(r, 2))))
     start, stop = np.searchsorted(pieces.cuts, a, "right"), np.searchsorted(pieces.cuts, b)
-    for i in range(patches.number):
-        inner = pieces.cuts[start[i] : stop[i]]
-        for side, gap in ((False, behind[i]), (True, patches.gaps[i])):
-            cuts = np.array([0.0, 0.5 * np.pi])
-            if gap < np.inf:
-                nearest = 2.0 * np.arcsinh(np.sqrt(gap / (2.0 * r[i])))
-                cuts = graded(rule.first * nearest, rule.growth, 0.5 * np.pi)
-            inward = b[i] - inner if side else inner - a[i]
-            inward = inward[inward < r[i]]
-            if inward.size:
-                breaks = 2.0 * np.arcsin(np.sqrt(inward / (2.0 * r[i])))
-                cuts = np.unique(np.concatenate((cuts, breaks)))
-            lows.append(cuts[:-1])
-            highs.append(cuts[1:])
-            owner.append(np.full(len(cuts) - 1, i))
-            right.append(np.full(len(cuts) - 1, side))
-    lo, hi, patch, at_right = (np.concatenate(v) for v in (lows, highs, owner, right))
+    count = np.maximum(stop - start, 0)
+    of = np.repeat(np.arange(N), count)
+    cut = pieces.cuts[np.arange(count.sum()) + np.repeat(start - np.cumsum(count) + count, count)]
+    inward = np.concatenate((cut - a[of], b[of] - cut))
+    row = np.concatenate((2 * of, 2 * of + 1))
+    half = inward < r[row // 2]
+    row, inward = row[half], inward[half]
+    angle = 2.0 * np.arcsin(np.sqrt(inward / (2.0 * r[row // 2])))
+    row, lo, hi = _graded(rule, nearest, np.full(2 * N, 0.5 * np.pi), (row, angle))
+    patch, at_right = row // 2, row % 2 == 1
     g, w = chebyshev.gauss_legendre(rule.nodes)
     phi = lo[:, None] + (hi - lo)[:, None] * g
     inward = 2.0 * r[patch, None] * np.sin(0.5 * phi) ** 2
@@ -194,68 +210,36 @@ def gap_panels(
 ) -> GapPanels:
     """The panels of all gaps; `outside` adds the outer ones, or per period the last."""
     rule = FINE if outside else LONG
-    a, b, r, N = patches.a, patches.b, patches.r, patches.number
-    first = pieces.locate(a)
-    last = pieces.locate(b, "left")
-    hull = b[-1] - a[0]
-    parts: list[tuple[Array, ...]] = []
-    for i in range(-1, N):
-        inner = 0 <= i < N - 1 or (i == N - 1 and patches.chord.periodic)
-        if ((not inner or i == N - 1) and not outside) or (i < 0 and patches.chord.periodic):
-            continue
-        width = float(patches.gaps[i]) if inner else np.inf
-        for side in (False, True):  # counted from patch i, from patch i + 1
-            k = (i + 1) % N if side else i
-            if k < 0 or (not inner and side != (i < 0)):
-                continue
-            piece, edge = (first[k], a[k]) if side else (last[k], b[k])
-            own = edge - pieces.ends[piece] if side else pieces.ends[piece + 1] - edge
-            followed = min(own + pieces.reach[piece], pieces.plain[piece])
-            if inner:
-                nearest = 2.0 * np.arcsinh(np.sqrt(2.0 * r[k] / width))
-                end, limit = 0.5 * np.pi, 2.0 * np.arcsin(np.sqrt(min(followed / width, 1.0)))
-            else:
-                nearest, limit = np.sqrt(2.0 * r[k]), np.sqrt(followed)
-                stop = edge - pieces.ends[0] if side else pieces.ends[-1] - edge
-                end = np.sqrt(min(stop, farthest * hull))
-                if not end > 0.0:
-                    continue
-            cuts = graded(rule.first * nearest, rule.growth, end)
-            if limit < cuts[1]:
-                cuts = np.concatenate(([0.0, limit], cuts[1:]))
-            count = len(cuts) - 1
-            parts.append(
-                (
-                    np.full(count, i),
-                    np.full(count, side),
-                    np.full(count, piece),
-                    np.arange(count) == 0,
-                    cuts[:-1],
-                    cuts[1:],
-                    np.full(count, width),
-                    np.full(count, edge),
-                )
-            )
-    if not parts:
-        parts = [
-            tuple(np.zeros(0, dtype=t) for t in (int, bool, int, bool, float, float, float, float))
-        ]
-    number, at_right, pieces_at, follows, lo, hi, widths, edges = (
-        np.concatenate(p) for p in zip(*parts, strict=True)
-    )
+    a, b, N, periodic = patches.a, patches.b, patches.number, patches.chord.periodic
+    # rows: the sides of the gaps, from patch i upwards and from patch i + 1 downwards
+    number, at_right = (v.ravel() for v in np.indices((N + 1, 2)))
+    number, at_right = number - 1, at_right == 1
+    inner = (number >= 0) & (number < N - 1 + periodic)
+    outer = ((number == -1) & at_right) | ((number == N - 1) & ~at_right)
+    kept = (inner & (outside | (number < N - 1))) | (outer & ~inner & outside & (not periodic))
+    number, at_right, inner = number[kept], at_right[kept], inner[kept]
+    k = (number + at_right) % N
+    edge = np.where(at_right, a[k], b[k])
+    piece = np.where(at_right, pieces.locate(a)[k], pieces.locate(b, "left")[k])
+    width = np.where(inner, patches.gaps[number], np.inf)
+    own = np.where(at_right, edge - pieces.ends[piece], pieces.ends[piece + 1] - edge)
+    followed = np.minimum(own + pieces.reach[piece], pieces.plain[piece])
+    size = 2.0 * patches.r[k]
+    stop = np.where(at_right, edge - pieces.ends[0], pieces.ends[-1] - edge)
+    far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * (b[-1] - a[0])))
+    nearest = np.where(inner, 2.0 * np.arcsinh(np.sqrt(size / width)), np.sqrt(size))
+    end = np.where(inner, 0.5 * np.pi, far)
+    inwards = 2.0 * np.arcsin(np.sqrt(np.minimum(followed / np.where(inner, width, 1.0), 1.0)))
+    limit = np.where(inner, inwards, np.sqrt(followed))
+    first = np.where(rule.first * nearest < end / SLACK, rule.first * nearest, end)
+    shorter = np.flatnonzero(limit < first)
+    row, lo, hi = _graded(rule, nearest, end, (shorter, limit[shorter]))
     g, w = chebyshev.gauss_legendre(rule.nodes)
     parameter = lo[:, None] + (hi - lo)[:, None] * g
-    distance, root, derivative = distance_of(parameter, widths[:, None])
-    points = Points(edges[:, None], np.where(at_right[:, None], -distance, distance))
+    distance, root, derivative = distance_of(parameter, width[row, None])
+    right = at_right[row]
+    points = Points(edge[row, None], np.where(right[:, None], -distance, distance))
+    dx = derivative * (hi - lo)[:, None] * w
     return GapPanels(
-        number,
-        at_right,
-        pieces_at,
-        follows,
-        lo,
-        hi,
-        widths,
-        points,
-        root,
-        derivative * (hi - lo)[:, None] * w,
+        number[row], right, piece[row], lo == 0.0, lo, hi, width[row], points, root, dx
     )

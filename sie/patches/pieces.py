@@ -13,7 +13,7 @@ are pieces without indenter (`void`): H is 0 there, h infinite, and only the ris
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -139,6 +139,28 @@ class Pieces:
         if series.shape[1]:
             series = chebyshev.antiderivative(series) * self._half[:, None]
         return power, series
+
+    @cached_property
+    def derivative(self) -> Pieces:
+        """H' on the same pieces; jumps of H are not in it."""
+        degrees = np.arange(1, max(self.power.shape[1], 2))
+        power = self.power[:, 1:] * degrees if self.power.shape[1] > 1 else 0.0 * self.power
+        series = self.series
+        if series.shape[1] > 1:
+            series = np.polynomial.chebyshev.chebder(series, axis=1) / self._half[:, None]
+        elif series.shape[1]:
+            series = 0.0 * series
+        return replace(self, power=power, series=series)
+
+    def jumps(self, lo: Array, hi: Array) -> NDArray[np.bool_]:
+        """Whether H jumps anywhere inside intervals."""
+        k = np.arange(len(self.origin) - 1)
+        x = self.ends[1:-1]
+        with np.errstate(invalid="ignore"):
+            below, above = self.value(k, x, 0.0), self.value(k + 1, x, 0.0)
+        jump = np.abs(below - above) > CORNER * np.maximum(np.abs(below), np.abs(above))
+        x = x[jump]
+        return np.asarray(np.searchsorted(x, hi) > np.searchsorted(x, lo, "right"))
 
     def _divided(self, power: Array, series: Array, k: Any, t: Any, x: Any) -> Any:
         yt, yx = (p[0] - self.origin[k] + p[1] for p in (t, x))

@@ -3,12 +3,16 @@
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
 they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
 where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
+
+At fixed tilt the patches only grow, appear and merge with the load: dp/dP is the pressure of the
+flat punch on the patches, and positive. So the patches of a smaller load are a start for a larger
+one. At a fixed moment that is not so: then the whole load at some tilt comes first, and after it
+the tilt, along which the moment of the pressure falls.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any, NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,19 +20,32 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Findings, Found, Overlap, findings, gap
-from .chord import Chord
-from .newton import Event, State
-from .of_scene import Problem
+from .admissible import Found, findings, gap, tensions
+from .newton import FINAL, MOST_STEPS
+from .of_scene import Problem, changed
 from .operator import Operator
-from .panels import Patches
 from .pieces import Pieces
-from .start import FEW, Grid, Patch, grid_pressure, patches_on
+from .repairs import after, mended
+from .start import grid_pressure
+from .start_state import start_of
+from .state import Event, Findings, State
 
 Array = NDArray[np.float64]
 
-ROUNDS = 30
-FEWEST_CELLS, MOST_CELLS = 2048, 65536
+ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
+SEVERAL = 12  # patches: of more than these, cuts are looked for ...
+EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
+# of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
+NEARLY = 1e-7
+LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
+FIRST = 2.0  # the first step of the load, as a factor
+FINEST = 1.0 + 1e-4  # a step of the load; ...
+NARROWEST = 1e-4  # ... and of the tilt, of what is left to go
+STEPS = 200
+
+Start = Callable[[Problem], State]
+FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
+FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
 COARSE = 512  # cells of a grid that looks for the window
@@ -38,8 +55,6 @@ FAR, LOOKED_AT = (
     1e3,
     4000,
 )  # windows beyond a window, and places there, at which the bodies must not overlap
-# of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
-NEARLY = 1e-7
 
 
 def contact(problem: Problem) -> Found:
@@ -63,23 +78,25 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
         tilt = _level(problem, window)
     cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
-    while cells < min(CELLS * inside, MOST_CELLS // 4):
+    while cells < min(CELLS * inside, MOST_CELLS):
         cells *= 2
-    last: ContactError | None = None
     pieces = problem.pieces(window)
-    height = problem.tilted(tilt, window)
-    while cells <= MOST_CELLS:
-        grid = grid_pressure(height, window, cells, problem.given.load, problem.chord.periodic)
+
+    def start(asked: Problem) -> State:
+        height = asked.tilted(tilt, window)
+        grid = grid_pressure(height, window, cells, asked.given.load, asked.chord.periodic)
+        return start_of(grid, pieces, asked, tilt)
+
+    try:
+        found = settled(start(problem), pieces, problem)
+    except ContactError:
+        cells = min(FINER * cells, MOST_CELLS)
         try:
-            found = settled(start_of(grid, pieces, problem, tilt), pieces, problem)
-        except ContactError as error:
-            last = error
-        else:
-            refuse_unknown_ends(found.state, problem)
-            return found
-        cells *= 8
-    assert last is not None
-    raise last
+            found = settled(start(problem), pieces, problem)
+        except ContactError:
+            found = continued(problem, pieces, start, tilt)
+    refuse_unknown_ends(found.state, problem)
+    return found
 
 
 def _overlap_beyond(
@@ -139,6 +156,115 @@ def refuse_unknown_ends(state: State, problem: Problem) -> None:
                 "sie.Periodic(trace, period), or measure further out",
                 end=end,
             )
+
+
+# -- Newton's method and repairs -------------------------------------------------------------------
+
+
+def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
+    """The certified answer near a start."""
+    steps, stalls, nearly = 0, 0, None
+    # before the edges of many patches are exact, most patches that have to be cut show it
+    early = EARLY if state.patches.number > SEVERAL else 0
+    for round_ in range(ROUNDS):
+        if not state.patches.number:
+            break
+        accuracy = (ROUGHLY, EARLY_STEPS) if round_ < early else (FINAL, MOST_STEPS)
+        state, event, count = newton.solve(state, pieces, problem.given, accuracy)
+        steps += count
+        stalls += event is not None and event.kind == "stall" and round_ >= early
+        if stalls > STALLS:
+            break
+        if event is not None and (round_ >= early or event.kind != "stall"):
+            state = _after(event, state, pieces)
+            if round_ >= early:
+                continue
+        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
+        if round_ < early:
+            pulled, lowest = tensions(o)
+            early = early if pulled or event is not None else 0
+            state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
+            continue
+        found = Found(state, o, findings(o), round_ + 1, steps)
+        if found.findings.ok:
+            return found
+        if not found.findings.overlap and found.findings.lowest > -NEARLY:
+            nearly = found
+        state = mended(state, found.findings, pieces)
+    if nearly is not None:
+        return nearly
+    raise LoadError(
+        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
+        f"{problem.given.load:.6g}: "
+        "two of them are about to merge, or one to appear; change the load a little",
+        patches=state.patches.number,
+    )
+
+
+def _after(event: Event, state: State, pieces: Pieces) -> State:
+    if event.kind == "smooth":  # a cut may leave the end without pull
+        found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
+        if found.tension:
+            return mended(state, found, pieces)
+    return after(event, state, pieces)
+
+
+# -- continuation ----------------------------------------------------------------------------------
+
+
+def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Found:
+    """The contact of a problem, from those of smaller loads at this tilt. Raises ContactError."""
+    level = changed(problem, tilt=tilt, moment=None)
+    found, load = _light(level, pieces, start)
+    factor = FIRST
+    for _ in range(STEPS):
+        if load >= problem.given.load:
+            break
+        wanted = min(load * factor, problem.given.load)
+        try:
+            found = settled(found.state, pieces, changed(level, load=wanted))
+        except ContactError:
+            factor **= 0.5
+            if factor < FINEST:
+                raise
+        else:
+            load, factor = wanted, min(factor**2, FIRST)
+    return found if problem.given.moment is None else _turned(problem, pieces, found)
+
+
+def _light(problem: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
+    """The contact of the largest load, by quarters, that is found from a start of its own."""
+    load = problem.given.load
+    for _ in range(LIGHTEST):
+        load *= 0.25
+        lighter = changed(problem, load=load)
+        try:
+            return settled(start(lighter), pieces, lighter), load
+        except ContactError as error:
+            last = error
+    raise last
+
+
+def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
+    """The contact under the moment of a problem, from one of the same load, by steps of it."""
+    asked = problem.given.moment
+    assert asked is not None
+    o = found.operator
+    now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
+    step = asked - now
+    for _ in range(STEPS):
+        wanted = asked if abs(asked - now) <= abs(step) else now + step
+        try:
+            found = settled(found.state, pieces, changed(problem, moment=wanted))
+        except ContactError:
+            step *= 0.5
+            if abs(step) < NARROWEST * abs(asked - now):
+                raise
+        else:
+            if wanted == asked:
+                break
+            now, step = wanted, 2.0 * step
+    return found
 
 
 # -- the window ------------------------------------------------------------------------------------
@@ -224,241 +350,3 @@ def _level(problem: Problem, window: tuple[float, float]) -> float:
         else:
             far = middle
     return 0.5 * (near + far)
-
-
-# -- from a grid to patches ------------------------------------------------------------------------
-
-
-def start_of(grid: Grid, pieces: Pieces, problem: Problem, tilt: float) -> State:
-    """The patches on a grid, those of a few cells as parabolas under their load."""
-    patches = patches_on(grid)
-    rivals = Rivals(
-        np.array([p.load for p in patches]),
-        np.array([p.centre for p in patches]),
-        problem.chord,
-        tilt,
-        grid.dx,
-    )
-    if not patches:
-        raise LoadError("no contact is found on a grid: choose other units, or give a domain")
-    ends = [
-        _small(n, patch, rivals, pieces) or (patch.a, patch.b) for n, patch in enumerate(patches)
-    ]
-    a, b = np.array(_apart(ends)).T
-    if problem.chord.periodic:
-        a, b = _one_period(a, b, problem.chord.period)
-    return bounded(a, b, pieces, problem.chord, tilt)
-
-
-class Rivals(NamedTuple):
-    """Loads and centres of all patches on a grid of cells dx: what presses beside a small one."""
-
-    loads: Array
-    centres: Array
-    chord: Chord
-    tilt: float
-    dx: float
-
-
-def _small(n: int, patch: Patch, all_: Rivals, pieces: Pieces) -> tuple[float, float] | None:
-    """The edges of patch n of a few cells; None if the grid tells them better."""
-    if patch.cells >= FEW:
-        return None
-    x, half = patch.centre, 0.5 * all_.dx * patch.cells
-    others = np.arange(len(all_.loads)) != n
-    loads, centres, chord = all_.loads[others], all_.centres[others], all_.chord
-    for _ in range(8):
-        d = chord.apart(x - centres)
-        k = int(pieces.locate(x))
-        pull = float((loads * chord.cosine(x - centres) / d).sum()) / np.pi
-        steepness = float(pieces.curvature(k, x)) + float((loads / d**2).sum()) / np.pi
-        if not steepness > 0.0:
-            return None
-        step = (pull - float(pieces.value(k, x, 0.0)) - all_.tilt) / steepness
-        if abs(x + step - patch.centre) > half + all_.dx:
-            break
-        x += step
-    curvature = float(pieces.curvature(int(pieces.locate(x)), x))
-    if not curvature > 0.0:
-        return None
-    r = np.sqrt(2.0 * patch.load / (np.pi * curvature))
-    return (x - r, x + r) if r < half + all_.dx else None
-
-
-def _apart(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Patches that overlap as one."""
-    found: list[tuple[float, float]] = []
-    for a, b in sorted(ends):
-        if found and a <= found[-1][1]:
-            found[-1] = found[-1][0], max(b, found[-1][1])
-        else:
-            found.append((a, b))
-    return found
-
-
-def _one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
-    """Cut where the gap is widest."""
-    gaps = np.append(a[1:], a[0] + period) - b
-    k = (int(np.argmax(gaps)) + 1) % len(a)
-    return np.append(a[k:], a[:k] + period), np.append(b[k:], b[:k] + period)
-
-
-def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> State:
-    """Patches whose edges stay on the indenter: sharp where they reach its ends."""
-    a, b = _at_walls(a, b, pieces)
-    lo, hi = pieces.solid_around(0.5 * (a + b))
-    sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
-    a, b = np.maximum(a, lo), np.minimum(b, hi)
-    kept = b > a
-    state = Patches(a[kept], b[kept], chord)
-    sharp = sharp.reshape(-1, 2)[kept].ravel()
-    return State(state, sharp, np.zeros(len(sharp)), tilt)
-
-
-def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
-    """Patches that reach across walls, cut there."""
-    void = np.flatnonzero(pieces.void)
-    if not void.size:
-        return a, b
-    lo, hi = pieces.ends[void], pieces.ends[void + 1]
-    ends: list[list[float]] = []
-    for start, stop in zip(a.tolist(), b.tolist(), strict=True):
-        crossed = (lo > start) & (hi < stop)
-        ends += map(
-            list, zip([start, *hi[crossed].tolist()], [*lo[crossed].tolist(), stop], strict=True)
-        )
-    cut = np.array(ends)
-    return cut[:, 0], cut[:, 1]
-
-
-# -- Newton's method and repairs -------------------------------------------------------------------
-
-
-def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
-    """The certified answer near a start."""
-    steps = 0
-    nearly: Found | None = None
-    for round_ in range(ROUNDS):
-        if not state.patches.number:
-            break
-        state, event, count = newton.solve(state, pieces, problem.given)
-        steps += count
-        if event is not None:
-            state = after(event, state, pieces, problem)
-            continue
-        o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
-        found = Found(state, o, findings(o), round_ + 1, steps)
-        if found.findings.ok:
-            return found
-        if not found.findings.overlap and found.findings.lowest > -NEARLY:
-            nearly = found
-        state = mended(state, found.findings, o)
-    if nearly is not None:
-        return nearly
-    raise LoadError(
-        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
-        f"{problem.given.load:.6g}: "
-        "two of them are about to merge, or one to appear; change the load a little",
-        patches=state.patches.number,
-    )
-
-
-def after(event: Event, state: State, pieces: Pieces, problem: Problem) -> State:
-    """The patches after an event."""
-    P = state.patches
-    a, b, sharp = P.a.copy(), P.b.copy(), state.sharp.copy()
-    if event.kind == "smooth":
-        o = Operator(P, pieces, np.where(sharp, state.charge, 0.0))
-        found = findings(o)
-        if found.tension:  # a cut may leave the end without pull
-            return mended(state, found, o)
-        k = event.number // 2
-        sharp[event.number] = False
-        if event.number % 2:
-            b[k] -= 0.1 * P.r[k]
-        else:
-            a[k] += 0.1 * P.r[k]
-        charge = np.where(sharp, state.charge, 0.0)
-        return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
-    if event.kind == "vanish":
-        keep = ~np.isin(np.arange(P.number), (event.number, *event.others))
-        if not keep.any():
-            keep[np.argmax(P.r)] = True
-        return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
-    if event.kind == "merge" and P.number > 1:
-        k = event.number
-        if k == P.number - 1:  # across the cut of the period
-            a[0] = a[k] - P.chord.period
-            a, b = a[:-1], b[:-1]
-        else:
-            a, b = np.delete(a, k + 1), np.delete(b, k)
-        return bounded(a, b, pieces, P.chord, state.tilt)
-    return state
-
-
-def mended(state: State, found: Findings, o: Operator) -> State:
-    """The patches cut where they pull, born and merged where the bodies overlap."""
-    P, pieces = state.patches, o.pieces
-    ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
-    cut: list[tuple[float, float]] = []
-    for k, (a, b) in enumerate(ends):
-        start = a
-        for t in (t for t in found.tension if t.patch == k):
-            middle, half = 0.5 * (t.lo + t.hi), max(0.5 * (t.hi - t.lo), 1e-3 * (b - a))
-            lo, hi = middle - np.sqrt(2.0) * half, middle + np.sqrt(2.0) * half
-            if lo - start > 0.01 * (b - a):
-                cut.append((start, lo))
-            start = max(hi, start)
-        if b - start > 0.01 * (b - a):
-            cut.append((start, b))
-    merged = set()
-    born = []
-    for overlap in found.overlap:
-        k = overlap.gap
-        inner = 0 <= k < P.number - 1 or P.chord.periodic
-        if inner and overlap.largest < 0.1 * overlap.depth:
-            merged.add(k)
-        else:
-            born.append(_born(overlap, state, pieces))
-    for k in sorted(merged):
-        if k < P.number - 1:
-            cut.append((P.b[k] - 0.01 * P.r[k], P.a[k + 1] + 0.01 * P.r[k + 1]))
-        else:
-            cut.append((P.a[0] - P.gaps[k] - 0.01 * P.r[k], P.a[0] + 0.01 * P.r[0]))
-    a, b = np.array(_apart(cut + [e for e in born if e is not None])).T
-    if P.chord.periodic:
-        a, b = _one_period(*_wrapped(a, b, P.chord.period), P.chord.period)
-    return bounded(a, b, pieces, P.chord, state.tilt)
-
-
-def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
-    """Patches that reach into each other across the cut, as one."""
-    while len(a) > 1 and b[-1] >= a[0] + period:
-        a, b = a[1:], np.append(b[1:-1], b[0] + period) if b[0] + period > b[-1] else b[1:]
-    while len(a) > 1 and a[0] + period <= b[-1]:
-        a = np.append(a[1:-1], a[-1])
-        b = b[1:]
-    return a, b
-
-
-def _born(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
-    """A patch where the bodies overlap: as deep as a parabola that its load presses in."""
-    P = state.patches
-    x = overlap.x
-    curvature = float(pieces.curvature(int(pieces.locate(x)), x))
-    distance = float(np.abs(P.chord.difference(P.edges - x)).min())
-    wide = 0.5 * (overlap.hi - overlap.lo)
-    if curvature > 0.0:
-        r = np.sqrt(2.0 * overlap.depth / curvature)
-        for _ in range(20):
-            r = np.sqrt(
-                2.0 * overlap.depth / curvature / (np.log(max(2.0 * distance / r, 1.1)) + 0.5)
-            )
-        wide = min(r, 0.5 * distance)
-    elif wide == 0.0:
-        wide = 0.1 * distance
-    return x - wide, x + wide
-
-
-def changed(problem: Problem, **changes: Any) -> Problem:
-    return replace(problem, given=problem.given._replace(**changes))

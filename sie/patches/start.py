@@ -60,7 +60,7 @@ def grid_pressure(
         p = _relaxed(h, p, dx, load, periodic)
         if n >= cells:
             return Grid(lo, dx, p, periodic)
-        n *= 4
+        n *= 2
 
 
 def _influence(n: int, dx: float, periodic: bool) -> Array:

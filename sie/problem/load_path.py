@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from numbers import Integral
 from typing import Any
 
@@ -23,6 +24,11 @@ class Path:
         (P, Q, σ) or (P, Q): normal load and tangential load in force per length, bulk stress in
         units of stress. Loads change in proportion to time from each point to the next. The path
         may begin unloaded, at (0, 0, 0).
+    tilt : iterable of float, optional
+        For each point an angle that is added to the tilt of the scene.
+    moment : iterable of float, optional
+        In place of `tilt`: for each point ∫p x dx about x = 0, force per length times length, which
+        is added to the moment of the scene.
 
     Raises
     ------
@@ -36,8 +42,15 @@ class Path:
     """
 
     points: tuple[tuple[float, float, float], ...]
+    tilt: tuple[float, ...] = ()
+    moment: tuple[float, ...] = ()
 
-    def __init__(self, points: Iterable[Sequence[float]]) -> None:
+    def __init__(
+        self,
+        points: Iterable[Sequence[float]],
+        tilt: Iterable[float] = (),
+        moment: Iterable[float] = (),
+    ) -> None:
         given = arguments.listed("points", points, "[(P, Q, σ), ...]")
         found = tuple(_point(k, point) for k, point in enumerate(given))
         if not found:
@@ -51,6 +64,15 @@ class Path:
             if P == 0.0 and k > touching:
                 raise ValueError(f"P of point {k} = 0 is not positive: {TOUCHING}")
         object.__setattr__(self, "points", found)
+        for name, values in (("tilt", tilt), ("moment", moment)):
+            object.__setattr__(self, name, _of_points(name, values, len(found)))
+        if self.tilt and self.moment:
+            raise ValueError("both tilt and moment of a path given: give one, the other follows")
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """What is added to the scene's tilt or moment at each point."""
+        return self.tilt or self.moment or (0.0,) * len(self.points)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -89,18 +111,35 @@ class Path:
                 f"{MOST_POINTS}: give fewer parts"
             )
         shares = [k / int(parts) for k in range(1, int(parts))]
-        points = [self.points[0]]
-        for end in self.points[1:]:
-            start = points[-1]
-            points += [
+        rows = [(*point, turn) for point, turn in zip(self.points, self.turns, strict=True)]
+        cut = rows[:1]
+        for start, end in pairwise(rows):
+            cut += [
                 tuple(a + share * (b - a) for a, b in zip(start, end, strict=True))
                 for share in shares
             ]
-            points.append(end)
-        return Path(points)
+            cut.append(end)
+        turns = [row[3] for row in cut]
+        return Path(
+            [row[:3] for row in cut],
+            tilt=turns if self.tilt else (),
+            moment=turns if self.moment else (),
+        )
 
     def __repr__(self) -> str:
-        return f"Path({list(self.points)!r})"
+        more = ("tilt", self.tilt), ("moment", self.moment)
+        shown = "".join(f", {name}={list(values)!r}" for name, values in more if values)
+        return f"Path({list(self.points)!r}{shown})"
+
+
+def _of_points(name: str, values: Any, number: int) -> tuple[float, ...]:
+    """The tilt or the moment of each point; () for neither."""
+    given = arguments.listed(name, values, f"one {name} for each point")
+    if len(given) not in (0, number):
+        raise ValueError(
+            f"{len(given)} values of {name} for {number} points of the path: give one for each"
+        )
+    return tuple(arguments.measure(f"{name} of point {k}", v) for k, v in enumerate(given))
 
 
 def _point(k: int, point: Any) -> tuple[float, float, float]:

@@ -11,8 +11,11 @@ from strategies import between, log_between
 
 import sie
 from analytic import flat_row, two_parabolas, wavy
+from sie.patches.chord import Chord, Points
 from sie.patches.of_scene import problem_of
-from sie.patches.solver import contact
+from sie.patches.operator import Operator
+from sie.patches.panels import Patches
+from sie.patches.solver import contact, continued
 
 TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
 ROUNDED = sie.Row(
@@ -278,6 +281,71 @@ def test_a_row_of_flats(part):
     x = half * np.array([0.0, 0.4, 0.99])
     exact = flat_row.pressure(x, half_width=half, period=1.0, mean_pressure=2.0)
     assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
+
+
+@given(between(0.05, 0.95))
+@settings(max_examples=15, deadline=None)
+def test_the_derivative_of_the_potential_of_a_wave(part):
+    """Beside the closed form, by Cauchy's formula on a circle of its own."""
+    shape = {"wavelength": 1.0, "amplitude": 0.5, "modulus": 1.0}
+    half = 0.5 * part
+    load = float(wavy.mean_pressure(half_width=half, **shape))
+    profile = sie.Periodic(sie.FromFunction(lambda x: np.pi * np.sin(2.0 * np.pi * x)), 1.0)
+    pressure = solved(profile=profile, normal_load=load).pressure
+    z = np.array([0.1 + 0.2j, 0.3 + 0.4j, -0.45 + 0.1j])
+    turn = np.exp(2j * np.pi * np.arange(48) / 48)
+    circle = z[:, None] + 0.4 * z.imag[:, None] * turn
+    values = wavy.potential(circle.ravel(), half_width=half, **shape).reshape(circle.shape)
+    exact = (values * turn.conj()).mean(axis=1) / (0.4 * z.imag)
+    assert pressure.cauchy_derivative(z) == pytest.approx(exact, rel=1e-10)
+
+
+@pytest.mark.parametrize("name", ["row", "wave", "trace"])
+def test_the_derivative_of_the_potential_on_the_surface_is_that_of_slope_and_pressure(name):
+    solution = solved(**SCENES[name])
+    lo, hi = solution.patches[0]
+    x = lo + (hi - lo) * np.array([0.21, 0.52, 0.83])
+    step = 1e-5 * (hi - lo)
+    p, slope = solution.pressure, solution.scene.profile.slope
+    steep = p.cauchy_derivative(x)
+    rise = (p(x + step) - p(x - step)) / (2.0 * step)
+    assert steep.imag == pytest.approx(-rise, rel=1e-5, abs=1e-5 * np.abs(rise).max())
+    bend = (slope(x + step) - slope(x - step)) / (2.0 * step)
+    assert steep.real == pytest.approx(0.5 * bend, rel=1e-5, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["row", "trace"])
+def test_steps_of_the_load_lead_to_the_same_patches(name):
+    problem = problem_of(sie.Scene(modulus=1.0, **SCENES[name]))
+    whole = contact(problem)
+
+    def start(asked):
+        return contact(asked).state
+
+    pieces = problem.pieces(problem.domain if name == "trace" else (-4.0, 4.0))
+    by_steps = continued(problem, pieces, start, 0.0)
+    np.testing.assert_allclose(by_steps.state.patches.edges, whole.state.patches.edges, atol=1e-13)
+
+
+def test_steps_of_the_moment_lead_to_the_same_tilt():
+    problem = problem_of(sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4, moment=0.05))
+    found = continued(problem, problem.pieces((-4.0, 4.0)), lambda p: contact(p).state, 0.0)
+    assert found.state.tilt == pytest.approx(-0.07597308212919692, rel=1e-13)
+
+
+def test_many_narrow_patches_are_summed_as_by_one_product_over_all():
+    """S_i by the tree of far patches against the plain product."""
+    a = np.cumsum(np.random.default_rng(3).uniform(0.05, 1.0, 300))[::2]
+    b = a + np.diff(np.append(a, a[-1] + 1.0)) * 0.6
+    pieces = problem_of(sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4)).pieces((-1.0, 200.0))
+    measure = Operator(Patches(a, b, Chord()), pieces)
+    middle = 0.5 * (b[:-1] + a[1:])
+    i = np.arange(len(middle))
+    product = measure.others(i, Points(middle[:, None], np.zeros((len(middle), 1))))[:, 0]
+    c, r = 0.5 * (a + b), 0.5 * (b - a)
+    factor = np.sqrt(np.abs(1.0 - (r / (middle[:, None] - c)) ** 2))
+    factor[i, i] = 1.0
+    assert product == pytest.approx(factor.prod(axis=1), rel=1e-11)
 
 
 def test_the_wave_in_full_contact():

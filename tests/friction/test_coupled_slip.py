@@ -439,7 +439,6 @@ def test_solution_keeps_its_contact_only_while_nothing_of_it_changes():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"tangential_load": 0.01}, "tangential_load = 0"),
         ({"tilt": 0.01}, "tilt = 0"),
         ({"moment": 0.01}, "moment = 0"),
         ({"bulk_stress": 0.01}, "bulk_stress"),

@@ -1,0 +1,143 @@
+"""The certificate of dissimilar bodies under P, then Q: equations (1) and (12), measured on p and
+q alone, as in `coupled_check`.
+
+    residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
+    of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick
+
+γ' is the same under P alone: what sticks keeps it. The integrals are Gauss rules on panels that
+shrink towards every place where a traction is not smooth, with the value at x subtracted.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.small_strains import notes
+from sie.friction.coupled_sheared import ShearedContact
+from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import EPS
+from sie.problem.scene import Scene
+
+from .coupled_check import OUTSIDE, gradient_of_slip
+from .result import Certificate, ShearCertificate
+
+Array = NDArray[np.float64]
+
+PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest shear in (12)
+NODES, RATIO = 14, 4.0
+NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
+NARROW = 1e-12  # half-widths: marks that are nearer are one
+LOOKS = 5  # points between two marks at which the equations are looked at
+FEW = 24  # points at most
+
+
+class Values(NamedTuple):
+    """The edges of the contact, nodes in it, weights, and p and q there."""
+
+    ends: tuple[float, float]
+    x: Array
+    weight: Array
+    p: Array
+    q: Array
+
+
+def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Certificate:
+    """Measured on p and q, and on those under P alone."""
+    p, q = state.tractions
+    marks = _marks(state)
+    nodes, weight = _rule(marks)
+    values = Values((marks[0], marks[-1]), nodes, weight, p(nodes), q(nodes))
+    x = _looked_at(marks)
+    at_p, at_q = p(x), q(x)
+    Hp, Hq = _principal(values, values.p, x, at_p), _principal(values, values.q, x, at_q)
+    peak, of_shear = float(values.p.max()), float(np.abs(values.q).max())
+    normal, beta = state.search.normal, scene.beta
+    H = scene.profile.slope(x)
+    missed = float(np.abs(Hp - beta * at_q - normal.half_modulus * H).max()) / peak
+    ((lo, hi),) = state.stick
+    stuck = (x > lo) & (x < hi)
+    before = gradient_of_slip(normal, np.abs(x[stuck] - state.axis), beta)
+    drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
+    P, whole = normal.load, float(weight @ np.abs(values.q))
+    r, rounding = state.contact.r, EPS * state.contact.r / float(np.diff(marks).min())
+    excess = float((np.abs(values.q) - scene.friction * values.p).max()) / (scene.friction * peak)
+    gaps = _gaps(state, scene)
+    shear = ShearCertificate(
+        residual=drift,
+        equilibrium=abs(float(weight @ values.q) - scene.tangential_load) / whole,
+        excess=max(excess, 0.0),
+        opposing=min(state.least_gain, 0.0),
+        abscissae=EPS + 16.0 * EPS * peak / of_shear,
+        condition=1.0,
+        advancing=True,
+        kind=f"towards {'+' if scene.tangential_load > 0.0 else '-'}x beside the stick zone; "
+        "β couples p and q",
+        tol=max(tol, OF_SHEAR),
+    )
+    return Certificate(
+        residual=missed,
+        implied=missed,
+        force=abs(float(weight @ values.p) - P) / P,
+        moment=abs(float(weight @ (values.p * nodes)) - p.moment) / (P * r),
+        lowest_pressure=min(float(values.p.min()) / peak, 0.0),
+        lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
+        abscissae=min(rounding, EPS / NARROW),
+        tol=max(tol, PROMISED),
+        shear=shear,
+        notes=notes(H, peak / scene.Estar),
+    )
+
+
+def _marks(state: ShearedContact) -> tuple[float, ...]:
+    """Those of the tractions that are apart."""
+    apart = NARROW * state.contact.r
+    kept = [state.marks[0]]
+    for x in state.marks[1:-1]:
+        if x - kept[-1] > apart and state.marks[-1] - x > apart:
+            kept.append(x)
+    return (*kept, state.marks[-1])
+
+
+def _gaps(state: ShearedContact, scene: Scene) -> Array:
+    """Gaps beside the contact."""
+    contact, beyond = state.contact, state.contact.r * np.array(OUTSIDE)
+    gaps = state.gap(np.append(contact.m - beyond, contact.m + beyond), scene.profile)
+    return gaps[np.isfinite(gaps)]
+
+
+def _rule(marks: tuple[float, ...]) -> tuple[Array, Array]:
+    """Nodes and weights on panels that shrink towards every mark."""
+    levels = math.ceil(math.log(1.0 / NEAREST) / math.log(RATIO))
+    near = np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))
+    y, _, w = with_weight(NODES, 0.0, 0.0)
+    part = (near[:-1, None] + np.diff(near)[:, None] * y).ravel()
+    mass = (np.diff(near)[:, None] * w).ravel()
+    x, weight = [], []
+    for lo, hi in itertools.pairwise(marks):
+        half = 0.5 * (hi - lo)
+        x += [lo + half * part, hi - half * part[::-1]]
+        weight += [half * mass, half * mass[::-1]]
+    return np.concatenate(x), np.concatenate(weight)
+
+
+def _looked_at(marks: tuple[float, ...]) -> Array:
+    """Points between the marks, not on nodes."""
+    ends = np.array(marks)
+    lo, hi = ends[:-1], ends[1:]
+    wide = hi - lo > 1e-6 * (ends[-1] - ends[0])
+    part = (np.arange(LOOKS) + 0.47) / LOOKS
+    x = (lo[wide, None] + (hi - lo)[wide, None] * part).ravel()
+    return x[:: max(1, len(x) // FEW)]
+
+
+def _principal(values: Values, f: Array, x: Array, at_x: Array) -> Array:
+    """1/π PV∫f/(x - t) dt over the whole contact, given f at x."""
+    lo, hi = values.ends
+    total = ((f - at_x[:, None]) / (x[:, None] - values.x)) @ values.weight
+    integral: Array = (total + at_x * np.log((x - lo) / (hi - x))) / math.pi
+    return integral

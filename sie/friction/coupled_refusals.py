@@ -1,0 +1,51 @@
+"""What is not solved for dissimilar bodies with friction, and why: refused before any work.
+
+A normal load that grows, and a tangential load that grows after it, leave states that depend on
+the loads alone, as zones of stick and slip move in one direction. Other loads do not: what sticks
+again keeps a slip gradient that depends on every state before.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NoReturn
+
+from sie.errors import ContactError
+from sie.problem.scene import Scene
+
+
+def refuse_unsolved(scene: Scene, remedy: str) -> None:
+    """Raises ContactError for what is asked beyond P, then Q, of a symmetric profile."""
+    pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
+    if scene.bulk_stress:
+        raise ContactError(
+            f"{pair} under bulk_stress = {scene.bulk_stress:g}: how the strain of the body moves "
+            "both ends of the stick zone, where p and q change together, is not solved; set "
+            f"bulk_stress = 0, set friction = 0, or {remedy}"
+        )
+    if scene.tilt or scene.moment:
+        name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
+        raise ContactError(
+            f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
+            "contact only under a symmetric profile, and the growth of both of its ends is not "
+            f"solved; set {name} = 0, set friction = 0, or {remedy}"
+        )
+    if scene.tangential_load and scene.half_width is not None:
+        raise ContactError(
+            f"{pair} under tangential_load = {scene.tangential_load:g} with half_width = "
+            f"{scene.half_width:g}: Q changes the width of their contact, and the load of a width "
+            "under Q is not solved; give normal_load"
+        )
+
+
+def refuse_corners(scene: Scene) -> NoReturn:
+    """Raises ContactError: under Q the contact would end at a corner of the indenter."""
+    eta = math.atanh(abs(scene.beta)) / math.pi
+    width = math.exp(-(0.5 * math.pi + math.atan(scene.friction)) / eta)
+    raise ContactError(
+        f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
+        f"tangential_load = {scene.tangential_load:g}: the contact reaches a corner of the "
+        f"indenter, where a zone of about {width:.1g} half-widths keeps the slip of the normal "
+        "load and narrows while Q grows; how it does is not solved. Round the edges of the "
+        "indenter, let the bodies slide (sliding = ±1), or give dundurs = 0 to neglect β"
+    )

@@ -1,0 +1,329 @@
+"""A tangential load on dissimilar bodies pressed together before: the edges of contact and stick.
+
+P is constant, Q > 0 and β > 0 (other signs are mirror images). Both slip zones get the sign of Q:
+the right one grows from that of the normal load, a new one grows from the left edge, and the old
+left one sticks with the slip gradient γ that it had. As the zones move in one direction only, the
+state depends on Q alone. The four edges x1 < e1 < e2 < x2 meet four conditions,
+
+    ∫p_d dx = 0,    p finite at x1 and at x2,    f P - ∫(f p - q) dx = Q,
+
+with p = p_s + p_d, p_s full sliding on [x1, x2] under P (`on_panels`) and p_d of `coupled_zones`.
+The start joins what is known at both ends: at Q = 0 the zones of the normal load, and next to f P a
+stick zone x0 ± l sqrt(1 - Q/(f P)) where the slip gradient of full sliding less γ,
+
+    G = f E*/2 h' + β (1 + f²) p_s - γ,
+
+passes zero; there f p - q solves the equation of a Hertzian contact, l² = 2 f P/(π G').
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.contact.edge_integrals import edge_integrals
+from sie.contact.edges import Edges
+from sie.errors import ContactError
+from sie.numerics.interval import EPS, Interval
+from sie.problem.scene import Scene
+from sie.profiles.resolution import refined
+from sie.profiles.slope import Slope
+from sie.traction.on_panels import SlidingDensity
+from sie.traction.panels import Panels
+from sie.traction.piece_quadrature import SlidingGeometry
+
+from .coupled_contact import CoupledContact
+from .coupled_gradient import SlipGradient, Tabulated, tabulated
+from .coupled_iteration import iterated
+from .coupled_refusals import refuse_corners
+from .coupled_zones import Rule, StickProblem, Zones, stick_rule
+
+Array = NDArray[np.float64]
+
+NEARLY = 1e-9  # of the half-width, from the ends of what the zones may be
+# Where values are wanted: panels shrink to such parts of the half-width next to kinks, if they are
+# few, and of the stick zone at its ends; growth
+DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-15, 3.0
+NOWHERE = np.zeros(0)
+WINDOW = 1.02  # times the widest contact: where the slope is resolved
+FIRST = (0.99, 0.9, 0.5, 0.1)  # parts of f P from which the load is followed
+STRIDE, SHORTEST = 0.25, 1e-3  # of the angle whose sine squared is Q/(f P)
+
+
+def sliding_pressure(
+    slope: Slope, contact: Interval, half_modulus: float, epsilon: float, load: float
+) -> SlidingDensity:
+    """p in full sliding on any contact, with the singular ends that the load asks for."""
+    I = edge_integrals(slope, contact, None, False, epsilon)
+    cos, r = math.cos(math.pi * epsilon), contact.r
+    G = half_modulus * cos
+    difference = 2.0 * G * cos * I.I0 / math.pi
+    weighted = 2.0 * cos / (math.pi * r) * (load - G * r * (I.I1 + 2.0 * epsilon * I.I0))
+    k1 = 0.5 * (weighted + (1.0 + 2.0 * epsilon) * difference)
+    panels = Panels(SlidingGeometry(slope, contact, epsilon), I.I0)
+    return SlidingDensity(contact, half_modulus, k1, k1 - difference, load, 0.0, panels)
+
+
+class Trial(NamedTuple):
+    """What four edges give: the parts of the state, and the conditions that they miss."""
+
+    zones: Zones
+    sliding: SlidingDensity
+    problem: StickProblem
+    missed: Array
+
+    @property
+    def edges(self) -> Array:
+        return np.array(self.zones)
+
+    @property
+    def error(self) -> float:
+        return float(np.abs(self.missed).max())
+
+
+@dataclass(frozen=True, eq=False)
+class TangentialSearch:
+    """The search for the four edges, on the profile with its axis at 0.
+
+    normal          the state under P alone
+    slope           h' on the profile
+    friction        f
+    widest          edges of the contact in full sliding under P
+    """
+
+    normal: CoupledContact
+    slope: Slope
+    friction: float
+    widest: tuple[float, float]
+
+    @property
+    def beta(self) -> float:
+        return self.normal.flat.beta
+
+    @property
+    def theta(self) -> float:
+        return math.atan(self.beta * self.friction) / math.pi
+
+    @property
+    def limit(self) -> float:
+        """f P."""
+        return self.friction * self.normal.load
+
+    @cached_property
+    def resolved_slope(self) -> Slope:
+        """h' on straight pieces and series, as far as any contact may reach."""
+        (x1, x2), b = self.widest, self.normal.b
+        lo, hi = self.slope.domain
+        return refined(self.slope, max(WINDOW * min(x1, -b), lo), min(WINDOW * max(x2, b), hi), EPS)
+
+    @cached_property
+    def gamma(self) -> Tabulated:
+        """γ in the contact under P alone, on panels that resolve pressures in sliding as well."""
+        state, gradient = self.normal, SlipGradient(self.normal.superposition, self.normal.ahead)
+        (x1, x2), b = self.widest, state.b
+        lo, hi = self.resolved_slope.domain
+        window = Interval(
+            max(0.5 * (1.0 + WINDOW) * min(x1, -b), lo), min(0.5 * (1.0 + WINDOW) * max(x2, b), hi)
+        )
+        panels = Panels(SlidingGeometry(self.resolved_slope, window, -self.theta), 0.0)
+        any_pressure = SlidingDensity(window, state.half_modulus, 0.0, 0.0, 0.0, 0.0, panels)
+        return tabulated(
+            lambda y: gradient(y, self.H(y)),
+            (
+                lambda y: self.friction * any_pressure(y),
+                lambda y: self.friction * any_pressure(-y),
+            ),
+            state.marks,
+            0.5 * self.limit / b,
+        )
+
+    def H(self, x: Array) -> Array:
+        """E*/2 h'."""
+        values: Array = self.normal.half_modulus * self.slope(x)
+        return values
+
+    def closest(self, zones: Zones, Q: float) -> Trial:
+        """The state with a rule that shrinks to the very ends of the stick zone, and to kinks of γ.
+
+        Principal values next to these need it; the conditions do not.
+        """
+        normal = self.normal
+        kinks = {y for y in normal.marks[:-1] if y > APART * normal.b}
+        kinks = {0.0, normal.c} | (kinks if len(kinks) <= FEW else set())
+        beside = normal.b * RATIO ** -np.arange(0.0, math.log(1.0 / DEEP) / math.log(RATIO))
+        places = np.array([[y, -y] for y in sorted(kinks)]).ravel()[:, None]
+        cuts = np.concatenate(((places + beside).ravel(), (places - beside).ravel(), places[:, 0]))
+        return self.trial(np.array(zones), Q, DEEPEST * zones.stuck, cuts)
+
+    def trial(
+        self, edges: Array, Q: float, nearest: float = math.inf, cuts: Array = NOWHERE
+    ) -> Trial:
+        """The parts of the state with these edges."""
+        zones, f, beta = Zones(*edges.tolist()), self.friction, self.beta
+        contact = Interval(zones.x1, zones.x2)
+        a1, a2 = 0.5 + self.theta, 0.5 - self.theta
+        P, G = self.normal.load, self.normal.half_modulus
+        sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
+        rule = stick_rule(zones, (a1, a2), np.append(self.gamma.cuts, cuts), nearest)
+        problem = StickProblem(zones, beta, f, rule, self.gradient_of_rest(sliding, rule))
+        found, width = problem.answer, 2.0 * contact.r
+        size, remaining = self.limit / self.normal.b, self.limit - Q
+        left = beta * found.left + 0.5 * sliding.k1 * width**a1
+        right = beta * found.right + 0.5 * sliding.k2 * width**a2
+        missed = (
+            found.load / size,
+            self.friction * left / (size * self.normal.b**a1),
+            self.friction * right / (size * self.normal.b**a2),
+            (remaining - found.stuck) / remaining,
+        )
+        return Trial(zones, sliding, problem, np.array(missed))
+
+    def second_moment(self, contact: Interval) -> float:
+        """∫p x dx about its centre that the slope alone causes in a contact that slides."""
+        k = edge_integrals(self.resolved_slope, contact, None, False, -self.theta)
+        G = self.normal.half_modulus * math.cos(math.pi * self.theta)
+        return -G * contact.r**2 * (k.C2 - 0.5 * k.I0)
+
+    def gradient_of_rest(self, sliding: SlidingDensity, rule: Rule) -> Array:
+        """γ_d at the places of a rule."""
+        f, beta = self.friction, self.beta
+        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * sliding(rule.x)
+
+    # -- the search --------------------------------------------------------------------------------
+
+    def found(self, Q: float) -> Trial:
+        """The state under Q. Raises ContactError where none has these zones."""
+        answer = self._newton(self._start(Q), Q)
+        if answer is None:
+            answer = self._followed(Q)
+        if answer is None:
+            raise ContactError(
+                f"dissimilar bodies with β f = {self.beta * self.friction:.3g} under |Q| = {Q:.6g} "
+                f"= {Q / self.limit:.3g} f P: no stick zone was found that lies inside the contact "
+                "of the normal load alone. Beyond it stick surfaces that came into contact under "
+                "Q; the slip gradient that they keep depends on every state before and is not "
+                "solved; change Q, lower the friction, or give dundurs = 0 to neglect β"
+            )
+        return answer
+
+    @cached_property
+    def _bounds(self) -> tuple[float, float]:
+        """What the stick zone may reach: the contact under P alone on the left, its stick zone on
+        the right."""
+        return -self.normal.b, self.normal.c
+
+    @cached_property
+    def _last_stick(self) -> tuple[float, float]:
+        """x0 and l, in a contact that slides."""
+        f, beta, b = self.friction, self.beta, self.normal.b
+        contact = Interval(*self.widest)
+        G, P = self.normal.half_modulus, self.normal.load
+        sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
+        lo, hi = self._bounds
+        x = np.linspace(lo, min(hi, contact.x2), 203)[1:-1]
+        slips = f * self.H(x) + beta * (1.0 + f * f) * sliding(x) - self.gamma(x)
+        k = int(np.argmax(slips > 0.0)) if (slips > 0.0).any() else len(x) - 1
+        k = max(k, 1)
+        rise = (slips[k] - slips[k - 1]) / (x[k] - x[k - 1])
+        x0 = x[k] - slips[k] / rise if rise > 0.0 else x[k]
+        half = math.sqrt(2.0 * self.limit / (math.pi * rise)) if rise > 0.0 else b
+        return float(min(max(x0, x[0]), x[-1])), half
+
+    def _start(self, Q: float) -> Array:
+        """Four edges next to those under Q."""
+        (lo, hi), (x0, half) = self._bounds, self._last_stick
+        part = Q / self.limit
+        left, right = min(half, x0 - lo), min(half, hi - x0)
+        cos, sin = math.sqrt(1.0 - part), math.sqrt(part)
+        e1 = x0 - cos * (left + (x0 - lo - left) * cos * cos)
+        e2 = x0 + cos * right + (hi - x0 - right) * (1.0 - sin)
+        b = self.normal.b
+        x1, x2 = (end + part * (edge - end) for end, edge in zip((-b, b), self.widest, strict=True))
+        near = NEARLY * b
+        e1, e2 = (
+            max(e1, lo + near, x1 + near),
+            min(e2, hi - near * (1.0 - hi / b) - EPS * b, x2 - near),
+        )
+        return np.array([x1, e1, e2, x2])
+
+    def _newton(self, edges: Array, Q: float) -> Trial | None:
+        try:
+            # Edges that are tried may lie so near to each other that nothing is finite
+            with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+                return iterated(lambda at: self.trial(at, Q), edges, self._room)
+        except (ArithmeticError, np.linalg.LinAlgError, ContactError):
+            return None
+
+    def _room(self, edges: Array) -> Array:
+        """How far each edge may move either way, to the next edge or bound; not positive beyond."""
+        lo, hi = self._bounds
+        least, most = self.resolved_slope.domain
+        x1, e1, e2, x2 = edges.tolist()
+        left, stuck, right = e1 - x1, e2 - e1, x2 - e2
+        return np.array(
+            [
+                min(left, x1 - least),
+                min(left, stuck, e1 - lo),
+                min(stuck, right, hi - e2),
+                min(right, most - x2),
+            ]
+        )
+
+    def _followed(self, Q: float) -> Trial | None:
+        """The state under Q, from those under other loads."""
+        for part in FIRST:
+            found = self._newton(self._start(part * self.limit), part * self.limit)
+            if found is not None:
+                answer = self._follow(np.array(found.zones), part, Q)
+                if answer is not None:
+                    return answer
+        return None
+
+    def _follow(self, edges: Array, part: float, Q: float) -> Trial | None:
+        """The state under Q, in steps of the load from a part of f P."""
+        angle, end = (math.asin(math.sqrt(p)) for p in (part, Q / self.limit))
+        stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)
+        while abs(stride) > SHORTEST:
+            last = abs(end - angle) <= abs(stride)
+            to = end if last else angle + stride
+            load = Q if last else self.limit * math.sin(to) ** 2
+            found = None
+            for guess in (edges + change * (to - angle), edges):
+                found = found or self._newton(guess, load)
+            if found is None:
+                stride *= 0.5
+                continue
+            if last:
+                return found
+            change = (np.array(found.zones) - edges) / (to - angle)
+            edges, angle = np.array(found.zones), to
+        return None
+
+
+def tangential_search(
+    scene: Scene, normal: CoupledContact, contact: Callable[[Scene], Edges]
+) -> TangentialSearch:
+    """The search under the scene's P; ContactError for contacts that end at corners.
+
+    `contact` finds the edges of a scene, of full sliding here.
+    """
+    sliding = Scene(
+        profile=scene.profile,
+        modulus=scene.Estar,
+        dundurs=abs(scene.beta),
+        friction=scene.friction,
+        normal_load=normal.load,
+        sliding=1,
+    )
+    edges = contact(sliding)
+    if normal.corner_load or any(edges.sharp):
+        refuse_corners(scene)
+    widest = edges.contact.x1 - normal.axis, edges.contact.x2 - normal.axis
+    slope = scene.profile.pieces.shifted(-normal.axis) if normal.axis else scene.profile.pieces
+    return TangentialSearch(normal, slope, scene.friction, widest)

@@ -1,0 +1,384 @@
+"""What each step of a load path does to the memory of a contact, and the steps that are refused.
+
+Along a step P, Q, σ and the tilt change in proportion to time. `memory` says what slip of one sign
+at both edges leaves, if the stick zone only recedes. With dΛ, dS the changes of level and shear, of
+which an edge feels Re ∓ (ρ/r₀) Im (right, left; ρ the half-width of a zone), that is:
+
+    both ends of the stick zone recede        s dS - dΛ >= 0 at both ends
+    slip keeps its direction out to the edge  Re arccosh v ∓ (ρ/r₀) Im sqrt(v² - 1) >= 0 of
+                                              s dS - dΛ, v ρ the distance of the edge
+    a new front runs ahead of the edge        s (dS - κ dΛ) >= 0 at both edges
+    the contacts are nested                   stick zone, corners and contact, by their edges
+
+They are tested at the start, where the stick zone is widest, and during a step in which P or the
+tilt changes. Where both edges grow and neither slips, |dS| <= dΛ there, a layer is added.
+
+Slip of opposite signs at the two edges has no such memory: it depends on the loads at its end alone
+as long as its zones grow, which is tested on the way.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+
+from sie.errors import ContactError
+from sie.numerics.interval import Interval
+
+from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
+from .states import OneSignedSlip, Slip
+from .turning_point import Loads, TurningPoint
+
+# Parts of a step at which its conditions are tested.
+TESTED = (0.05, 0.25, 0.5, 0.75, 1.0)
+# of a change of load, and of a half-width: by so much a condition may be missed, which is rounding
+SLACK = 1e-11
+
+
+class Contacts(Protocol):
+    """The contacts of a scene under the loads of a path.
+
+    level            Λ, counted from the tilt of the first point
+    shear            S
+    contact          the contact under P at a tilt, in one patch
+    half_width       of the whole contact
+    first_loading    the state of a contact that was never sheared before S rose to a depth
+    arm              π r₀
+    curved           whether the tilt follows from a moment, and not in proportion to time in a step
+    """
+
+    def level(self, loads: Loads) -> complex: ...
+    def shear(self, loads: Loads) -> complex: ...
+    def contact(self, loads: Loads) -> Interval: ...
+    def half_width(self, loads: Loads) -> float: ...
+    def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
+    @property
+    def arm(self) -> float: ...
+    @property
+    def curved(self) -> bool: ...
+
+
+class Step:
+    """A step from one turning point to other loads, which change Λ by `rise` and S by `pull`."""
+
+    def __init__(
+        self, contacts: Contacts, before: TurningPoint, loads: Loads, rise: complex, pull: complex
+    ) -> None:
+        self.contacts, self.before, self.loads = contacts, before, loads
+        self.rise, self.pull, self.memory = rise, pull, before.memory
+
+    @property
+    def k(self) -> float:
+        return self.memory.top.k if self.memory.top else 0.0
+
+    @cached_property
+    def parts(self) -> tuple[tuple[complex, complex], ...]:
+        """The changes of Λ and S from one tested time to the next: one part, if both are in
+        proportion to time, and more where the tilt follows from a moment.
+        """
+        if not self.contacts.curved:
+            return ((self.rise, self.pull),)
+        shares = (0.0, *TESTED)
+        levels = [self.contacts.level(self._at(share)) for share in shares]
+        return tuple(
+            (after - before, (end - start) * self.pull)
+            for (before, after), (start, end) in zip(
+                pairwise(levels), pairwise(shares), strict=True
+            )
+        )
+
+    # -- the kinds of a step -----------------------------------------------------------------------
+
+    def in_proportion(self) -> TurningPoint:
+        """At constant P and tilt, with all earlier changes of S in one proportion."""
+        turned = self.opposite
+        sign = math.copysign(1.0, self.pull.imag if turned else self.pull.real)
+        memory, slips = self.memory.changed(0.0, self.pull, sign)
+        return TurningPoint(self.loads, memory, slips, turned)
+
+    @property
+    def opposite(self) -> bool:
+        """Whether the bulk stress pulls the two edges in opposite directions."""
+        if not self.pull.imag:
+            return False
+        left, right = self._at_ends(self.pull, self.contacts.half_width(self.loads))
+        return left * right < 0.0
+
+    def reversed(self, sign: float) -> TurningPoint:
+        """Slip of this sign after slip of the other one, in a steady cycle."""
+        if self.before.turned:
+            found = self.in_proportion()
+            if not self._state(1.0, 0.5 * sign * self.pull).advancing:
+                raise ContactError("zones of slip would retreat on the way: " + UNSTEADY)
+            return found
+        one_way = self.one_sign((sign,)) or self.late()
+        if one_way is None:
+            raise ContactError(
+                "slip does not start at both edges in one direction, or the stick zone does not "
+                "recede at both ends: " + UNSTEADY
+            )
+        return one_way
+
+    def refuse_retreat(self) -> None:
+        """Refuse a change of direction after a first loading whose slip zones retreated."""
+        depth, _ = self.memory.deepest
+        if not self.contacts.first_loading(self.before.loads.normal, depth, True).advancing:
+            raise ContactError("zones of slip have retreated in an earlier step: " + MARCH)
+
+    def upright(self) -> TurningPoint:
+        """At constant tilt and bulk stress: contacts are nested by their loads."""
+        memory, slips = self.memory.changed(self.rise, self.pull, within=self._within)
+        return self._reached(memory, slips)
+
+    def general(self) -> TurningPoint:
+        found = None if self.before.turned else self._stuck() or self.one_sign() or self.late()
+        return found or self._both_signs()
+
+    def one_sign(self, signs: tuple[float, ...] = (1.0, -1.0)) -> TurningPoint | None:
+        """Slip in one direction from the start of the step to its end."""
+        contact, (rise, pull) = self.contacts.contact(self.before.loads), self.parts[0]
+        for sign in signs:
+            start = self._zone(0.0, self.memory) if self.k == sign else contact
+            if not self._opens(sign * pull - rise, start, contact):
+                continue
+            ahead = sign * (pull - self.k * rise) if self.rise and self.k != sign else 0.0
+            if not self._opens(ahead, contact, contact):
+                continue
+            memory, slips = self._slipped(sign, 1.0)
+            if self.rise:
+                self._test_on_the_way(sign)
+            return self._reached(memory, slips)
+        return None
+
+    def _stuck(self) -> TurningPoint | None:
+        """No slip: layers are added in proportion to P, or taken off as they were added."""
+        rise, pull, k = self.rise, self.pull, self.k
+        if self.bares:
+            return self._reached(self.memory.raised(rise, k), ())
+        if not self.sticks:
+            return None
+        if pull and not all(in_proportion(p, r) for r, p in self.parts):
+            raise ContactError(
+                "the contact grows and sticks while Q, bulk stress and tilt do not change in "
+                "proportion to P and tilt: its new layers carry more than a multiple of the "
+                "pressure, which is not covered; keep σ and the tilt constant while P rises"
+            )
+        return self._reached(self.memory.raised(rise, (pull / rise).real), ())
+
+    @property
+    def bares(self) -> bool:
+        """Whether layers are taken off as they were added, and both edges retreat."""
+        balanced = abs(self.pull - self.k * self.rise) <= BALANCED * abs(self.rise)
+        retreats = max(self._at_ends(self.rise, self._widest)) < 0.0
+        return bool(self.rise) and balanced and retreats and not self.contacts.curved
+
+    @property
+    def bared(self) -> float:
+        """The share of the step after which the top layer is gone without slip; at least 1 where it
+        is not.
+        """
+        top = self.memory.top
+        if top is None or not self.bares or not in_proportion(top.thickness, self.rise):
+            return math.inf
+        return -(top.thickness / self.rise).real
+
+    def without_top(self) -> LoadMemory:
+        assert self.memory.top is not None
+        return LoadMemory(self.memory.level - self.memory.top.thickness, self.memory.top.below)
+
+    @property
+    def sticks(self) -> bool:
+        """Whether both edges grow, and neither slips."""
+        for rise, pull in self.parts:
+            limits, pulls = self._at_ends(rise, self._widest), self._at_ends(pull, self._widest)
+            for limit, p in zip(limits, pulls, strict=True):
+                if not (limit > 0.0 and abs(p) <= limit * (1.0 + SLACK)):
+                    return False
+        return True
+
+    @property
+    def _widest(self) -> float:
+        """The larger half-width of the contact, of its start and its end."""
+        return max(self.contacts.contact(loads).r for loads in (self.before.loads, self.loads))
+
+    def late(self) -> TurningPoint | None:
+        """A new front that an edge of a shrinking contact holds up at first: at the end of the step
+        it has passed whatever slipped before.
+        """
+        sign, contact = -self.k, self.contacts.contact(self.loads)
+        front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
+        if abs(sign) != 1.0 or not self.rise:
+            return None
+        stopped = self._at_ends(self.k * self.pull - self.rise, self._zone(0.0, self.memory).r)
+        whole = self.contacts.contact(self.before.loads)
+        if max(stopped) > 0.0 or not self._opens(front, whole, whole):
+            return None
+        if not self._opens(ahead, contact, contact):
+            return None
+        memory, slips = self._slipped(sign, 1.0)
+        zone = self._zone(1.0, memory)
+        if not (_inside(zone, contact) and self._opens(front, zone, contact)):
+            return None
+        return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
+
+    def _both_signs(self) -> TurningPoint:
+        """Slip in opposite directions at the two edges, in one direction since nothing slipped."""
+        top = self.memory.top
+        total = self.contacts.shear(self.loads)
+        sign = math.copysign(1.0, total.imag)
+        begun = top is None or (self.before.turned and top.below is None and top.k == sign)
+        if not (begun and total.imag):
+            raise ContactError(self._why())
+        memory, slips = self.memory.changed(self.rise, self.pull, sign)
+        states = [
+            self._state(share, sign * self.contacts.shear(self._at(share)))
+            for share in (0.0, *TESTED)
+        ]
+        for share, earlier, state in zip(TESTED, states, states[1:], strict=False):
+            contact = self.contacts.contact(self._at(share))
+            if not (_inside(_zone_of(state), contact) and _grown(earlier, state)):
+                raise ContactError(
+                    "zones of slip in opposite directions would retreat at one end on the way: "
+                    + MARCH
+                )
+        return TurningPoint(self.loads, memory, slips, turned=True, straight=False)
+
+    # -- conditions --------------------------------------------------------------------------------
+
+    def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
+        """What the left and the right end of a zone of half-width r feel of a change of Λ or S."""
+        turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
+        return change.real + turn, change.real - turn
+
+    def _opens(self, front: complex, zone: Interval, contact: Interval) -> bool:
+        """Whether slip beside a stick zone keeps its direction out to both edges of contact."""
+        lengths = zone.x1 - contact.x1, contact.x2 - zone.x2
+        turn = math.pi * zone.r / self.contacts.arm * front.imag if front.imag else 0.0
+        if zone.r == 0.0:
+            return front.real >= 0.0
+        for length, outward in zip(lengths, (turn, -turn), strict=True):
+            v = 1.0 + max(length, 0.0) / zone.r
+            beside = math.acosh(v) / math.sqrt((v - 1.0) * (v + 1.0)) if v > 1.0 else 1.0
+            if front.real * beside + outward < -SLACK * abs(front):
+                return False
+        return True
+
+    def _test_on_the_way(self, sign: float) -> None:
+        parts = self.parts if self.contacts.curved else self.parts * len(TESTED)
+        for share, (rise, pull) in zip(TESTED, parts, strict=True):
+            try:
+                memory, _ = self._slipped(sign, share)
+            except ContactError:
+                continue  # one end is at a corner: the state at the end of the step is judged
+            zone, contact = self._zone(share, memory), self.contacts.contact(self._at(share))
+            if not _inside(zone, contact):
+                raise ContactError("an edge of the contact overtakes the slip: " + MARCH)
+            if not self._opens(sign * pull - rise, zone, contact):
+                raise ContactError(
+                    "slip next to an edge would turn while it goes on farther in: " + MARCH
+                )
+
+    def _within(self, first: complex, second: complex) -> bool:
+        """Whether the contact at one depth lies within that at another."""
+        normal = self.before.loads.normal
+        one, other = (
+            _zone_of(self.contacts.first_loading(normal, depth, False)) for depth in (first, second)
+        )
+        if _inside(one, other):
+            return True
+        if _inside(other, one):
+            return False
+        raise ContactError(
+            f"one end of the stick zone passes that of an earlier one, and the other does not: "
+            f"{_shown(one)} and {_shown(other)}: " + MARCH
+        )
+
+    def _reached(self, memory: LoadMemory, slips: tuple[SlipEvent, ...]) -> TurningPoint:
+        """The turning point, if its layers lie within the contact and |κ| <= 1 bounds |q|."""
+        top = memory.top
+        tilted = top and isinstance(top.depth, complex) and self.loads.P < self.before.loads.P
+        if tilted and not _inside(self._zone(1.0, memory), self.contacts.contact(self.loads)):
+            raise ContactError("an edge of the contact overtakes the slip: " + MARCH)
+        crossed = top and top.below and any(not slip.timed for slip in slips)
+        if top and top.below and crossed:
+            r = self._zone(1.0, memory).r
+            if min(self._at_ends(top.below.thickness, r)) < 0.0:
+                raise ContactError(
+                    "between the stick zone and an earlier one the shear may exceed f p: " + MARCH
+                )
+        return TurningPoint(self.loads, memory, slips, self.before.turned, straight=False)
+
+    # -- states on the way -------------------------------------------------------------------------
+
+    def _at(self, share: float) -> Loads:
+        return self.before.loads.towards(self.loads, share)
+
+    def _slipped(self, sign: float, share: float) -> tuple[LoadMemory, tuple[SlipEvent, ...]]:
+        """The memory after a share of the step."""
+        loads = self._at(share)
+        rise = self.contacts.level(loads) - self.memory.level
+        return self.memory.changed(rise, share * self.pull, sign, self._within)
+
+    def _zone(self, share: float, memory: LoadMemory) -> Interval:
+        """The stick zone below the uppermost layer."""
+        assert memory.top is not None
+        normal = self._at(share).normal
+        return _zone_of(self.contacts.first_loading(normal, memory.top.thickness, False))
+
+    def _state(self, share: float, depth: complex) -> Slip:
+        """The state after first loading to a depth, with slip in both directions."""
+        return self.contacts.first_loading(self._at(share).normal, depth, True)
+
+    def _why(self) -> str:
+        """What happens in a step that no superposition covers."""
+        start = self.contacts.contact(self.before.loads)
+        reverse = self.pull - self.k * self.rise
+        left, right = self._at_ends(reverse, start.r)
+        if self.before.turned:
+            return "slip in opposite directions at the two edges changes its proportion: " + MARCH
+        if left * right < 0.0:
+            return "slip turns at one edge and goes on, or stops, at the other: " + MARCH
+        return "one end of the stick zone recedes and the other does not: " + MARCH
+
+
+MARCH = (
+    "what is locked in then depends on the way, which is not covered; change P, Q, σ and tilt in "
+    "other proportions, or ask sie.steady_cycle for the steady state of a cycle"
+)
+
+
+UNSTEADY = (
+    "the steady state is not that of one stick zone, which is all that is covered; change P, Q, σ "
+    "and tilt in other proportions"
+)
+
+
+def _zone_of(state: Slip) -> Interval:
+    """The stick zone, which of a corner may reach beyond the contact."""
+    if isinstance(state, OneSignedSlip):
+        return state.found.edges.contact
+    return Interval(*state.stick[0]) if state.stick else Interval(state.contact.m, state.contact.m)
+
+
+def _inside(one: Interval, other: Interval) -> bool:
+    slack = SLACK * (other.r + abs(other.m))
+    return one.x1 >= other.x1 - slack and one.x2 <= other.x2 + slack
+
+
+def _shown(zone: Interval) -> str:
+    return f"[{zone.x1:.6g}, {zone.x2:.6g}]"
+
+
+def _grown(earlier: Slip, later: Slip) -> bool:
+    """Whether the zones of slip have grown, and slip in them."""
+    if not _inside(_zone_of(later), _zone_of(earlier)):
+        return False
+    contact = later.contact
+    x = contact.m + contact.r * np.cos(np.pi * (np.arange(64) + 0.5) / 64)
+    before, after = earlier.slip(x), later.slip(x)
+    room = SLACK * float(np.abs(after).max())
+    return bool(((after - before) * np.sign(after) >= -room).all())

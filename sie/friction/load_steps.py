@@ -1,0 +1,120 @@
+"""The steps of a load path one after the other, and those of a steady cycle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import TypeVar
+
+from sie.errors import ContactError
+from sie.numerics.interval import EPS
+from sie.problem.load_path import Path
+from sie.problem.scene import Scene
+
+from .load_limit import refuse_sliding
+from .load_step import Contacts, Step
+from .memory import Layer, LoadMemory, in_proportion, simple
+from .turning_point import Loads, TurningPoint
+
+Result = TypeVar("Result")
+
+
+def turning_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[TurningPoint, ...]:
+    """The layers after each step of a path.
+
+    Raises ContactError, with the step, where one is not covered.
+    """
+    f, found = scene.friction, []
+    points = loads_of(path)
+    for k, loads in enumerate(points):
+        if f == 0.0 and loads.Q != 0.0:
+            raise ValueError(
+                f"Q of point {k} = {loads.Q:g} without friction: a frictionless contact carries "
+                "none; give friction > 0"
+            )
+        named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
+    start = points[0]._replace(Q=0.0, sigma=0.0)
+    state = TurningPoint(start, LoadMemory(contacts.level(start)))
+    for k, loads in enumerate(points):
+        state = named(k, loads, partial(stepped, contacts, state, loads))
+        found.append(state)
+    return tuple(found)
+
+
+def loads_of(path: Path) -> list[Loads]:
+    return [Loads(*point, turn) for point, turn in zip(path.points, path.turns, strict=True)]
+
+
+def named(k: int, loads: Loads, step: Callable[[], Result]) -> Result:
+    try:
+        return step()
+    except ContactError as problem:
+        raise type(problem)(
+            f"step {k} of the path, to {loads}: {problem}", **problem.reached | {"step": k}
+        ) from None
+
+
+def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[TurningPoint, ...]:
+    """The turning points A, B, A of a steady cycle; the layers are those of the change from one to
+    the other alone.
+
+    What slips in one direction on the way to B slips back on the way to A. Hence q_A - q_B =
+    s f (p_A + p_B) there, and in the stick zone, where that is 2 s f p^ less,
+
+        Λ^ = [Λ_A + Λ_B - s (S_A - S_B)]/2,      s the sign of slip before A:
+
+    below Λ^ nothing slips, whatever is locked in there.
+    """
+    first, second, last = loads_of(path)
+    for k, loads in enumerate((first, second)):
+        named(k, loads, partial(refuse_sliding, scene.friction, loads.P, loads.Q))
+    rise = simple(contacts.level(second) - contacts.level(first))
+    pull = simple(contacts.shear(second) - contacts.shear(first))
+    start = TurningPoint(first, LoadMemory(contacts.level(first)))
+    there = Step(contacts, start, second, rise, pull)
+    back = Step(contacts, replace(start, loads=second), first, -rise, -pull)
+    if not (rise or pull) or there.sticks or back.sticks:
+        return start, TurningPoint(second, LoadMemory(contacts.level(second))), start
+    turned = not rise and there.opposite
+    s = -math.copysign(1.0, pull.imag if turned else pull.real)
+    slipped = -0.5 * (rise + s * pull)
+    memory = LoadMemory(start.memory.level, Layer(slipped, s, None, s * slipped, slipped))
+    found = [replace(start, memory=memory, turned=turned)]
+    for k, loads in ((1, second), (2, last)):
+        sign, before = s if k == 2 else -s, found[-1]
+        step = Step(contacts, before, loads, *((rise, pull) if k == 1 else (-rise, -pull)))
+        found.append(named(k, loads, partial(step.reversed, sign)))
+    return tuple(found)
+
+
+def stepped(contacts: Contacts, before: TurningPoint, loads: Loads) -> TurningPoint:
+    """The turning point after a step. Raises ContactError where it is not covered."""
+    memory = before.memory
+    level, shear = contacts.level(loads), contacts.shear(loads)
+    rise, pull = simple(level - memory.level), simple(shear - memory.total)
+    if abs(pull) <= 4.0 * EPS * max(abs(shear), abs(memory.total)):
+        pull = 0.0
+    if not pull and memory.top is None:
+        return TurningPoint(loads, LoadMemory(level))  # nothing was ever sheared
+    if not (rise or pull):
+        return replace(before, loads=loads, slips=())
+    step = Step(contacts, before, loads, rise, pull)
+    top = memory.top
+    if not rise and (top is None or (before.straight and in_proportion(pull, top.depth))):
+        return step.in_proportion()
+    if before.turned and before.straight:
+        step.refuse_retreat()
+    tilted = rise.imag or pull.imag or (rise.real < 0.0 and isinstance(memory.total, complex))
+    if not (before.turned or tilted):
+        return step.upright()
+    if before.loads.P == 0.0:
+        raise ContactError(
+            "a contact that grows from nothing while bulk stress or tilt changes is not covered; "
+            "give a first point with P > 0"
+        )
+    if step.bared < 1.0:
+        between = TurningPoint(before.loads.towards(loads, step.bared), step.without_top())
+        return stepped(contacts, replace(between, turned=before.turned, straight=False), loads)
+    return step.general()

@@ -1,0 +1,361 @@
+"""The measure dν_i on the patches and the root T_i, at blocks of places that share the patch i.
+
+    W_i(x) = sqrt(d(x, a_i) d(b_i, x))
+    S_i(x) = Π_{j≠i} sqrt(d(x, a_j) d(x, b_j)) / |d(x, c_j)|
+    T_i(z) = sqrt(d(z, a_i) d(z, b_i)) S_i(z)
+    dν_i = dt/|T_i|, on patch k with the sign of d(t, c_k)/d(t, c_i)
+
+Far patches act on ln S_i through the charges of a tree. Over a panel that a place is close to, the
+difference quotient of the same piece of H is exact, and of another piece k the pole at x is
+integrated in closed form,
+
+    ∫_panel (H_k(t) - H(x))/d(t, x) dν_i = Gauss' sum + (H_k(x) - H(x)) f(x) (J - Gauss' sum of J)
+    J = ∫_panel dt/(W_k d(t, x)),          f = dν_i W_k/dt
+
+as what (H_k(x) - H(x))/d(t, x) leaves in Gauss' rule is known.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .chord import Points
+from .panels import GapPanels, Patches, PatchPanels, gap_panels, patch_panels
+from .pieces import Pieces
+from .sums import Groups, far_sums, multiply, parts, steps
+from .tree import Level, Separation, Tree
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+# half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
+NEAR = 2.5
+
+
+@dataclass(frozen=True, eq=False)
+class Measure:
+    """The slope H on patches; `charge` (2N,) are the point charges of sharp edges, a_1, b_1, a_2
+    ..., in units of slope.
+    """
+
+    patches: Patches
+    pieces: Pieces
+    charge: Array = field(default_factory=lambda: np.zeros(0))
+
+    @cached_property
+    def Y(self) -> Array:
+        return self.charge if self.charge.size else np.zeros(2 * self.patches.number)
+
+    @cached_property
+    def panels(self) -> PatchPanels:
+        return patch_panels(self.patches, self.pieces)
+
+    @cached_property
+    def gaps(self) -> GapPanels:
+        return gap_panels(self.patches, self.pieces)
+
+    # -- the root ----------------------------------------------------------------------------------
+
+    @cached_property
+    def _tree_of_roots(self) -> Tree:
+        """Charges of ln S at a, c and b of each patch."""
+        P = self.patches
+        sources = Points(np.stack((P.a, P.c, P.b), axis=1), np.zeros((P.number, 3)))
+        charges = np.tile([0.5, -1.0, 0.5], (1, P.number, 1))
+        return Tree((P.a, P.b), np.arange(P.number), sources, charges)
+
+    def root(self, i: Index, x: Points, group: Index | None = None) -> tuple[Any, Any]:
+        """(T_i, S_i) at blocks of points (B, n), or at points (m,); on patch i itself |T_i|."""
+        P, d = self.patches, self.patches.chord.apart
+        if x.offset.ndim == 1:
+            T, S = self.root(i, Points(x.anchor[:, None], x.offset[:, None]))
+            return T[:, 0], S[:, 0]
+        S = self.others(i, x, group)
+        j = i[:, None]
+        left, right = d(x.anchor - P.a[j], x.offset), d(x.anchor - P.b[j], x.offset)
+        if np.iscomplexobj(S):
+            middle = d(x.anchor - P.c[j], x.offset)
+            return middle * np.sqrt((left / middle) * (right / middle)) * S, S
+        T = np.sqrt(np.abs(left * right)) * S
+        return np.where((left < 0.0) & (right < 0.0), -T, T), S
+
+    def others(self, i: Index, x: Points, group: Index | None = None) -> Any:
+        """S_i at blocks of points; S_i > 0 off the other patches."""
+        N = self.patches.number
+        out = np.ones(x.offset.shape, dtype=x.offset.dtype)
+        if N == 1:
+            return out
+        groups = self.groups(i, x, np.arange(len(i)) if group is None else group)
+        if np.iscomplexobj(out):
+            every = np.arange(len(groups.i))
+            near = Separation([], np.tile(np.arange(N), len(every)), np.repeat(every, N))
+        else:
+            chord, extent = self.patches.chord, groups.wide
+            near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
+            out *= np.exp(far_sums(self.patches.chord, groups, near, x, self._logarithms)[..., 0])
+        block, pair = groups.blocks(near.group)
+        for some in parts(len(block), out.shape[1]):
+            multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
+        return out
+
+    def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
+        """ln S of far nodes at places, (m, n, 1)."""
+        step = steps(self.patches.chord, level.points(node), x)
+        return np.log(np.abs(step, out=step), out=step) @ level.charges[0, node, :, None]
+
+    def _factor(self, j: Index, i: Index, x: Points, block: Index) -> Any:
+        """What patch j contributes to S_i at blocks."""
+        P, d = self.patches, self.patches.chord.apart
+        own = j == i[block]
+        anchor, offset = x.anchor[block], x.offset[block]
+        left, right, middle = (d(anchor - v[j, None], offset) for v in (P.a, P.b, P.c))
+        middle[own] = 1.0
+        ratio = (left / middle) * (right / middle)
+        ratio[own] = 1.0
+        return np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
+
+    # -- the measure on the patches ----------------------------------------------------------------
+
+    @cached_property
+    def weight(self) -> Array:
+        """dt/W on each node, (p, n): the angle on the line."""
+        k, P = self.panels, self.patches
+        if not P.chord.periodic:
+            return k.angle
+        inward = np.abs(k.points.offset)
+        outward = 2.0 * P.r[k.patch, None] - inward
+        d = P.chord.apart
+        return k.angle * np.sqrt(
+            (inward / d(0.0, inward)) * (outward / d(2.0 * P.r[k.patch, None], -inward))
+        )
+
+    @cached_property
+    def ends(self) -> tuple[Array, Array]:
+        """The interval of each panel."""
+        k, r = self.panels, self.patches.r[self.panels.patch]
+        near, far = (
+            k.points.anchor[:, 0] + np.where(k.right, -2.0, 2.0) * r * np.sin(0.5 * angle) ** 2
+            for angle in (k.lo, k.hi)
+        )
+        return np.minimum(near, far), np.maximum(near, far)
+
+    @cached_property
+    def omega(self) -> Array:
+        """dν_k on the nodes of patch k itself, (p, n)."""
+        k = self.panels
+        return np.asarray(self.weight / self.others(k.patch, k.points, k.patch))
+
+    @cached_property
+    def b(self) -> Array:
+        """d(t, c_k) dν_k on the nodes, (p, n): dν_i is b/d(t, c_i) for every i."""
+        k, P = self.panels, self.patches
+        return self.omega * P.chord.apart(k.points.anchor - P.c[k.patch, None], k.points.offset)
+
+    @cached_property
+    def H(self) -> Array:
+        """H on the nodes, less `H0`."""
+        k = self.panels
+        return self.pieces.value(k.piece[:, None], k.points.anchor, k.points.offset) - self.H0
+
+    @cached_property
+    def H0(self) -> float:
+        """A value of H, taken out of all sums: only differences count."""
+        k = self.panels
+        return float(
+            np.mean(self.pieces.value(k.piece, k.points.anchor[:, 0], k.points.offset[:, 0]))
+        )
+
+    @cached_property
+    def tau(self) -> tuple[Array, Array]:
+        """sqrt(d(t, edge)/d(other edge, t)) at both ends of each panel."""
+        k, P = self.panels, self.patches
+        d = P.chord.apart
+        ends = []
+        for angle in (k.lo, k.hi):
+            s = 2.0 * P.r[k.patch] * np.sin(0.5 * angle) ** 2
+            ends.append(np.sqrt(d(0.0, s) / d(2.0 * P.r[k.patch], -s)))
+        return ends[0], ends[1]
+
+    @cached_property
+    def beside(self) -> tuple[Array, Array]:
+        """The places close to each panel on the line, counted inwards from its edge: angles of
+        NEAR half-lengths from its middle, imaginary ones beside the patch.
+        """
+        k = self.panels
+        middle, reach = 0.5 * (k.lo + k.hi), NEAR * 0.5 * (k.hi - k.lo)
+        inner = np.sin(0.5 * np.maximum(middle - reach, 0.0)) ** 2
+        beside = np.sinh(0.5 * np.sqrt(np.maximum(reach**2 - middle**2, 0.0))) ** 2
+        size = 2.0 * self.patches.r[k.patch]
+        lo = np.where(reach > middle, -size * beside, size * inner)
+        return lo, size * np.sin(0.5 * np.minimum(middle + reach, np.pi)) ** 2
+
+    @cached_property
+    def tree(self) -> Tree:
+        """Charges of Hω, ω, Hb, b."""
+        k = self.panels
+        sources = np.stack((self.H * self.omega, self.omega, self.H * self.b, self.b))
+        return Tree(self.ends, k.patch, k.points, sources)
+
+    def groups(self, i: Index, x: Points, group: Index) -> Groups:
+        """The groups of blocks that follow each other, and the intervals that they are in."""
+        P = self.patches
+        place = np.real(x.x)
+        if P.chord.periodic:
+            c = P.c[i, None]
+            place = P.chord.difference(np.real(x.anchor) - c, np.real(x.offset)) + c
+        first = np.flatnonzero(np.diff(group, prepend=-2))
+        lo = np.minimum.reduceat(place.min(axis=1), first)
+        hi = np.maximum.reduceat(place.max(axis=1), first)
+        c = P.c[i[first]]  # b/d(t, c_i) of other patches has a pole there
+        wide = np.minimum(lo, c), np.maximum(hi, c)
+        return Groups(np.append(first, len(i)), i[first], c, (lo, hi), wide)
+
+
+def edge_ratio(patches: Patches, i: Any) -> Array:
+    """ρ_i(e) = d(e, c_k)/d(e, c_i) of all edges e, those of patch k: (2N,), or (i, 2N)."""
+    d, c = patches.chord.apart, patches.c
+    k = np.repeat(np.arange(patches.number), 2)
+    own = d(patches.edges - c[k])
+    rho = own / d(patches.edges - np.asarray(c[i])[..., None])
+    return np.asarray(np.where(k == np.asarray(i)[..., None], 1.0, rho))
+
+
+# -- integrals over panels that a place is close to ------------------------------------------------
+
+
+class Targets(NamedTuple):
+    """Blocks of places at which D_i is evaluated.
+
+    i            (B,) the patch of each block
+    group        (B,) ascending numbers; blocks of a group are neighbours that share i
+    x            (B, n) places
+    reference    (B, n) the value of H that is taken out: H_piece(x), or any value where piece < 0
+    piece        (B, n) index of a piece, or -1
+    owner        (B, n) the patch that x is on, or the nearer one: beyond the middle of a gap no
+                 pole is taken out of the other's panels, whose f is not smooth up to there
+    S            (B, n) S_i
+    """
+
+    i: Index
+    group: Index
+    x: Points
+    reference: Any
+    piece: Any
+    owner: Any
+    S: Any
+
+    def flat(self, block: Index, place: Index) -> Targets:
+        """Single places, as arrays (m,)."""
+        x = Points(np.broadcast_to(self.x.anchor, self.x.offset.shape), self.x.offset)
+        values = (self.x[block, place] if v is self.x else v[block, place] for v in self[3:])
+        return Targets(self.i[block], self.group[block], x[block, place], *values)
+
+
+def close(o: Measure, panel: Index, x: Points) -> NDArray[np.bool_]:
+    """Whether places (m, n) are close to the panels (m,)."""
+    k, P = o.panels, o.patches
+    right = k.right[panel, None]
+    inward = P.chord.difference(x.anchor - k.points.anchor[panel], x.offset)
+    inward = np.where(right, -inward, inward)
+    if not np.iscomplexobj(inward):
+        lo, hi = o.beside
+        return np.asarray((lo[panel, None] < inward) & (inward < hi[panel, None]))
+    lo, hi = k.lo[panel, None], k.hi[panel, None]
+    angle = 2.0 * np.arcsin(np.sqrt(inward / (2.0 * P.r[k.patch[panel], None])))
+    # a square root may have either sign: the nearer image counts
+    middle, reach = 0.5 * (lo + hi), NEAR * 0.5 * (hi - lo)
+    return np.asarray(np.minimum(np.abs(angle - middle), np.abs(angle.conj() - middle)) < reach)
+
+
+def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
+    """∫_panel (H - reference)/d(t, x) dν_i of panels (m,) at places (m,); nu (m, n) is dν_i."""
+    k = o.panels
+    own = k.piece[panel]
+    same = own == t.piece
+    sums = np.empty(len(panel), dtype=np.result_type(t.x.offset, t.reference))
+    sums[same] = _quotients(o, panel[same], nu[same], t.x[same])
+    other = np.flatnonzero(~same)
+    if not other.size:
+        return sums
+    q, x, ref = panel[other], t.x[other], t.reference[other]
+    points = k.points[q]
+    step = o.patches.chord.apart(
+        points.anchor - x.anchor[:, None], points.offset - x.offset[:, None]
+    )
+    step = np.where(step == 0.0, np.inf, step)
+    sums[other] = (nu[other] * ((o.H[q] - ref[:, None]) / step)).sum(axis=1)
+    residue = o.pieces.value(own[other], x.anchor, x.offset) - o.H0 - ref
+    lo, hi = o.pieces.ends[own[other]], o.pieces.ends[own[other] + 1]
+    real = np.real(x.x)
+    beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(x.offset)))
+    counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
+    # not beside a repetition of the panel: of one patch per period both sides of a gap are it
+    here = np.abs(x.anchor - points.anchor[:, 0]) <= 0.5 * o.patches.chord.period
+    counts &= here & (k.patch[q] == t.owner[other])
+    if counts.any():
+        q, x, residue, at = q[counts], x[counts], residue[counts], other[counts]
+        gauss = (o.weight[q] / step[counts]).sum(axis=1)
+        pole = _pole(o, q, x)
+        rounding = ~np.isfinite(pole) & (np.abs(residue) < 1e-12)
+        pole = np.where(rounding, gauss, pole)
+        sums[at] += residue * _f(o, q, x, t.i[at], t.S[at]) * (pole - gauss)
+    return sums
+
+
+def _quotients(o: Measure, panel: Index, nu: Array, x: Points) -> Any:
+    """The same where H at the place is that of the panel's piece."""
+    t = o.panels.points[panel]
+    xs = x.anchor[:, None], x.offset[:, None]
+    exact = o.pieces.divided(o.panels.piece[panel, None], (t.anchor, t.offset), xs)
+    if o.patches.chord.periodic:
+        plain = (t.anchor - xs[0]) + (t.offset - xs[1])
+        step = o.patches.chord.apart(t.anchor - xs[0], t.offset - xs[1])
+        zero = step == 0.0
+        exact = exact * np.where(zero, 1.0, plain / np.where(zero, 1.0, step))
+    return (nu * exact).sum(axis=1)
+
+
+def _f(o: Measure, panel: Index, x: Points, i: Index, S: Any) -> Any:
+    """dν_i/(dt/W_k) of the panel's patch k, continued to x."""
+    P = o.patches
+    patch = o.panels.patch[panel]
+    f = 1.0 / S
+    other = patch != i
+    if not other.any():
+        return f
+    x, k, i, S = x[other], patch[other], i[other], S[other]
+    d = P.chord.apart
+    ratio = d(x.anchor - P.c[k], x.offset) / d(x.anchor - P.c[i], x.offset)
+    own, theirs = (d(x.anchor - P.a[j], x.offset) * d(x.anchor - P.b[j], x.offset) for j in (i, k))
+    if np.iscomplexobj(ratio):
+        f[other] = np.sqrt(theirs / own / ratio**2) * ratio / S
+    else:
+        f[other] = np.sign(ratio) * np.sqrt(np.abs(theirs / own)) / S
+    return f
+
+
+def _pole(o: Measure, panel: Index, x: Points) -> Any:
+    """∫_panel dt/(W_k(t) d(t, x)), a principal value on the panel."""
+    P, k = o.patches, o.panels
+    patch, right = k.patch[panel], k.right[panel]
+    inward = P.chord.difference(x.anchor - k.points.anchor[panel, 0], x.offset)
+    inward = np.where(right, -inward, inward)
+    near, far = P.chord.apart(0.0, inward), P.chord.apart(2.0 * P.r[patch], -inward)
+    t1, t2 = o.tau[0][panel], o.tau[1][panel]
+    square = near / far
+    size = np.where(right, -2.0, 2.0) / far
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if np.iscomplexobj(square):
+            tau = np.sqrt(square)
+            return size * np.arctanh(tau * (t2 - t1) / (t1 * t2 - square)) / tau
+        tau = np.sqrt(np.abs(square))
+        outside = np.arctan2(tau * (t2 - t1), t1 * t2 + np.abs(square))
+        u = tau * (t2 - t1) / (t1 * t2 - square)
+        inside = np.arctanh(np.where(np.abs(u) > 1.0, 1.0 / u, u))
+        value = np.where(square < 0.0, outside, inside) / tau
+        return size * np.where(tau == 0.0, 1.0 / t1 - 1.0 / t2, value)

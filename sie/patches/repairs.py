@@ -1,0 +1,155 @@
+"""Changes of patches: after an event of the search, and where they are not admissible."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .chord import Chord
+from .panels import Patches
+from .pieces import Pieces
+from .state import Event, Findings, Overlap, State
+
+Array = NDArray[np.float64]
+
+
+def after(event: Event, state: State, pieces: Pieces) -> State:
+    """The patches after an event."""
+    P = state.patches
+    a, b, sharp = P.a.copy(), P.b.copy(), state.sharp.copy()
+    if event.kind == "smooth":
+        k = event.number // 2
+        sharp[event.number] = False
+        if event.number % 2:
+            b[k] -= 0.1 * P.r[k]
+        else:
+            a[k] += 0.1 * P.r[k]
+        charge = np.where(sharp, state.charge, 0.0)
+        return State(Patches(a, b, P.chord), sharp, charge, state.tilt)
+    if event.kind == "vanish":
+        keep = ~np.isin(np.arange(P.number), (event.number, *event.others))
+        if not keep.any():
+            keep[np.argmax(P.r)] = True
+        return bounded(a[keep], b[keep], pieces, P.chord, state.tilt)
+    if event.kind == "merge" and P.number > 1:
+        gaps = np.array(event.others)
+        if P.number - 1 in gaps:  # across the cut of the period
+            a[0] = a[-1] - P.chord.period
+            a, b = a[:-1], b[:-1]
+            gaps = gaps[gaps < P.number - 1]
+        gaps = gaps[gaps < len(a) - 1]
+        return bounded(np.delete(a, gaps + 1), np.delete(b, gaps), pieces, P.chord, state.tilt)
+    return state
+
+
+def mended(state: State, found: Findings, pieces: Pieces) -> State:
+    """The patches cut where they pull, born and merged where the bodies overlap."""
+    P = state.patches
+    ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
+    cut: list[tuple[float, float]] = []
+    for k, (a, b) in enumerate(ends):
+        start = a
+        for t in (t for t in found.tension if t.patch == k):
+            middle, half = 0.5 * (t.lo + t.hi), max(0.5 * (t.hi - t.lo), 1e-3 * (b - a))
+            lo, hi = middle - np.sqrt(2.0) * half, middle + np.sqrt(2.0) * half
+            if lo - start > 0.01 * (b - a):
+                cut.append((start, lo))
+            start = max(hi, start)
+        if b - start > 0.01 * (b - a):
+            cut.append((start, b))
+    merged = set()
+    born = []
+    for overlap in found.overlap:
+        k = overlap.gap
+        inner = 0 <= k < P.number - 1 or P.chord.periodic
+        if inner and overlap.largest < 0.1 * overlap.depth:
+            merged.add(k)
+        else:
+            born.append(_born(overlap, state, pieces))
+    for k in sorted(merged):
+        if k < P.number - 1:
+            cut.append((P.b[k] - 0.01 * P.r[k], P.a[k + 1] + 0.01 * P.r[k + 1]))
+        else:
+            cut.append((P.a[0] - P.gaps[k] - 0.01 * P.r[k], P.a[0] + 0.01 * P.r[0]))
+    a, b = np.array(apart(cut + [e for e in born if e is not None])).T
+    if P.chord.periodic:
+        a, b = one_period(*_wrapped(a, b, P.chord.period), P.chord.period)
+    return bounded(a, b, pieces, P.chord, state.tilt)
+
+
+def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
+    """Patches that reach into each other across the cut, as one."""
+    while len(a) > 1 and b[-1] >= a[0] + period:
+        a, b = a[1:], np.append(b[1:-1], b[0] + period) if b[0] + period > b[-1] else b[1:]
+    while len(a) > 1 and a[0] + period <= b[-1]:
+        a = np.append(a[1:-1], a[-1])
+        b = b[1:]
+    return a, b
+
+
+def _born(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
+    """A patch where the bodies overlap: as deep as a parabola that its load presses in."""
+    P = state.patches
+    x = overlap.x
+    curvature = float(pieces.curvature(int(pieces.locate(x)), x))
+    distance = float(np.abs(P.chord.difference(P.edges - x)).min())
+    wide = 0.5 * (overlap.hi - overlap.lo)
+    if curvature > 0.0:
+        r = np.sqrt(2.0 * overlap.depth / curvature)
+        for _ in range(20):
+            r = np.sqrt(
+                2.0 * overlap.depth / curvature / (np.log(max(2.0 * distance / r, 1.1)) + 0.5)
+            )
+        wide = min(r, 0.5 * distance)
+    elif wide == 0.0:
+        wide = 0.1 * distance
+    return x - wide, x + wide
+
+
+# -- the edges of patches -------------------------------------------------------------------------
+
+
+def apart(ends: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Patches that overlap as one."""
+    found: list[tuple[float, float]] = []
+    for a, b in sorted(ends):
+        if found and a <= found[-1][1]:
+            found[-1] = found[-1][0], max(b, found[-1][1])
+        else:
+            found.append((a, b))
+    return found
+
+
+def one_period(a: Array, b: Array, period: float) -> tuple[Array, Array]:
+    """Cut where the gap is widest."""
+    gaps = np.append(a[1:], a[0] + period) - b
+    k = (int(np.argmax(gaps)) + 1) % len(a)
+    return np.append(a[k:], a[:k] + period), np.append(b[k:], b[:k] + period)
+
+
+def bounded(a: Array, b: Array, pieces: Pieces, chord: Chord, tilt: float) -> State:
+    """Patches whose edges stay on the indenter: sharp where they reach its ends."""
+    a, b = _at_walls(a, b, pieces)
+    lo, hi = pieces.solid_around(0.5 * (a + b))
+    sharp = np.stack((a <= lo, b >= hi), axis=1).ravel()
+    a, b = np.maximum(a, lo), np.minimum(b, hi)
+    kept = b > a
+    state = Patches(a[kept], b[kept], chord)
+    sharp = sharp.reshape(-1, 2)[kept].ravel()
+    return State(state, sharp, np.zeros(len(sharp)), tilt)
+
+
+def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
+    """Patches that reach across walls, cut there."""
+    void = np.flatnonzero(pieces.void)
+    if not void.size:
+        return a, b
+    lo, hi = pieces.ends[void], pieces.ends[void + 1]
+    ends: list[list[float]] = []
+    for start, stop in zip(a.tolist(), b.tolist(), strict=True):
+        crossed = (lo > start) & (hi < stop)
+        ends += map(
+            list, zip([start, *hi[crossed].tolist()], [*lo[crossed].tolist(), stop], strict=True)
+        )
+    cut = np.array(ends)
+    return cut[:, 0], cut[:, 1]

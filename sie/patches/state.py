@@ -1,0 +1,83 @@
+"""The given loads, a state of the search for patches, events that stop it, what bounds find."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .panels import Patches
+
+Array = NDArray[np.float64]
+
+
+class Given(NamedTuple):
+    """The given load, and tilt or moment, in units of E*/2."""
+
+    load: float
+    tilt: float
+    moment: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Patches, charges of sharp edges (0 at smooth ones), and the tilt."""
+
+    patches: Patches
+    sharp: NDArray[np.bool_]  # (2N,)
+    charge: Array  # (2N,)
+    tilt: float
+
+    @property
+    def outward(self) -> Array:
+        """-1 at a, 1 at b."""
+        return np.tile([-1.0, 1.0], self.patches.number)
+
+
+class Event(NamedTuple):
+    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
+    "smooth" and edge k.
+    """
+
+    kind: str
+    number: int
+    others: tuple[int, ...] = ()  # all patches that vanish, all gaps that merge
+
+
+class Tension(NamedTuple):
+    """An interval with tension: [lo, hi] of patch k."""
+
+    patch: int
+    lo: float
+    hi: float
+
+
+class Overlap(NamedTuple):
+    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the
+    largest g of that gap.
+    """
+
+    gap: int
+    lo: float
+    hi: float
+    x: float
+    depth: float
+    largest: float
+
+
+@dataclass(frozen=True)
+class Findings:
+    """The violations of the inequalities; none if the patches are the answer.
+
+    lowest      the lowest bound of D over the largest D
+    """
+
+    tension: tuple[Tension, ...]
+    overlap: tuple[Overlap, ...]
+    lowest: float
+
+    @property
+    def ok(self) -> bool:
+        return not self.tension and not self.overlap

@@ -1,0 +1,149 @@
+"""Sums over many sources at many groups of targets: a tree of Chebyshev charges.
+
+Rows of sources, in the order of their places, are gathered in leaves, leaves in pairs, and so on up
+to one root. A node acts from afar through charges on the Chebyshev points of its interval (Dutt, Gu
+& Rokhlin 1996), whatever the kernel, chords of a period included. A group of targets takes every
+node at the first level at which that is far; what is left are pairs (row, group) to be summed as
+they are.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+
+from .chord import Chord, Points
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+FAR = 3.0  # half-lengths of a node from its middle: its charges serve from here on
+CHARGES = 20  # of a node: (FAR + sqrt(FAR² - 1))**-CHARGES is rounding
+LEAF = 4  # rows in a leaf
+FEWEST = 48  # rows: fewer are summed as they are
+SHORTEST = 64.0  # ulp: the half-length of a node that is no longer than the spacing of doubles
+
+
+class Level(NamedTuple):
+    """The nodes of a level: middles, half-lengths, the first and last owner of their rows, and
+    charges (sets, nodes, CHARGES).
+    """
+
+    middle: Array
+    half: Array
+    first: Index
+    last: Index
+    charges: Array
+
+    def points(self, node: Index) -> Points:
+        return Points(self.middle[node, None], self.half[node, None] * POINTS)
+
+
+class Separation(NamedTuple):
+    """What acts on groups of targets: far nodes (level, node, group) by level, and near rows
+    (row, group), in the order of groups.
+    """
+
+    far: list[tuple[Level, Index, Index]]
+    row: Index
+    group: Index
+
+
+class Tree:
+    """The tree of rows [lo, hi] (K,) with owners, sources (K, n) and charges (sets, K, n)."""
+
+    def __init__(self, ends: tuple[Array, Array], owner: Index, sources: Points, charges: Array):
+        lo, hi = ends
+        self.order = np.argsort(lo + hi, kind="stable")
+        self.rows = len(lo)
+        self.levels: list[Level] = []
+        if self.rows < FEWEST:
+            return
+        spare = -self.rows % LEAF
+        kept = np.append(self.order, np.repeat(self.order[-1:], spare))
+        charges = charges[:, kept]
+        charges[:, self.rows :] = 0.0
+        shape = (len(kept) // LEAF, LEAF)
+        start, end = lo[kept].reshape(shape).min(axis=1), hi[kept].reshape(shape).max(axis=1)
+        owners = owner[kept].reshape(shape)
+        first, last = owners.min(axis=1), owners.max(axis=1)
+        points = Points(
+            np.broadcast_to(sources.anchor, sources.offset.shape)[kept], sources.offset[kept]
+        )
+        while True:
+            middle = 0.5 * (start + end)
+            half = np.maximum(0.5 * (end - start), SHORTEST * np.spacing(np.abs(middle)))
+            shape = (len(middle), -1)
+            anchor, offset = points.anchor.reshape(shape), points.offset.reshape(shape)
+            u = ((anchor - middle[:, None]) + offset) / half[:, None]
+            charges = _gathered(u, charges.reshape(len(charges), *shape))
+            self.levels.append(Level(middle, half, first, last, charges))
+            if len(middle) == 1:
+                return
+            if len(middle) % 2:  # an empty sibling for the last node
+                middle, start, end = (np.append(v, end[-1]) for v in (middle, start, end))
+                half, first, last = np.append(half, 0.0), _again(first), _again(last)
+                charges = np.concatenate((charges, np.zeros_like(charges[:, :1])), axis=1)
+            start, end = start[::2], end[1::2]
+            first, last = np.minimum(first[::2], first[1::2]), np.maximum(last[::2], last[1::2])
+            points = Points(np.repeat(middle[:, None], CHARGES, axis=1), half[:, None] * POINTS)
+
+    def separated(
+        self, chord: Chord, owner: Index, narrow: tuple[Array, Array], wide: tuple[Array, Array]
+    ) -> Separation:
+        """The nodes far from groups in the intervals `wide`; those whose rows all are a group's
+        own have to be far from its interval `narrow` only.
+        """
+        groups = len(owner)
+        if not self.levels:
+            row = np.tile(self.order, groups)
+            return Separation([], row, np.repeat(np.arange(groups), self.rows))
+        node, group, far = np.zeros(groups, dtype=np.int64), np.arange(groups), []
+        for number in range(len(self.levels) - 1, -1, -1):
+            level = self.levels[number]
+            own = (level.first[node] == owner[group]) & (level.last[node] == owner[group])
+            lo, hi = (np.where(own, v[group], w[group]) for v, w in zip(narrow, wide, strict=True))
+            away = chord.distance(level.middle[node], lo, hi) >= FAR * level.half[node]
+            far.append((level, node[away], group[away]))
+            node, group = node[~away], group[~away]
+            if number:
+                node, group = (2 * node[:, None] + np.arange(2)).ravel(), np.repeat(group, 2)
+                exists = node < len(self.levels[number - 1].middle)
+                node, group = node[exists], group[exists]
+        row, group = (LEAF * node[:, None] + np.arange(LEAF)).ravel(), np.repeat(group, LEAF)
+        exists = row < self.rows
+        return Separation(far, self.order[row[exists]], group[exists])
+
+
+def _again(v: Index) -> Index:
+    return np.append(v, v[-1])
+
+
+def _gathered(u: Array, charges: Array) -> Array:
+    """Charges (sets, nodes, CHARGES) with the moments of charges (sets, nodes, n) at u."""
+    out = np.empty((*charges.shape[:2], CHARGES))
+    size = max(CHUNK // (u.shape[1] * CHARGES), 1)
+    for start in range(0, len(u), size):
+        some = slice(start, start + size)
+        T = chebyshev.polynomials(CHARGES, u[some]).transpose(1, 2, 0)
+        out[:, some] = (charges[:, some].transpose(1, 0, 2) @ T @ SPREAD).transpose(1, 0, 2)
+    return out
+
+
+CHUNK = 1 << 18  # entries of an array that are computed at once
+
+
+def _spread() -> Array:
+    """Charges on the Chebyshev points that have given moments, as a matrix (n, i)."""
+    quarter = np.outer(np.arange(CHARGES), 2 * np.arange(CHARGES, 0, -1) - 1) % (4 * CHARGES)
+    Q: Array = np.cos(np.pi / (2 * CHARGES) * quarter) * (2.0 / CHARGES)
+    Q[0] *= 0.5
+    return Q
+
+
+POINTS = chebyshev.points(CHARGES)
+SPREAD = _spread()

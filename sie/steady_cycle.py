@@ -1,0 +1,285 @@
+"""The steady state of a cycle between two load points, without following a path to it.
+
+In a state that repeats, a point that slips one way on the way to A slips back on the way to B.
+Where it slips, q_A - q_B = s f (p_A + p_B); in the permanent stick zone the strain of q_A - q_B is
+that of the bulk stresses. Subtracting leaves a normal problem once more,
+
+    q_A - q_B = s f (p_A + p_B - 2 p^),      s the sign of Q_A - Q_B,
+
+p^ the pressure of the same profile under P^ = [P_A + P_B - |Q_A - Q_B|/f]/2 at the tilt
+(θ_A + θ_B)/2 - s (τ_A - τ_B)/(f E*), and its contact is the permanent stick zone. Neither the means
+of Q and σ nor the way to the steady state matter. A large bulk stress makes the edges slip in
+opposite directions: then, at constant P and tilt, twice the first loading by half of the change.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import arguments
+from .errors import ContactError
+from .friction.load_steps import steady_points
+from .friction.states import Slip
+from .history import History, refuse_uncovered, step_slip
+from .problem.load_path import Path
+from .problem.request import ECONOMY
+from .problem.scene import Scene
+from .solution import Solution
+from .stress.fretting import Cycle
+from .stress.half_plane import Stress, Tractions
+from .traction.base import Density, on_line
+from .traction.combination import superposed
+
+Array = NDArray[np.float64]
+
+
+def steady_cycle(
+    scene: Scene,
+    A: Sequence[float],
+    B: Sequence[float],
+    tol: float = 1e-13,
+    economy: Collection[str] = ECONOMY,
+) -> SteadyCycle:
+    """The steady state of a cycle in which all loads go from A to B and back in phase.
+
+    Parameters
+    ----------
+    scene : Scene
+        Profile, bodies, friction and tilt; its loads are replaced by those of A and B.
+    A, B : sequence of float
+        (P, Q, σ) or (P, Q, σ, tilt) at the two turning points, as in `Path`.
+    tol : float, optional
+        As in `solve`.
+    economy : collection of str, optional
+        As in `solve`.
+
+    Returns
+    -------
+    SteadyCycle
+        Permanent stick zone, energy per cycle, ranges of slip and shear.
+
+    Raises
+    ------
+    ValueError
+        For values that are no loads, or a scene of full stick.
+    ContactError
+        Where the steady state is not that of one permanent stick zone which both ends of the slip
+        reach at once.
+
+    Examples
+    --------
+    >>> import sie
+    >>> scene = sie.Scene(profile=sie.Parabola(100.0), modulus=80e3, normal_load=50.0, friction=0.5)
+    >>> cycle = sie.steady_cycle(scene, (55.0, 15.0, 30.0), (50.0, -5.0, -30.0))
+    >>> [[round(end, 6) for end in zone] for zone in cycle.stick]
+    [[-0.20968, 0.23968]]
+    """
+    refuse_uncovered(scene)
+    points, tilts = zip(*(_point(name, p) for name, p in (("A", A), ("B", B))), strict=True)
+    path = Path((*points, points[0]), tilt=(*tilts, tilts[0]) if any(tilts) else ())
+    return SteadyCycle(History(scene, path, tol, economy, steps=steady_points))
+
+
+def _point(name: str, point: Sequence[float]) -> tuple[tuple[float, ...], float]:
+    values = arguments.listed(name, point, "(P, Q, σ) or (P, Q, σ, tilt)")
+    if len(values) not in (2, 3, 4):
+        raise ValueError(f"{name} = {point!r}: give (P, Q, σ) or (P, Q, σ, tilt)")
+    return values[:3], arguments.measure(f"tilt of {name}", values[3]) if len(values) == 4 else 0.0
+
+
+class SteadyCycle(Sequence["SteadyState"]):
+    """The steady state of a cycle between two load points; `steady_cycle` makes it.
+
+    Parameters
+    ----------
+    history : History
+        The path from A to B and back.
+
+    Notes
+    -----
+    A steady cycle is a sequence of its two turning points, which `sie.Cycle` takes. Ranges are
+    those of the steady state. The mean of the shear in the permanent stick zone depends on how the
+    steady state was reached: here it is that of a contact that comes to A by P and tilt first, then
+    Q and σ.
+    """
+
+    def __init__(self, history: History) -> None:
+        self.history = history
+
+    def __len__(self) -> int:
+        return 2
+
+    @overload
+    def __getitem__(self, index: int) -> SteadyState: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[SteadyState]: ...
+    def __getitem__(self, index: int | slice) -> SteadyState | Sequence[SteadyState]:
+        return self._states[index]
+
+    def __iter__(self) -> Iterator[SteadyState]:
+        return iter(self._states)
+
+    @property
+    def _slipping(self) -> bool:
+        return self.history.turning_points[0].memory.top is not None
+
+    def _reduced(self, index: int) -> Slip:
+        """The first loading of A or B to the depth of slip."""
+        point = self.history.turning_points[index]
+        assert point.memory.top is not None
+        depth = point.memory.top.thickness
+        return self.history.first_loading(point.loads.normal, depth, point.turned)
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:
+        """The permanent stick zone, ((lo, hi),) in lengths."""
+        if self._slipping:
+            return self._reduced(1).stick
+        (a, b), (c, d) = (self.history.plain(*p.loads.normal).edges for p in self._ends)
+        return ((max(a, c), min(b, d)),)
+
+    @property
+    def energy(self) -> float:
+        """The energy that friction dissipates in each cycle, force per length times length."""
+        return self.history.energy(2)
+
+    def slip_range(self, x: ArrayLike) -> Array:
+        """The range of the slip in a cycle, as length, at positions x on the surface.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions, length.
+
+        Returns
+        -------
+        ndarray of float
+            0 in the permanent stick zone and outside the contact.
+
+        Raises
+        ------
+        ContactError
+            For points that leave the contact in each cycle.
+        """
+        return on_line(lambda at: np.abs(self._slip(at)), x)
+
+    def _slip(self, x: Array) -> Array:
+        (a, b), (c, d) = (self.history.plain(*p.loads.normal).edges for p in self._ends)
+        leaving = ((a <= x) & (x <= b)) != ((c <= x) & (x <= d))
+        if leaving.any() and self._slipping:
+            raise ContactError(
+                f"x = {float(x[leaving][0]):.6g} leaves the contact in each cycle: how far it "
+                f"slips is not covered; ask for points within [{max(a, c):.6g}, {min(b, d):.6g}]"
+            )
+        return step_slip(self.history, 1, x)
+
+    def shear_range(self, x: ArrayLike) -> Array:
+        """|q_A - q_B|, the range of the shear traction in a cycle, as stress, at positions x.
+
+        Parameters
+        ----------
+        x : array_like of float
+            Positions on the surface, length.
+
+        Returns
+        -------
+        ndarray of float
+            As stress; 0 outside the contacts.
+        """
+        return np.abs(self.shear_change(x))
+
+    @cached_property
+    def shear_change(self) -> Density:
+        """q_A - q_B, a `Density` in units of stress."""
+        top = self.history.turning_points[0].memory.top
+        if top is None:
+            return self._locked
+        return superposed(*((top.k, self._reduced(index).shear) for index in (0, 1)))
+
+    @property
+    def _locked(self) -> Density:
+        """q_A - q_B where nothing slips: the layers that come and go carry a multiple of p."""
+        first, second = self._ends
+        rise, pull = (
+            end(first.loads) - end(second.loads) for end in (self.history.level, self.history.shear)
+        )
+        if not (rise or pull):
+            return superposed()
+        if pull and (abs((pull / rise).imag) > 1e-12 * abs(pull / rise)):
+            raise ContactError(
+                "nothing slips in this cycle, while Q, bulk stress and tilt do not change in "
+                "proportion to P: the shear that comes and goes is no multiple of the pressure, "
+                "which is not covered"
+            )
+        k = self.history.scene.friction * (pull / rise).real
+        on = [self.history.plain(*p.loads.normal).slope_density for p in self._ends]
+        return superposed((k, on[0]), (-k, on[1]))
+
+    @property
+    def _ends(self) -> tuple[Any, Any]:
+        first, second, _ = self.history.turning_points
+        return first, second
+
+    @cached_property
+    def cycle(self) -> Cycle:
+        """The stresses of the cycle, as `Cycle` gives them."""
+        return Cycle(self)
+
+    @cached_property
+    def _states(self) -> tuple[SteadyState, SteadyState]:
+        plain = [self.history.plain(*p.loads.normal) for p in self._ends]
+        loads = [p.loads for p in self._ends]
+        first = Solution(
+            replace(plain[0].scene, tangential_load=loads[0].Q, bulk_stress=loads[0].sigma),
+            self.history.tol,
+            self.history.economy,
+        ).shear
+        shears = first, superposed((1.0, first), (-1.0, self.shear_change))
+        at_A, at_B = (
+            SteadyState(replace(p.tractions, shear=q, bulk_stress=load.sigma), index, self)
+            for index, (p, q, load) in enumerate(zip(plain, shears, loads, strict=True))
+        )
+        return at_A, at_B
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyState:
+    """One of the two turning points of a steady cycle, as `Cycle` uses it.
+
+    Parameters
+    ----------
+    tractions : Tractions
+        Pressure, shear and bulk stress there.
+    index : int
+        0 for A and 1 for B.
+    steady : SteadyCycle
+        The cycle.
+    """
+
+    tractions: Tractions
+    index: int
+    steady: SteadyCycle
+
+    @property
+    def pressure(self) -> Density:
+        """The contact pressure, a `Density`."""
+        return self.tractions.pressure
+
+    @property
+    def shear(self) -> Density:
+        """The shear traction, a `Density`."""
+        return self.tractions.shear
+
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
+        """The stress at points of the body, as `Solution.stress`."""
+        return Stress(self.tractions, x, y)
+
+    def slip(self, x: ArrayLike) -> Array:
+        """The slip at x, counted from A."""
+        return on_line(self.steady._slip if self.index else np.zeros_like, x)

@@ -1,0 +1,384 @@
+"""Dissimilar bodies under P, then Q: equations (1) and (12) coupled, with a kept slip gradient."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import mpmath
+import numpy as np
+import pytest
+
+import sie
+from sie.certificate.coupled_check import gradient_of_slip
+from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.friction.coupled_functions import flat_functions
+from sie.friction.coupled_gradient import SlipGradient
+from sie.friction.coupled_zones import Map, Zones
+from sie.numerics.elliptic import modulus_of
+
+# (x1, e1, e2, x2) under a parabola, E* = 2, R = 1, P = π/2, by (β, f, Q/(f P)), to the digits that
+# two formulations agree in: one with p_d on panels, and one with three moments.
+REFERENCES = {
+    (0.3, 0.3, 0.9): (-1.0519254056, -0.6097293963, -0.244163237, 0.9472096729),
+    (0.3, 0.3, 0.3): (-1.0057559987, -0.8926580288, 0.158912098, 0.9647789599),
+    (0.2, 0.3, 0.5): (-1.01532322015, -0.83988900820, 0.20122605354, 0.97285851730),
+    (0.5, 0.5, 0.5): (-1.07217272827, -0.8194328666, -0.029391648, 0.89252781776),
+}
+PROFILES = {
+    "wedge": sie.Wedge(0.1),
+    "parabola": sie.Parabola(1.0),
+    "power": sie.Power(2.5, 0.4),
+    "rounded flat": sie.RoundedFlat(0.5, 1.0),
+    "nearly flat": sie.RoundedFlat(20.0, 1.0),
+    "function": sie.FromFunction(slope="sinh(x)"),
+    "shifted": sie.Parabola(1.0).shifted(3.0),
+    "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
+}
+
+
+def scene(profile=None, beta=0.3, friction=0.3, part=0.5, load=1.0, **others):
+    return sie.Scene(
+        profile=profile or sie.Parabola(1.0),
+        modulus=2.0,
+        dundurs=beta,
+        friction=friction,
+        normal_load=load,
+        tangential_load=part * friction * load,
+        **others,
+    )
+
+
+def solved(*args, **kwargs):
+    return sie.solve(scene(*args, **kwargs))
+
+
+def zones(solution):
+    ((e1, e2),) = solution.stick
+    x1, x2 = solution.edges
+    return np.array([x1, e1, e2, x2])
+
+
+# -- the edges -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", REFERENCES)
+def test_edges_of_contact_and_stick_agree_with_another_formulation(case):
+    found = zones(solved(None, *case, load=0.5 * math.pi))
+    assert found == pytest.approx(np.array(REFERENCES[case]), abs=6e-10)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_certificate_holds_for_every_profile(name):
+    certificate = solved(PROFILES[name]).check()
+    assert certificate.ok
+    assert certificate.error < 1e-11
+    assert certificate.shear.error < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("beta", "friction", "part"),
+    [(0.1, 0.6, 0.5), (0.07, 0.3, 0.2), (0.001, 0.3, 0.5), (0.5, 0.5, 0.99), (0.3, 0.3, 1e-3)],
+)
+def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(beta, friction, part):
+    certificate = solved(sie.RoundedFlat(0.5, 1.0), beta, friction, part).check()
+    assert certificate.ok
+    assert max(certificate.error, certificate.shear.equilibrium) < 1e-11
+
+
+def test_certificate_is_not_ok_for_another_mismatch():
+    right = solved()
+    wrong = sheared_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
+    assert not wrong.ok
+
+
+def test_certificate_is_not_ok_for_another_load():
+    right = solved()
+    other = replace(right.scene, tangential_load=right.tangential_load * (1.0 + 1e-6))
+    assert not sheared_certificate(right.coupled[1], other, 1e-13).ok
+
+
+# -- mirror images, scale and limits ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("beta", "part"), [(0.3, -0.5), (-0.3, 0.5), (-0.3, -0.5)])
+def test_signs_of_the_load_and_of_the_mismatch_give_mirror_images(beta, part):
+    one, other = solved(), solved(None, beta, 0.3, part)
+    flip = math.copysign(1.0, beta * part)
+    expected = zones(one) if flip > 0.0 else -zones(one)[::-1]
+    assert zones(other) == pytest.approx(expected, rel=1e-13)
+    x = np.linspace(*other.edges, 41)[1:-1]
+    sign = math.copysign(1.0, part)
+    assert other.pressure(x) == pytest.approx(one.pressure(flip * x), rel=1e-11)
+    assert other.shear(x) == pytest.approx(sign * one.shear(flip * x), abs=1e-12)
+    assert other.slip(x) == pytest.approx(sign * one.slip(flip * x), abs=1e-12)
+
+
+def test_lengths_and_moduli_only_scale_the_answer():
+    one = solved(sie.RoundedFlat(0.5, 1.0))
+    small = sie.solve(
+        replace(
+            one.scene,
+            profile=sie.RoundedFlat(0.5e-6, 1e-6),
+            modulus=2e12,
+            normal_load=1e6,
+            tangential_load=one.tangential_load * 1e6,
+        )
+    )
+    assert zones(small) * 1e6 == pytest.approx(zones(one), rel=1e-11)
+
+
+@pytest.mark.parametrize("profile", [sie.Parabola(1.0), sie.RoundedFlat(0.5, 1.0)])
+def test_zones_tend_to_cattaneos_in_proportion_to_the_mismatch(profile):
+    alike = zones(solved(profile, beta=0.0))
+    near, nearer = (np.abs(zones(solved(profile, b)) - alike).max() for b in (1e-3, 1e-4))
+    assert near < 1e-2
+    assert near / nearer == pytest.approx(10.0, rel=0.05)
+
+
+def test_contact_tends_to_that_of_full_sliding():
+    sliding = sie.solve(replace(scene(part=0.0), sliding=1))
+    last = solved(part=1.0 - 1e-8)
+    assert last.edges == pytest.approx(sliding.edges, abs=1e-7)
+    assert np.ptp(last.stick) < 1e-3
+
+
+def test_zones_leave_those_of_the_normal_load_like_the_root_of_a_small_load():
+    c, b = solved(part=0.0).stick[0][1], solved(part=0.0).half_width
+    grown = [(c - zones(solved(part=q))[2]) / math.sqrt(q) for q in (1e-2, 1e-3)]
+    assert grown[0] == pytest.approx(grown[1], rel=0.05)
+    assert np.abs(solved(part=1e-3).edges) == pytest.approx(b, rel=1e-3)
+
+
+def test_full_stick_gives_way_to_a_load():
+    solution = solved(None, 0.05, 0.8, 0.4)
+    assert solved(None, 0.05, 0.8, 0.0).coupled[1].full_stick
+    assert zones(solution)[1] > solution.edges[0] + 0.01
+    assert solution.check().error < 1e-11
+
+
+# -- the slip gradient of normal loading -----------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["wedge", "parabola", "rounded flat", "kinked"])
+@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.5, 0.1)])
+def test_slip_gradient_is_that_of_the_tractions(name, beta, friction):
+    solution = solved(PROFILES[name], beta, friction, 0.0)
+    state = solution.coupled[1]
+    y = state.b * np.array([0.05, 0.37, 0.61, 0.93])
+    gradient = SlipGradient(state.superposition, state.ahead)
+    found = gradient(y, state.half_modulus * PROFILES[name].slope(y))
+    assert found == pytest.approx(gradient_of_slip(state, y, beta), abs=1e-11)
+
+
+def test_kept_slip_gradient_of_a_parabola_is_linear():
+    state = solved(None, 0.3, 0.3, 0.0, load=0.5 * math.pi).coupled[1]
+    y = state.c * np.linspace(0.1, 0.9, 5)
+    gradient = SlipGradient(state.superposition, state.ahead)(y, y)
+    assert gradient / y == pytest.approx(0.3961609253, rel=1e-9)
+
+
+def test_slip_gradient_beside_a_flat_is_the_principal_value_of_its_shear():
+    beta, friction, at = 0.3, 0.3, 1.5
+    flat = flat_functions(beta, friction)
+    context = mpmath.MPContext()
+    context.dps = 15
+
+    def shear(t, rest):
+        place = tuple(np.array([float(v)]) for v in (t, rest, abs(flat.rest - rest)))
+        return friction * float(flat.pressure(*place)[0]) - float(flat.shear_deficit(*place)[0])
+
+    def integrand(t, rest):
+        return shear(t, rest) * (1.0 / (at - t) - 1.0 / (at + t)) / context.pi
+
+    start, power = 0.5 * (1.0 + flat.c), 1.0 / (1.0 - flat.h)
+
+    def next_to_edge(u):  # smooth in u, as q ~ (1 - t)^-h
+        rest = (1.0 - start) * u**power
+        return integrand(1.0 - rest, rest) * power * (1.0 - start) * u ** (power - 1.0)
+
+    parts = [
+        context.quad(lambda t: integrand(t, 1.0 - t), ends)
+        for ends in ([0.0, flat.c], [flat.c, start])
+    ]
+    E = float(sum(parts) + context.quad(next_to_edge, [0, 1]))
+    one = np.array([1.0])
+    D = float(flat.outside(one / at, one - one / at)[0]) / at
+    J = float(flat._J(one * at, one - at, flat._S_in_stick)[0])
+    assert friction * D - J == pytest.approx(E, abs=1e-9)
+
+
+# -- the equations behind it -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [1e-9, 0.3, 0.999])
+def test_quarter_periods_of_a_modulus_are_mpmaths(k):
+    rest = math.sqrt((1.0 - k) * (1.0 + k))
+    found = modulus_of(k, rest)
+    context = mpmath.MPContext()
+    context.dps = 40
+    square = context.mpf(k) ** 2
+    K, K_complement = float(context.ellipk(square)), float(context.ellipk(1 - square))
+    assert pytest.approx(K, rel=1e-14) == found.K
+    assert found.K_complement == pytest.approx(K_complement, rel=1e-14)
+
+
+def test_map_takes_the_four_edges_to_their_places():
+    zones = Zones(-1.2, -0.9, 0.1, 0.7)
+    m = Map(zones, 0.05)
+    y = np.array([-1.0 / m.k, -1.0, 1.0, 1.0 / m.k])
+    middle = 0.5 * (zones.e1 + zones.e2)
+    assert middle + m.place(1.0 + y, 1.0 - y) == pytest.approx(np.array(zones), abs=1e-14)
+
+
+# -- the state -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_shear_is_friction_times_pressure_in_slip_and_less_in_stick(name):
+    solution = solved(PROFILES[name])
+    x1, e1, e2, x2 = zones(solution)
+    slip = np.append(x1 + (e1 - x1) * np.linspace(0.01, 0.99, 9), np.linspace(e2, x2, 11)[1:-1])
+    assert solution.shear(slip) == pytest.approx(0.3 * solution.pressure(slip), rel=1e-12)
+    stick = np.linspace(e1, e2, 32)[1:-1]
+    assert (np.abs(solution.shear(stick)) < 0.3 * solution.pressure(stick)).all()
+
+
+@pytest.mark.parametrize("name", ["wedge", "parabola", "rounded flat"])
+def test_potentials_are_those_of_the_tractions(name):
+    solution = solved(PROFILES[name])
+    z = np.array([1e6 + 1e6j]) * solution.half_width
+    for traction, load in (
+        (solution.pressure, solution.normal_load),
+        (solution.shear, solution.tangential_load),
+    ):
+        assert traction.resultant == load
+        assert math.pi * traction.cauchy(z) * z == pytest.approx(np.array([load]), rel=1e-5)
+        x = solution.half_width * np.array([-0.83, -0.31, 0.07, 0.55])
+        assert traction.cauchy(x).imag == pytest.approx(-traction(x), abs=1e-12)
+    beside = np.array([-1.3, 1.4]) * solution.half_width
+    hilbert = solution.coupled[1].hilbert_outside(beside)
+    assert solution.pressure.hilbert(beside) == pytest.approx(hilbert, abs=1e-12)
+
+
+def test_moment_is_that_of_the_pressure():
+    solution = solved(sie.RoundedFlat(0.5, 1.0).shifted(2.0))
+    x1, x2 = solution.edges
+    phi = (np.arange(4000) + 0.5) * math.pi / 4000
+    r = 0.5 * (x2 - x1)
+    x = 0.5 * (x1 + x2) + r * np.cos(phi)
+    moment = (solution.pressure(x) * x * r * np.sin(phi)).sum() * math.pi / 4000
+    assert solution.moment == pytest.approx(moment, rel=1e-6)
+    assert solution.pressure.moment == solution.moment
+
+
+def test_slip_beyond_that_of_the_normal_load_goes_with_the_load():
+    before, after = solved(part=0.0), solved()
+    _, e1, e2, x2 = zones(after)
+    b = before.half_width
+    stick, slip = (
+        np.linspace(e1, e2, 9),
+        np.append(np.linspace(-b, e1, 7)[:-1], np.linspace(e2, x2, 7)[1:]),
+    )
+    assert after.slip(stick) == pytest.approx(before.slip(stick), abs=1e-14)
+    assert (after.slip(slip) > before.slip(slip)).all()
+    assert after.slip(np.array([e1 - 1e-9, e2 + 1e-9])) == pytest.approx(
+        before.slip(np.array([e1, e2])), abs=1e-9
+    )
+
+
+def test_gap_opens_as_the_profile_and_the_pressure_ask():
+    solution = solved(sie.RoundedFlat(0.5, 1.0))
+    x1, x2 = solution.edges
+    for x in (x1 - 0.3, x2 + 0.2):
+        step = 1e-5
+        ends = solution.gap([x - step, x + step])
+        slope = solution.scene.profile.slope([x]) - solution.pressure.hilbert([x])
+        assert (ends[1] - ends[0]) / (2.0 * step) == pytest.approx(float(slope[0]), rel=1e-8)
+    assert (solution.gap([x1, 0.0, x2]) == 0.0).all()
+    assert (solution.gap([x1 - 1e-4, x2 + 1e-4]) > 0.0).all()
+
+
+def test_surface_stress_is_in_balance_with_the_tractions():
+    solution = solved(sie.RoundedFlat(0.5, 1.0), poisson=0.3)
+    x = np.linspace(*solution.edges, 11)[1:-1]
+    surface = solution.surface_stress(x)
+    assert surface.yy == pytest.approx(-solution.pressure(x), abs=1e-12)
+    assert surface.xy == pytest.approx(-solution.shear(x), abs=1e-12)
+
+
+def test_largest_tension_is_at_the_trailing_edge():
+    solution = solved(poisson=0.3)
+    assert solution.peak_tension().x == pytest.approx(solution.edges[0], rel=1e-6)
+
+
+# -- with other loads ------------------------------------------------------------------------------
+
+
+def test_another_tangential_load_keeps_the_state_of_the_normal_load():
+    one = solved()
+    _ = one.edges
+    other = one.with_(tangential_load=0.1)
+    assert other.tangential_search is one.tangential_search
+    assert zones(other) == pytest.approx(zones(sie.solve(other.scene)), rel=1e-12)
+
+
+def test_full_load_slides():
+    assert solved(part=1.0).stick == ()
+
+
+def test_plan_names_the_stages_that_are_filled():
+    planned = sie.plan(scene(), want=("edges", "pressure", "check"))
+    solution = solved()
+    _ = solution.edges, solution.pressure(0.0), solution.check()
+    assert planned.stages <= set(vars(solution))
+
+
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        (sie.Flat(1.0), "corner of the indenter"),
+        (sie.Piecewise((-0.3, 0.3), ((0.0, 1.0),)), "corner"),
+    ],
+)
+def test_sharp_edges_are_refused_with_the_width_of_the_zone_that_is_missing(profile, words):
+    with pytest.raises(sie.ContactError, match=words):
+        _ = solved(profile).edges
+
+
+def test_width_of_the_zone_that_is_missing_follows_the_oscillation_of_a_bonded_edge():
+    width = math.exp(-math.pi * (0.5 * math.pi + math.atan(0.3)) / math.atanh(0.3))
+    with pytest.raises(sie.ContactError, match=f"about {width:.1g} half-widths"):
+        _ = solved(sie.Flat(1.0)).edges
+
+
+def test_energy_and_shift_are_refused():
+    solution = solved()
+    with pytest.raises(sie.ContactError, match="energy"):
+        _ = solution.energy_lost
+    with pytest.raises(sie.ContactError, match="shift"):
+        _ = solution.shift
+
+
+def test_stick_of_what_came_into_contact_under_the_load_is_refused():
+    with pytest.raises(sie.ContactError, match="came into contact under Q"):
+        _ = solved(sie.Wedge(0.1), 0.3, 8.0, 0.5).edges
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"normal_load": None, "half_width": 1.0}, "give normal_load"),
+        ({"tilt": 0.01}, "both of its ends"),
+        ({"bulk_stress": 0.01}, "strain of the body"),
+    ],
+)
+def test_what_is_not_solved_is_refused_before_any_work(changes, words):
+    with pytest.raises(sie.ContactError, match=words):
+        sie.solve(replace(scene(), **changes))
+
+
+def test_paths_are_refused_with_what_is_missing():
+    path = sie.Path([(1.0, 0.1), (1.0, 0.0)])
+    with pytest.raises(sie.ContactError, match="unloading of P or a reversal of Q"):
+        sie.follow(scene(part=0.0), path)
