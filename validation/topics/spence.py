@@ -111,7 +111,7 @@ def equations(shares: tuple[float, ...]) -> Iterator[Record]:
             solution = solved(profile, beta, f)
             scene = replace(solution.scene, dundurs=beta * (1.0 + OFF))
             found = solution.check()
-            other = coupled_certificate(solution.coupled[1], scene, 1e-13)
+            other = coupled_certificate(solution.pressed[1], scene, 1e-13)
             ones.append(found.residual)
             twelves.append(of_shear(found))
             wrong_ones.append(other.residual)
