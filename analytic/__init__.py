@@ -9,7 +9,7 @@ Each module is one indenter under one kind of load:
     sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
     bonded_flat                                           no slip at all, dissimilar bodies
     cattaneo, cattaneo_rounded                            partial slip, bodies alike
-    goodman                                               stick zone of dissimilar bodies
+    goodman, spence                                       stick zone of dissimilar bodies
     cracks                                                what corresponds among cracks
 
 All speak one notation:
@@ -76,6 +76,7 @@ from analytic import (
     sliding_flat,
     sliding_hertz,
     sliding_rounded_flat,
+    spence,
     two_flats,
     two_parabolas,
     two_punches,
@@ -101,6 +102,7 @@ __all__ = [
     "sliding_flat",
     "sliding_hertz",
     "sliding_rounded_flat",
+    "spence",
     "two_flats",
     "two_parabolas",
     "two_punches",

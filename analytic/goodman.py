@@ -23,9 +23,10 @@ convex indenter that is pressed by a growing load (Spence 1975).
 
 import numpy as np
 
+from analytic import flat
 from analytic._core.documentation import documented
-from analytic._core.numbers import Library, Number, as_result, bits
-from analytic._core.parameters import positive
+from analytic._core.numbers import Library, Number, as_result, bits, fraction, sign, smaller
+from analytic._core.parameters import positive, real
 
 GOODMAN = "L. E. Goodman, Contact stress analysis of normally loaded rough spheres (1962)"
 SPENCE = "D. A. Spence, The Hertz contact problem with finite friction (1975)"
@@ -56,6 +57,38 @@ def slip_width(
     """
     b, k, complement = _moduli(half_width, friction, dundurs, lib)
     return as_result(b * complement * complement / (1 + k))
+
+
+@documented("q, a stress: positive on the right", *SOURCES)
+def flat_shear(
+    x: Number,
+    *,
+    half_width: Number,
+    normal_load: Number,
+    friction: Number,
+    dundurs: Number,
+    lib: Library = np,
+) -> Number:
+    """The shear under a flat punch, f p F(arcsin(x/c), c/b)/K(c/b) in stick and f p in slip.
+
+    Zero beside the contact, and at the edges infinite like the pressure. The ratio of the
+    integrals by Landen's transformation, which takes it from φ to φ + atan(tan φ g/a)
+    (Abramowitz & Stegun 1964, § 17.6).
+
+    >>> args = {"half_width": 1.0, "normal_load": 1.0, "friction": 0.1, "dundurs": 0.1}
+    >>> round(float(flat_shear(0.7071067811865475, **args)), 9)
+    0.045015816
+    """
+    b, k, complement = _moduli(half_width, friction, dundurs, lib)
+    f, P = positive("friction", friction, lib), positive("normal_load", normal_load, lib)
+    part = abs(real("x", x, lib)) / (b * k)
+    angle, a, g, scale = lib.asin(smaller(part, 1, lib)), 1, complement, 1
+    for _ in range(bits(lib).bit_length() + 8):
+        turns = lib.floor(angle / lib.pi + fraction(1, 2, lib))
+        angle = angle + lib.atan(g / a * lib.sin(angle) / lib.cos(angle)) + turns * lib.pi
+        a, g, scale = (a + g) / 2, lib.sqrt(a * g), 2 * scale
+    ratio = _choose(lib, part < 1, 2 * angle / (lib.pi * scale), 1)
+    return as_result(sign(x) * f * ratio * flat.pressure(x, half_width=b, normal_load=P, lib=lib))
 
 
 def _moduli(

@@ -14,13 +14,15 @@ LOADS = ("normal_load", "half_width", "tilt", "moment")
 NORMAL = frozenset(
     ("profile", "body", "indenter", "modulus", *LOADS, "epsilon", "bonded", "coupled")
 )
-SHEAR = NORMAL | {"friction", "tangential_load", "sliding", "bulk_stress", "dundurs"}
-PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs"}
+TANGENTIAL = ("friction", "tangential_load", "sliding", "bulk_stress")
+SHEAR = NORMAL | {*TANGENTIAL, "dundurs", "coupling"}
+OF_SHEAR = ("bonded", "coupled", "tangential", "dissipated", "certificate", "approximation")
+PRESSED = (NORMAL - {"coupled"}) | {"friction", "dundurs", "coupling"}
 STAGES = {
     **dict.fromkeys(
         ("unverified", "density", "inequalities", "normal", "in_patches", "pressure"), NORMAL
     ),
-    **dict.fromkeys(("bonded", "coupled", "tangential", "dissipated", "certificate"), SHEAR),
+    **dict.fromkeys(OF_SHEAR, SHEAR),
     **dict.fromkeys(("pressed", "tangential_search"), PRESSED),
 }
 

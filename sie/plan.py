@@ -311,6 +311,8 @@ def _inequalities(scene: Scene, economy: Collection[str]) -> Step:
 def _coupling(scene: Scene) -> Step:
     if scene.beta == 0.0:
         return Step("coupling", False, "β = 0: pressure and shear are uncoupled")
+    if scene.neglects_beta:
+        return Step("coupling", False, "β q is left out: Goodman's approximation")
     if scene.slides:
         why = (
             f"β = {scene.beta:.4g} and q = {scene.slides * scene.friction:g} p: "
@@ -339,6 +341,9 @@ def _slip(scene: Scene, asked: bool, economy: Collection[str]) -> Step:
     for holds, why in cases:
         if holds:
             return Step("slip", False, why, "tangential")
+    if scene.goodman:
+        how = "flats superposed while the load grew; Q changes what the shear lacks of f p"
+        return Step("slip", True, how, "tangential")
     how = one_way if scene.tau == 0.0 else f"{either} inequalities"
     return Step("slip", True, how, "tangential")
 
@@ -348,6 +353,8 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
     name = "corrective"
     if not sheared(scene, economy):
         return Step(name, False, "there is no shear traction")
+    if scene.goodman:
+        return Step(name, False, "the shear follows from how the contact grew")
     if scene.slides and "sliding" in economy:
         return Step(
             name, False, "|Q| = f P, full sliding: q is f times the pressure, no second solve"

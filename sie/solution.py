@@ -20,7 +20,7 @@ from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
-from .certificate.shear_check import shear_certificate
+from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, patch_trace_reports, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
@@ -28,6 +28,7 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import Normal, pressure
 from .errors import ContactError, InequalityError, LoadError
+from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
 from .friction.coupled_normal import coupled_contact
 from .friction.coupled_sheared import ShearedContact, sheared_contact
@@ -36,6 +37,8 @@ from .friction.coupled_traction import OnHalves
 from .friction.coverage import refuse_uncovered
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
+from .friction.goodman import GoodmanSlip, goodman_slip
+from .friction.goodman_departure import departure
 from .friction.partial_slip import slip
 from .friction.states import Slip, Step
 from .kept_stages import changed_scene, kept_stages
@@ -267,7 +270,19 @@ class Solution:
     @cached_property
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
+        if self.scene.goodman:
+            self._refuse_goodman_in_patches()
+            growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
+            return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         return self.first_loading(self._loads, self.patches_under)
+
+    def _refuse_goodman_in_patches(self) -> None:
+        if self._several is not None:
+            raise ContactError(
+                f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear in "
+                "it follows from how one patch grew; give a convex profile, or dundurs = 0 to "
+                "neglect β"
+            )
 
     def first_loading(
         self,
@@ -304,7 +319,7 @@ class Solution:
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
         state = self.tangential
-        return state.energy if isinstance(state, PatchSlip) else dissipated(state)
+        return state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -323,12 +338,13 @@ class Solution:
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
-        return replace(
-            found,
-            shear=shear_certificate(
+        if isinstance(self.tangential, GoodmanSlip):
+            shear = goodman_certificate(self.tangential, self.slip_notes[0], self.tol)
+        else:
+            shear = shear_certificate(
                 self.tangential, self.slope_density, self._loads, self._slope, self.tol
-            ),
-        )
+            )
+        return replace(found, shear=shear)
 
     @property
     def slope_density(self) -> SlopeDensity:
@@ -550,7 +566,7 @@ class Solution:
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:
-        if self.scene.epsilon:
+        if self.scene.slides and self.scene.beta:
             raise ContactError(
                 f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
                 "a matter of partial slip, which is not covered for them yet: pressure, shear and "
@@ -688,10 +704,17 @@ class Solution:
 
     @property
     def slip_notes(self) -> tuple[str, ...]:
-        """A sentence on slip zones that would retreat on the way to the loads, or ()."""
+        """A sentence on what is approximated in the slip, or ()."""
+        if self.scene.neglects_beta:
+            return (self.approximation,)
         if not self.sheared or self.tangential.advancing:
             return ()
         return (f"note: slip is found in total displacements: {RETREAT}",)
+
+    @cached_property
+    def approximation(self) -> str:
+        """A sentence on what neglecting β q changes; "" where it is not neglected."""
+        return departure(self.scene, self.tol) if self.scene.neglects_beta else ""
 
     @property
     def strain_notes(self) -> tuple[str, ...]:

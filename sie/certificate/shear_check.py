@@ -4,16 +4,22 @@ residual      max |1/π PV∫q(t)/(x - t) dt - τ| / max|q|     where the contac
 equilibrium   |∫q dx - Q| / ∫|q| dx
 excess        largest |q| - f p, and of ||q| - f p| in slip zones, over the peak of f p
 opposing      smallest slip in the direction of q over the largest
+
+Where dissimilar bodies slip while the normal load grows (Goodman's approximation) the residual is
+max |γ - γ'| / max|q|, γ = 1/π PV∫q/(x - t) dt + β p, where they stuck under a lighter load already;
+γ' is γ under that load, 0 where the contact does not grow.
 """
 
 from __future__ import annotations
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.states import Slip
+from sie.friction.states import GrownSlip, Slip
+from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -77,16 +83,16 @@ def _measured(
     tol: float,
 ) -> ShearCertificate:
     x, weight = rule.x, rule.weight
-    p, q = _finite(state.friction * pressure(x)), _finite(state.shear(x))
+    p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
     if size == 0.0:
         size = peak = state.friction * pressure.resultant
-    force, equation, of_force, of_equation = _integrals(terms, _points(state, terms))
+    force, equation, of_force, of_equation = integrals(terms, points(state, terms))
     return ShearCertificate(
         residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
         equilibrium=abs(force - loads[0]) / size,
-        excess=_excess(state, pressure.contact, x, p, q) / float(p.max()),
-        opposing=_opposing(state, x),
+        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
+        opposing=opposing(state, x),
         abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
         condition=state.condition,
         advancing=state.advancing,
@@ -95,7 +101,7 @@ def _measured(
     )
 
 
-def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
+def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]:
     """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
     Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
@@ -105,20 +111,20 @@ def _integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array
     for factor, density, contact, (x, _, weight, *_) in terms:
         ulp = float(np.spacing(contact.r + abs(contact.m)))
         inwards, at_inwards = (place + np.where(place < contact.m, ulp, -ulp) for place in (x, at))
-        q, values = _finite(density(x)), density(at)
-        moved = weight * np.abs(_finite(density(inwards)) - q)
+        q, values = finite(density(x)), density(at)
+        moved = weight * np.abs(finite(density(inwards)) - q)
         distance = at[:, None] - x
         distance[distance == 0.0] = np.inf
         whole = values * np.log(contact.from_left(at) / contact.from_right(at))
         force += factor * float(weight @ q)
         equation += factor / np.pi * (((q - values[:, None]) / distance) @ weight + whole)
         of_force += abs(factor) * float(moved.sum())
-        here = np.abs(_finite(density(at_inwards)) - values)
+        here = np.abs(finite(density(at_inwards)) - values)
         of_equation += abs(factor) * (here + (1.0 / np.abs(distance)) @ moved / np.pi)
     return force, equation, of_force, of_equation
 
 
-def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
+def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
     # A node on a corner, where p is infinite, was set to 0.
     worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
@@ -128,7 +134,7 @@ def _excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> flo
     return worst
 
 
-def _opposing(state: Slip, x: Array) -> float:
+def opposing(state: Slip, x: Array) -> float:
     """The smallest slip in its own direction since the last turning point, over the largest."""
     slip = state.slip_now(x)
     largest = float(np.abs(slip).max(initial=0.0))
@@ -142,7 +148,7 @@ def _opposing(state: Slip, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def _points(state: Slip, terms: list[Term]) -> Array:
+def points(state: Slip, terms: list[Term]) -> Array:
     """The places of measurement: over the zone that never slipped, half-way between nodes.
 
     Of many terms these are the farthest apart in the neighbourhood.
@@ -158,5 +164,68 @@ def _points(state: Slip, terms: list[Term]) -> Array:
     return inside
 
 
-def _finite(values: Array) -> Array:
+def finite(values: Array) -> Array:
     return np.where(np.isfinite(values), values, 0.0)
+
+
+# -- while the normal load grows ------------------------------------------------------------------
+
+OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
+NODES, RATIO, LEVELS = 12, 3.0, 17  # panels towards a mark, in the root of the distance
+P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
+
+
+def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertificate:
+    """Measured on a state and on that under a lighter load; `kind` says what is neglected."""
+    pressure, (term,) = state.step.pressure, _terms(state)
+    x, weight = term.rule.x, term.rule.weight
+    p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
+    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    at = points(state, [term])
+    force, gamma, of_force, of_gamma = integrals([term], at)
+    due = np.zeros(len(at))
+    if state.lighter is not None:
+        _, before, _, of_before = integrals(_terms(state.lighter), at)
+        change = state.lighter.step.pressure(at) - pressure(at)
+        due, of_gamma = before + state.step.scene.beta * change, of_gamma + of_before
+    else:
+        due = -state.step.scene.beta * pressure(at)
+    of_p = P_ROUNDING * float(pressure(at).max(initial=0.0))
+    return ShearCertificate(
+        residual=float(np.abs(gamma - due).max(initial=0.0)) / peak,
+        equilibrium=abs(force - state.step.Q) / size,
+        excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
+        opposing=opposing(state, x) if state.zones is None else 0.0,
+        abscissae=max(of_force / size, (float(of_gamma.max(initial=0.0)) + of_p) / peak),
+        condition=1.0,
+        advancing=True,
+        kind=f"{state.kind}; {kind}",
+        tol=max(tol, OF_SHEAR),
+    )
+
+
+def _terms(state: GrownSlip) -> list[Term]:
+    contact = state.contact
+    if any(state.step.normal.edges.sharp):
+        x1, x2 = state.step.pressure.interval
+        inside = np.array([x for x in state.marks if x1 < x < x2])
+        rule = composite_rule(contact, state.step.slope, inside)
+    else:
+        rule = _between(state.marks, contact)
+    return [Term(1.0, state.shear, contact, rule)]
+
+
+def _between(marks: tuple[float, ...], contact: Interval) -> Rule:
+    """Panels that shrink towards all marks, in roots of the distance from them."""
+    u = RATIO ** -np.arange(LEVELS, -0.5, -1.0)
+    nodes, _, w = with_weight(NODES, 0.0, 0.0)
+    ends = np.append(0.0, u)
+    length = np.diff(ends)[:, None]
+    place, weight = (ends[:-1, None] + length * nodes).ravel(), (length * w).ravel()
+    x, dx = [], []
+    for lo, hi in itertools.pairwise(marks):
+        half = 0.5 * (hi - lo)
+        x += [lo + half * place**2, (hi - half * place**2)[::-1]]
+        dx += [2.0 * half * place * weight, (2.0 * half * place * weight)[::-1]]
+    at = np.concatenate(x)
+    return Rule(at, np.zeros_like(at), np.concatenate(dx), at[:0], slice(None), contact)

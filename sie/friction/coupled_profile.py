@@ -70,7 +70,13 @@ class GrowthPanel:
     def load(self, ahead: float) -> float:
         """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
         beyond."""
-        length = max(min(ahead, self.hi) - self.lo, 0.0)
+        return self._whole if ahead >= self.hi else self._load(max(ahead - self.lo, 0.0))
+
+    @cached_property
+    def _whole(self) -> float:
+        return self._load(self.hi - self.lo)
+
+    def _load(self, length: float) -> float:
         x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
         c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
         return float(length ** (1.0 + self.power) * (w @ (c + 0.0 * x)))

@@ -33,6 +33,7 @@ Array = NDArray[np.float64]
 DEGREE = 16
 RESOLVED = 2e-14  # of the largest traction: the last coefficients of a panel
 FAINT = 1e-15  # of the largest traction times b: what a short panel may miss
+LEAST = 1e-300  # of a panel, to an edge where the traction may be infinite
 NEAR = 3.0  # the Bernstein ellipse inside which the recurrence replaces Gauss-Legendre
 TOGETHER = 2**18  # entries of a matrix that are computed at once
 
@@ -318,6 +319,22 @@ def _lerch_integral(power: float, zeta: Complex, rest: Complex) -> Complex:
     out[near] = own ** (a - 1.0) * lerch.log(1.0 - a, own, rest[near])
     out[near] -= math.pi / math.sin(math.pi * a) * (-own) ** (a - 1.0)
     return out if power < 0.0 else zeta * out - 1.0 / a
+
+
+def on_panels(panels: Panels, y: Array) -> Array:
+    """The values of the series at 0 <= y <= b."""
+    k = np.clip(np.searchsorted(panels.lo, y, side="right") - 1, 0, len(panels.lo) - 1)
+    length = (panels.hi - panels.lo)[k]
+    s = 2.0 * (y - panels.lo[k]) / length - 1.0
+    c = panels.series[k].T
+    high, higher = c[-1], np.zeros_like(s)
+    for a in c[-2:0:-1]:
+        high, higher = a + 2.0 * s * high - higher, high
+    values: Array = c[0] + s * high - higher
+    last = k == len(panels.lo) - 1
+    part = np.maximum((panels.hi[-1] - y[last]) / length[last], LEAST)
+    values[last] *= part**panels.power
+    return values
 
 
 def resolved_panels(

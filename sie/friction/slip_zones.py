@@ -33,6 +33,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,6 +84,15 @@ class EdgeFrame:
     @property
     def width(self) -> float:
         return 2.0 * self.density.contact.r
+
+    def zone(self, length: float) -> SlipZone:
+        return slip_zone(self, length)
+
+
+class Frame(Protocol):
+    """An edge at which a slip zone of any length can begin."""
+
+    def zone(self, length: float) -> SlipZone: ...
 
 
 def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
@@ -219,7 +229,7 @@ class SlipZones:
 
 
 def slip_zones(
-    frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive, guess: tuple[float, float]
+    frames: tuple[Frame, Frame], contact: Interval, drive: Drive, guess: tuple[float, float]
 ) -> SlipZones:
     """The zones that the drive opens, from a guess of their lengths (left, right).
 
@@ -243,20 +253,20 @@ def slip_zones(
             "the ends of the stick zone do not settle: another zone of slip opens inside it",
             lengths=tuple(lengths),
         )
-    left, right = (slip_zone(r, length) for r, length in zip(frames, lengths, strict=True))
+    left, right = (r.zone(length) for r, length in zip(frames, lengths, strict=True))
     return SlipZones(contact.moved(lengths[0], -lengths[1]), left, right, drive)
 
 
 def _length(
-    frames: tuple[EdgeFrame, EdgeFrame], r: float, drive: Drive, lengths: list[float], k: int
+    frames: tuple[Frame, Frame], r: float, drive: Drive, lengths: list[float], k: int
 ) -> float:
     """The length of zone k (0 left, 1 right) for the other one as it is."""
-    other = slip_zone(frames[1 - k], lengths[1 - k])
+    other = frames[1 - k].zone(lengths[1 - k])
     sign, others, outward = (drive.right, drive.left, -1.0) if k else (drive.left, drive.right, 1.0)
 
     def excess(length: float) -> float:
         rho = r - 0.5 * (length + other.length)
-        return slip_zone(frames[k], length).strong(rho) + sign * (
+        return frames[k].zone(length).strong(rho) + sign * (
             others * other.weak(rho) - drive.load - outward * rho * drive.strain
         )
 

@@ -153,6 +153,21 @@ class Slip(ABC):
         return self.slip(x)
 
 
+class GrownSlip(Slip):
+    """A state whose bodies slip while the normal load grows.
+
+    step        the contact and its loads
+    zones       the zones under Q, None before
+    marks       places where q is not smooth, with the edges
+    lighter     the state under a lighter normal load, None where the contact does not grow
+    """
+
+    step: Step
+    zones: SlipZones | None
+    marks: tuple[float, ...]
+    lighter: GrownSlip | None
+
+
 @dataclass(frozen=True, eq=False)
 class NoSlip(Slip):
     """Nothing slips and nothing is sheared."""

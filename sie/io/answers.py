@@ -36,9 +36,9 @@ def notes_of(solution: Solution, file: SceneFile) -> tuple[str, ...]:
 
 
 def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
-    """The slip at x; {} where a path does not determine it.
+    """The slip at x; {} where it is not known.
 
-    It is not determined for points that came into contact while the bodies slipped.
+    A path does not determine it for points that came into contact while the bodies slipped.
     """
     try:
         return {"slip": solution.slip(x)}
@@ -47,13 +47,11 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} for dissimilar bodies under a tangential load.
-
-    What they dissipated before, in other states of partial slip, is not known.
-    """
-    scene = solution.scene
-    unknown = scene.epsilon or (scene.coupled and scene.tangential_load)
-    return {} if unknown else {"energy_lost": solution.energy_lost}
+    """The dissipated energy; {} where it is not known, as of dissimilar bodies that slide."""
+    try:
+        return {"energy_lost": solution.energy_lost}
+    except ContactError:
+        return {}
 
 
 def slipping(solution: Solution) -> tuple[tuple[float, float, float], ...]:

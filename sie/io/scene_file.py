@@ -14,7 +14,8 @@
     [body]              young, poisson, plane = "strain" | "stress"; or rigid = true
     [indenter]          the same; without it the indenter is made of the body's material
     [pair]              modulus = E*, dundurs, poisson, in place of [body] and [indenter]; beside
-                        them dundurs = 0 alone, which neglects their β
+                        them dundurs = 0, which neglects their β; coupling = "goodman", which
+                        leaves β q out of the normal equation
     [load]              normal_load | half_width, tilt | moment, friction,
                         tangential_load | sliding, bulk_stress; or, in place of the loads,
                         path = [[P, Q, σ], ...], turning points, σ may be left out: the scene is
@@ -272,12 +273,13 @@ def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:
     """The scene's body and indenter, or modulus, dundurs and poisson."""
     pair = values_of("pair", top.get("pair", {}))
-    if "pair" in top and pair.keys() != {"dundurs"}:
+    if "pair" in top and not pair.keys() <= {"dundurs", "coupling"}:
         for name in ("body", "indenter"):
             if name in top:
                 raise ValueError(
                     f"both [pair] and [{name}] are given: "
-                    "[pair] stands for both bodies, leave one out; or give dundurs = 0 alone in it"
+                    "[pair] stands for both bodies, leave one out; or give dundurs = 0 or coupling "
+                    "alone in it"
                 )
     if "body" not in top:
         if "pair" not in top:

@@ -82,7 +82,7 @@ TABLES: dict[str, Mapping[str, Reader]] = {
     "units": {"length": text, "force": text, "stress": text},
     "body": BODY,
     "indenter": BODY,
-    "pair": {"modulus": number, "dundurs": number, "poisson": number},
+    "pair": {"modulus": number, "dundurs": number, "poisson": number, "coupling": text},
     "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number) | {"path": rows},
 }
 TOP: tuple[str, ...] = ("title", "want", "profile", *TABLES)

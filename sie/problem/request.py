@@ -43,11 +43,13 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
 def sheared(scene: Scene, economy: Collection[str]) -> bool:
     """Whether the shear of a scene has to be computed.
 
-    It is not computed without friction, nor (unless economy is switched off) without Q and σ.
+    It is not computed without friction, nor, of similar bodies (unless economy is switched off),
+    without Q and σ.
     """
     return scene.friction != 0.0 and (
         scene.tangential_load != 0.0
         or scene.sliding != 0
         or scene.tau != 0.0
+        or scene.goodman
         or "shear" not in economy
     )

@@ -15,6 +15,8 @@ from sie.profiles.base import Profile
 
 from .material import RIGID, Body, Elastic, Rigid, coupling, dundurs, pair_modulus, share
 
+COUPLINGS = ("full", "goodman")
+
 
 def refuse_no_scene(scene: Any) -> None:
     """ValueError unless it is a scene."""
@@ -54,6 +56,9 @@ class Scene:
         Dundurs' β beside `modulus`; |β| < 1e-12 is taken for 0. Beside bodies, 0 neglects their β.
     poisson : float, optional
         Poisson's ratio of the body beside `modulus`, for σ_zz.
+    coupling : {"full", "goodman"}, optional
+        "goodman" leaves β q out of equation (1), so that the pressure is that without friction: an
+        approximation for dissimilar bodies, of any profile.
 
     Raises
     ------
@@ -86,6 +91,7 @@ class Scene:
     modulus: float | None = None
     dundurs: float | None = None
     poisson: float | None = None
+    coupling: str = "full"
 
     def __post_init__(self) -> None:
         if not isinstance(self.profile, Profile):
@@ -182,6 +188,7 @@ class Scene:
                 "contact carries none; give friction > 0"
             )
         self._check_sliding()
+        self._check_coupling()
 
     def _check_sliding(self) -> None:
         if not arguments.among(self.sliding, (-1, 0, 1)):
@@ -204,6 +211,18 @@ class Scene:
             raise ValueError(
                 f"sliding = {self.sliding} without friction: there is no shear traction; leave it "
                 "0, or give friction > 0"
+            )
+
+    def _check_coupling(self) -> None:
+        if not arguments.among(self.coupling, COUPLINGS):
+            raise ValueError(
+                f"coupling = {self.coupling!r} is not known: give 'full', or 'goodman' to leave "
+                "β q out of the normal equation"
+            )
+        if self.coupling == "goodman" and self.friction == math.inf:
+            raise ValueError(
+                "coupling = 'goodman' with infinite friction: full stick of dissimilar bodies is "
+                "solved without an approximation; leave coupling out"
             )
 
     def _set(self, name: str, value: Any) -> None:
@@ -231,6 +250,20 @@ class Scene:
         """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in
         part.
         """
+        return self._slips_in_part and self.coupling == "full"
+
+    @property
+    def goodman(self) -> bool:
+        """Whether β q is neglected in the partial slip of dissimilar bodies."""
+        return self._slips_in_part and self.coupling == "goodman"
+
+    @property
+    def neglects_beta(self) -> bool:
+        """Whether β q would change the pressure and is left out, in partial slip or in sliding."""
+        return bool(self.beta and self.friction) and self.coupling == "goodman"
+
+    @property
+    def _slips_in_part(self) -> bool:
         return bool(self.beta and self.friction) and not (self.slides or self.bonded)
 
     @property
@@ -239,7 +272,7 @@ class Scene:
 
         tan πε = -β f for sliding along +x.
         """
-        slides = self.slides
+        slides = 0 if self.coupling == "goodman" else self.slides
         return -math.atan(self.beta * self.friction * slides) / math.pi if slides else 0.0
 
     @property

@@ -1,0 +1,120 @@
+"""Dissimilar bodies pressed with friction, on a grid: the printed equations (1) and (12), step by
+step. Shares nothing with the solver that it checks.
+
+Under a symmetric profile p is even and q odd, so that with constant tractions on cells of x > 0 the
+equations, integrated once from the axis, are for β > 0
+
+    1/π ∫_0^b p ln|(x - t)(x + t)| dt - β ∫_0^x q dt = E*/2 h(x) + constant   in contact,
+    E*/2 g(x) = 1/π ∫_0^b q ln|(x - t)/(x + t)| dt + β ∫_0^x p dt.
+
+The contact grows cell by cell. In each step a cell either sticks, and g stays as it was, or slips
+outwards with q = f p; an active set finds which. The error is of the first order in the cells.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.floating[Any]]
+
+MOST = 200
+
+
+class GridContact(NamedTuple):
+    """The state under the last load: midpoints, p and q there, and which cells stick."""
+
+    x: Array
+    pressure: Array
+    shear: Array
+    sticks: NDArray[np.bool_]
+    load: float
+
+    @property
+    def stick_ratio(self) -> float:
+        """c/b."""
+        return float(self.sticks.sum()) / len(self.x)
+
+
+class Grid:
+    """n cells on 0 < x < b, and the integrals of constants over them."""
+
+    def __init__(self, b: float, n: int, beta: float, friction: float) -> None:
+        self.h, self.beta, self.friction = b / n, beta, friction
+        self.x = (np.arange(n) + 0.5) * self.h
+
+        def primitive(s: Array) -> Array:  # ∫ ln|s| ds
+            values: Array = s * np.log(np.abs(s) / b) - s
+            return values
+
+        at, t = self.x[:, None], self.x
+        near = primitive(at - t + 0.5 * self.h) - primitive(at - t - 0.5 * self.h)
+        far = primitive(at + t + 0.5 * self.h) - primitive(at + t - 0.5 * self.h)
+        self.even, self.odd = (near + far) / np.pi, (near - far) / np.pi
+        # The integral from the axis to a midpoint has half of the cell itself
+        self.sum = self.h * (np.tri(n, k=-1) + 0.5 * np.eye(n))
+
+    def step(
+        self, rise: Array, slip: Array, sticks: NDArray[np.bool_]
+    ) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """p, q and which cells stick, where the surfaces touch in as many cells.
+
+        rise      E*/2 h in these cells and the next, where p is 0; of as many: a flat, P = 1
+        slip      E*/2 g before the step
+        sticks    a guess
+        """
+        m = len(sticks)
+        rows = len(rise)
+        for _ in range(MOST):
+            matrix, right = np.zeros((2 * m + 1, 2 * m + 1)), np.zeros(2 * m + 1)
+            matrix[:rows, :m] = self.even[:rows, :m]
+            matrix[:rows, m : 2 * m] = -self.beta * self.sum[:rows, :m]
+            matrix[:rows, -1], right[:rows] = -1.0, rise
+            if rows == m:
+                matrix[m, :m], right[m] = 2.0 * self.h, 1.0
+            stuck, slipping = np.flatnonzero(sticks), np.flatnonzero(~sticks)
+            below = m + 1
+            matrix[below + stuck, :m] = self.beta * self.sum[stuck, :m]
+            matrix[below + stuck, m : 2 * m] = self.odd[stuck, :m]
+            right[below + stuck] = slip[stuck]
+            matrix[below + slipping, m + slipping] = 1.0
+            matrix[below + slipping, slipping] = -self.friction
+            found = np.linalg.solve(matrix, right)
+            p, q = found[:m], found[m : 2 * m]
+            moved = self.odd[:m, :m] @ q + self.beta * (self.sum[:m, :m] @ p) - slip[:m]
+            out = sticks & (q > self.friction * p)
+            back = ~sticks & (moved < 0.0)
+            if not out.any() and not back.any():
+                return p, q, sticks
+            sticks = (sticks & ~out) | back
+        raise AssertionError("the active set does not settle")
+
+    def slip(self, p: Array, q: Array) -> Array:
+        """E*/2 g on all cells."""
+        m = len(p)
+        g: Array = self.odd[:, :m] @ q + self.beta * (self.sum[:, :m] @ p)
+        return g
+
+
+def flat_punch(n: int, beta: float, friction: float) -> GridContact:
+    """A flat punch of half-width 1 under P = 1."""
+    grid = Grid(1.0, n, beta, friction)
+    p, q, sticks = grid.step(np.zeros(n), np.zeros(n), np.ones(n, dtype=bool))
+    return GridContact(grid.x, p, q, sticks, 1.0)
+
+
+def growing_contact(rise: Array, n: int, beta: float, friction: float, first: int) -> GridContact:
+    """A profile with E*/2 h = rise at n + 1 midpoints of 0 < x < 1 + 1/n, pressed until b = 1.
+
+    It is flat, or its contact is found in one step, on the first cells.
+    """
+    grid = Grid((n + 1) / n, n + 1, beta, friction)
+    slip: Array = np.zeros(n + 1)
+    sticks = np.ones(0, dtype=bool)
+    p: Array = np.zeros(0)
+    q: Array = np.zeros(0)
+    for m in range(first, n + 1):
+        guess = np.append(sticks, np.ones(m - len(sticks), dtype=bool))
+        p, q, sticks = grid.step(rise[: m + 1], slip, guess)
+        slip = grid.slip(p, q)
+    return GridContact(grid.x[:n], p, q, sticks, 2.0 * grid.h * float(p.sum()))

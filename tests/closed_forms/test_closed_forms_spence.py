@@ -1,0 +1,99 @@
+"""Spence's stick zone and the loads under power forms: literature of one's own, limits, the solver.
+
+The table is of a computation with 32 digits by the same equations; a second one, without exponents
+in the densities, agrees with it to 7e-12.
+"""
+
+import mpmath
+import numpy as np
+import pytest
+
+import sie
+from analytic import goodman, power, spence
+
+# beta, f, c/b, b p(0)/P of the flat, M(2)
+TABLE = [
+    (0.1, 0.1, 0.70061786631, 0.32027597518, 0.31651145915),
+    (0.2, 0.3, 0.913700055232, 0.325433464420, 0.30966325689),
+    (0.3, 0.1, 0.0281849146283, 0.345244082252, 0.31234709218),
+    (0.3, 0.3, 0.6457874123866, 0.3378744452057, 0.302604209509),
+    (0.3, 0.5, 0.9246117565700, 0.3349212640270, 0.298476370441),
+    (0.4, 0.4, 0.5937440281925, 0.3565693999850, 0.291189996706),
+    (0.5, 0.2, 0.04084680342861, 0.4068002623182, 0.29932319304),
+    (0.5, 0.5, 0.52190767492215, 0.38667072667918, 0.2776371136744),
+    (0.5, 1.0, 0.8895859253767, 0.3739542976491, 0.26336097905),
+]
+each = pytest.mark.parametrize(("beta", "f", "ratio", "pressure", "moment"), TABLE)
+
+
+@each
+def test_the_stick_zone_is_that_of_the_table(beta, f, ratio, pressure, moment):
+    found = spence.stick_half_width(half_width=2.0, friction=f, dundurs=beta)
+    assert found == pytest.approx(2.0 * ratio, rel=1e-11)
+
+
+@each
+def test_the_pressure_on_the_axis_of_a_flat_is_that_of_the_table(beta, f, ratio, pressure, moment):
+    found = spence.flat_central_pressure(half_width=2.0, normal_load=3.0, friction=f, dundurs=beta)
+    assert found == pytest.approx(1.5 * pressure, rel=2e-11)
+
+
+@each
+def test_the_load_of_a_parabola_is_that_of_the_table(beta, f, ratio, pressure, moment):
+    given = {"coefficient": 0.5, "exponent": 2.0, "modulus": 1.0}
+    found = spence.load(half_width=1.0, **given, friction=f, dundurs=beta)
+    assert found == pytest.approx(0.25 / moment, rel=2e-11)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 3.0, 6.0])
+@pytest.mark.parametrize(("beta", "f"), [(0.1, 0.1), (0.3, 0.2), (0.2, 0.3)])
+def test_the_solver_carries_the_load_of_the_power_law(beta, f, exponent):
+    given = {"half_width": 1.0, "coefficient": 0.1, "exponent": exponent, "modulus": 2.0}
+    expected = spence.load(**given, friction=f, dundurs=beta)
+    profile = sie.Wedge(0.1) if exponent == 1.0 else sie.Power(exponent, 0.1)
+    solution = sie.solve(
+        sie.Scene(profile=profile, modulus=2.0, dundurs=beta, friction=f, half_width=1.0)
+    )
+    assert solution.normal_load == pytest.approx(expected, rel=1e-11)
+    c = spence.stick_half_width(half_width=1.0, friction=f, dundurs=beta)
+    assert solution.stick[0][1] == pytest.approx(c, rel=1e-11)
+
+
+@pytest.mark.parametrize("quotient", [0.3, 1.0, 2.0])
+def test_the_stick_zone_of_a_small_mismatch_is_that_of_goodman(quotient):
+    def departure(beta):
+        given = {"half_width": 1.0, "friction": quotient * beta, "dundurs": beta}
+        return spence.stick_half_width(**given) / goodman.stick_half_width(**given) - 1.0
+
+    assert abs(departure(1e-4)) < 1e-6
+    assert departure(1e-3) == pytest.approx(100.0 * departure(1e-4), rel=1e-4)
+
+
+def test_the_load_of_a_small_mismatch_is_that_without_friction():
+    given = {"half_width": 1.0, "coefficient": 0.1, "exponent": 2.5, "modulus": 2.0}
+    found = spence.load(**given, friction=1e-6, dundurs=1e-6)
+    assert found == pytest.approx(power.load(**given), rel=1e-11)
+
+
+def test_thin_slip_zones_keep_their_relative_accuracy():
+    given = {"half_width": 1.0, "friction": 1.0, "dundurs": 0.1}
+    found = spence.slip_width(**given)
+    assert found == pytest.approx(1.76e-10, rel=3e-3)  # of three digits
+
+
+def test_a_context_of_more_digits_continues_the_double():
+    context = mpmath.MPContext()
+    context.dps = 20
+    given = {"half_width": 1.0, "friction": 0.3, "dundurs": 0.3}
+    precise = spence.stick_half_width(**given, lib=context)
+    assert float(precise) == pytest.approx(spence.stick_half_width(**given), rel=1e-13)
+
+
+def test_an_array_of_frictions_is_refused():
+    with pytest.raises(ValueError, match="one number of each"):
+        spence.stick_half_width(half_width=1.0, friction=np.array([0.1, 0.2]), dundurs=0.1)
+
+
+def test_slip_zones_that_doubles_do_not_resolve_are_refused():
+    with pytest.raises(ValueError, match="give friction nearer to dundurs"):
+        spence.stick_half_width(half_width=1.0, friction=0.3, dundurs=1e-4)

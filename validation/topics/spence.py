@@ -1,0 +1,216 @@
+"""Dissimilar bodies pressed with friction: equations (1) and (12) coupled (Spence's problem).
+
+The stick ratio c/b depends on β and f alone. It is compared with values of another formulation in
+32 digits, the tractions with both equations by quadrature that the solver did not use, and the
+loads with the printed equations on a grid. Goodman's approximation leaves β q out of (1); how far
+it is from the coupled answer is measured, and so are its own equations, under Q too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+import sie
+from oracles import spence
+from sie.certificate.coupled_check import coupled_certificate
+from sie.certificate.shear_check import goodman_certificate
+from sie.friction.goodman import GoodmanSlip
+from validation.harness.measures import largest, smallest
+from validation.harness.records import Claim, Curve, Doing, Map, Record, Table
+
+TITLE = "Dissimilar bodies pressed with friction"
+SECONDS = (12.0, 60.0)
+TIMED = False
+
+# c/b and b p(0)/P of a flat punch, by the eigenvalue problem in 32 digits with another rule
+REFERENCES = {
+    (0.1, 0.1): (0.70061786631, 0.32027597518),
+    (0.2, 0.3): (0.913700055232, 0.325433464420),
+    (0.3, 0.1): (0.0281849146283, 0.345244082252),
+    (0.3, 0.5): (0.9246117565700, 0.3349212640270),
+    (0.5, 0.2): (0.04084680342861, 0.4068002623182),
+    (0.5, 1.0): (0.8895859253767, 0.3739542976491),
+}
+SAME = 5e-11  # digits of the references
+EQUATIONS, SHEAR = 1e-11, 1e-10  # of the largest pressure in (1), of the largest shear in (12)
+OFF = 1e-3  # relative change of β that every checker must see
+PAIR = (0.3, 0.3)
+SHARES = (0.0, 0.2, 0.5, 0.8, 0.9, 0.99)
+CELLS = (25, 50, 100)
+STEEL = (0.07, 0.3)
+
+
+def solved(profile: sie.Profile, beta: float, friction: float, **given: Any) -> sie.Solution:
+    given = given or {"half_width": 1.0}
+    return sie.solve(
+        sie.Scene(profile=profile, modulus=2.0, dundurs=beta, friction=friction, **given)
+    )
+
+
+def of_shear(certificate: Any) -> float:
+    """The residual of equation (12)."""
+    return float(certificate.shear.residual)
+
+
+def compute(quick: bool) -> Iterator[Record]:
+    yield Doing("stick ratios")
+    yield from references()
+    yield from chart(6 if quick else 14)
+    yield Doing("both equations")
+    yield from equations((0.2, 0.9) if quick else SHARES)
+    yield Doing("the grid")
+    yield from grids(CELLS[:2] if quick else CELLS)
+    yield Doing("Goodman's approximation")
+    yield from approximation((0.02, 0.1, 0.5) if quick else (0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5))
+    yield from under_tangential_load((0.3,) if quick else (0.01, 0.1, 0.3, 0.6, 0.9))
+
+
+def references() -> Iterator[Record]:
+    rows, errors, wrong = [], [], []
+    for (beta, f), (c, p) in REFERENCES.items():
+        flat = solved(sie.Flat(1.0), beta, f, normal_load=1.0)
+        rough = solved(sie.Flat(1.0), beta, f, normal_load=1.0, coupling="goodman")
+        found = flat.stick[0][1], float(flat.pressure(0.0))
+        errors.append(max(abs(found[0] - c), abs(found[1] - p) / p))
+        wrong.append(abs(rough.stick[0][1] - c))
+        rows.append((beta, f, *found, errors[-1]))
+    yield Claim(
+        "largest error of c/b and of the pressure on the axis of a flat punch",
+        "another formulation, 32 digits",
+        largest(errors),
+        smallest(wrong),
+        "c/b of Goodman's approximation",
+        high=SAME,
+    )
+    yield Table("A flat punch, b = P = 1", ("β", "f", "c/b", "p(0)", "error"), rows)
+
+
+def chart(n: int) -> Iterator[Record]:
+    """c/b over β and f."""
+    betas, frictions = np.linspace(0.02, 0.5, n), np.linspace(0.05, 1.0, n)
+    ratios = [
+        [solved(sie.Flat(1.0), b, f, normal_load=1.0).stick[0][1] for b in betas.tolist()]
+        for f in frictions.tolist()
+    ]
+    yield Map("chart", betas, frictions, ratios)
+    for f in (0.1, 0.3, 0.6, 1.0):
+        c = [solved(sie.Flat(1.0), b, f, normal_load=1.0).stick[0][1] for b in betas.tolist()]
+        yield Curve("stick ratio", f"f = {f:g}", betas, c)
+
+
+def equations(shares: tuple[float, ...]) -> Iterator[Record]:
+    """Rounded flats from a parabola to nearly a flat, a/b given."""
+    ones, twelves, wrong_ones, wrong_twelves, rows = [], [], [], [], []
+    for share in shares:
+        profile = sie.RoundedFlat(share, 1.0) if share else sie.Parabola(1.0)
+        for beta, f in (PAIR, STEEL):
+            solution = solved(profile, beta, f)
+            scene = replace(solution.scene, dundurs=beta * (1.0 + OFF))
+            found = solution.check()
+            other = coupled_certificate(solution.pressed[1], scene, 1e-13)
+            ones.append(found.residual)
+            twelves.append(of_shear(found))
+            wrong_ones.append(other.residual)
+            wrong_twelves.append(of_shear(other))
+            load = solution.normal_load
+            rows.append((share, beta, f, load, found.residual, of_shear(found)))
+    named = f"β off by {OFF:.0e} of it"
+    yield Claim(
+        "largest residual of equation (1) over the peak pressure, rounded flats",
+        "this project: a certificate on every answer",
+        largest(ones),
+        smallest(wrong_ones),
+        named,
+        high=EQUATIONS,
+    )
+    yield Claim(
+        "largest residual of equation (12) in stick over the largest shear, rounded flats",
+        "this project: a certificate on every answer",
+        largest(twelves),
+        smallest(wrong_twelves),
+        named,
+        high=SHEAR,
+    )
+    header = ("a/b", "β", "f", "P (b = R = E*/2 = 1)", "residual of (1)", "residual of (12)")
+    yield Table("Rounded flats", header, rows)
+
+
+def grids(cells: tuple[int, ...]) -> Iterator[Record]:
+    """The load of a parabola whose contact grows cell by cell."""
+    beta, f = PAIR
+    exact = solved(sie.Parabola(1.0), beta, f).normal_load
+    rough = solved(sie.Parabola(1.0), beta, f, half_width=1.0, coupling="goodman").normal_load
+    loads = [
+        spence.growing_contact(0.5 * ((np.arange(n + 1) + 0.5) / n) ** 2, n, beta, f, 1).load
+        for n in cells
+    ]
+    errors, wrong = ([abs(load / limit - 1.0) for load in loads] for limit in (exact, rough))
+    yield Claim(
+        "order of the grid's convergence to the load of a parabola",
+        "the printed equations on a grid, first order",
+        float(np.log2(errors[-2] / errors[-1])),
+        float(np.log2(wrong[-2] / wrong[-1])),
+        "the load in Goodman's approximation as the limit",
+        low=0.9,
+        high=1.1,
+    )
+    yield Curve("grid", "coupled", cells, errors, "both")
+    yield Curve("grid", "Goodman's approximation", cells, wrong, "both")
+
+
+def approximation(betas: tuple[float, ...]) -> Iterator[Record]:
+    """The error of Goodman's approximation at f = β."""
+
+    def apart(beta: float, friction: float) -> tuple[float, float]:
+        full, rough = (
+            solved(sie.Parabola(1.0), beta, friction, normal_load=1.0, coupling=coupling)
+            for coupling in ("full", "goodman")
+        )
+        c = [one.stick[0][1] / one.half_width for one in (full, rough)]
+        p = [float(one.pressure(0.0)) for one in (full, rough)]
+        return c[1] / c[0] - 1.0, abs(p[1] / p[0] - 1.0)
+
+    both = np.array([apart(beta, beta) for beta in betas])
+    order = np.log(both[1, 0] / both[0, 0]) / np.log(betas[1] / betas[0])
+    wrong = np.log(both[1, 0] / (both[0, 0] + OFF)) / np.log(betas[1] / betas[0])
+    yield Claim(
+        "order in β at which c/b of Goodman's approximation, f = β, leaves the coupled one",
+        "this project: the pressure changes by β q, which is of the order β f",
+        float(order),
+        float(wrong),
+        f"c/b off by {OFF:.0e} at the smaller β",
+        low=1.9,
+        high=2.1,
+    )
+    yield Curve("Goodman", "c/b", betas, both[:, 0], "both")
+    yield Curve("Goodman", "p(0) of a parabola", betas, both[:, 1], "both")
+
+
+def under_tangential_load(parts: tuple[float, ...]) -> Iterator[Record]:
+    """Goodman's approximation from Q = 0 to sliding, parabola."""
+    beta, f = 0.1, 0.1
+    ends, residuals, wrong = [], [], []
+    for part in parts:
+        loads = {"normal_load": 1.0, "tangential_load": part * f}
+        solution = solved(sie.Parabola(1.0), beta, f, coupling="goodman", **loads)
+        state = solution.tangential
+        assert isinstance(state, GoodmanSlip)
+        residuals.append(of_shear(solution.check()))
+        scene = replace(state.step.scene, dundurs=beta * (1.0 + OFF))
+        off = replace(state, step=replace(state.step, scene=scene))
+        wrong.append(goodman_certificate(off, "", 1e-13).residual)
+        ends.append([c / solution.half_width for c in solution.stick[0]])
+    yield Claim(
+        "largest residual of (12) in stick over the largest shear under Q, Goodman's approximation",
+        "this project: a certificate on every answer",
+        largest(residuals),
+        smallest(wrong),
+        f"β off by {OFF:.0e} of it",
+        high=SHEAR,
+    )
+    for k, side in enumerate(("left end of stick", "right end of stick")):
+        yield Curve("tangential", side, parts, [end[k] for end in ends], "both")
