@@ -29,7 +29,7 @@ from sie.numerics.elliptic import Modulus, elliptic_functions, modulus_of_ratio
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
 from .coupled_flat import NARROWEST_RATIO, WIDEST_RATIO
-from .coupled_functions import chopped, summed
+from .coupled_tables import chopped, summed
 
 Array = NDArray[np.float64]
 

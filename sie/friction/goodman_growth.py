@@ -26,7 +26,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.power_law import PowerLaw
 
-from .coupled_functions import chopped, summed
+from .coupled_tables import chopped, summed
 
 Array = NDArray[np.float64]
 
