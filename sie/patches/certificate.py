@@ -32,7 +32,8 @@ Mask = NDArray[np.bool_]
 NODES = 12  # on a part of a panel
 # (panels, levels): where there are no more panels, their parts shrink towards the ends so often
 LEVELS = ((24, 32), (60, 18))
-BENT = 24  # nodes on a whole panel where there are more
+BENT = 24  # nodes on a whole panel where there are more, or on its parts
+STEEP = 4.0  # a panel that is so much longer than its neighbour is cut towards that one
 SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
 PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
@@ -141,14 +142,14 @@ def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
     """A composite rule that is finer towards the ends of panels, where p' may be infinite and p
     too. At an edge p is smooth in the angle.
 
-    The parts of few panels shrink towards such an end. Many are taken whole, with the variable bent
-    there: p has breaks like s² ln s where H' of a spline has, and s^8 ln s is easy.
+    The parts of few panels shrink towards such an end. Many are taken whole, or nearly, with the
+    variable bent there: p has breaks like s² ln s where H' of a spline has, and s^8 ln s is easy.
     """
     levels = next((level for most, level in LEVELS if len(k.lo) <= most), 0)
     at_edge = k.lo == 0.0
     if not levels:
-        whole = np.arange(len(k.lo)), k.lo, k.hi - k.lo
-        return _placed(k, pressure, whole, _bent(at_edge))
+        parts = _cut_towards_shorter(k)
+        return _placed(k, pressure, parts, _bent(parts[1] == 0.0))
     graded = GRADING ** np.arange(1.0, levels + 1.0)
     cuts = (np.array([0.0, 0.5]), graded, 1.0 - graded[::-1], np.ones(1))
     lows, lengths, panels = [], [], []
@@ -160,6 +161,32 @@ def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
         panels.append(np.repeat(np.flatnonzero(chosen), len(part) - 1))
     lo, length, panel = (np.concatenate(v) for v in (lows, lengths, panels))
     return _placed(k, pressure, (panel, lo, length), chebyshev.gauss_legendre(NODES))
+
+
+def _cut_towards_shorter(k: PatchPanels) -> tuple[Index, Array, Array]:
+    """Parts (panel, lowest angle, length) of the panels: whole, but beside a much shorter panel no
+    longer than STEEP times their distance from there.
+
+    At a place on the shorter one the kernel is as steep as its length.
+    """
+    length = k.hi - k.lo
+    order = np.lexsort((np.where(k.right, np.pi - k.hi, k.lo), k.patch))
+    meet = k.patch[order][1:] == k.patch[order][:-1]
+    left, right = np.full((2, len(length)), np.inf)  # lengths of the neighbours
+    left[order[1:]] = np.where(meet, length[order[:-1]], np.inf)
+    right[order[:-1]] = np.where(meet, length[order[1:]], np.inf)
+    neighbours = np.where(k.right, (right, left), (left, right))  # towards k.lo and k.hi
+    times = np.ceil((np.log(length) - np.log(neighbours)) / np.log(STEEP) - 1.0).clip(0.0)
+    panels, lows, lengths = [], [], []
+    for towards_lo, towards_hi in np.unique(times, axis=1).T.astype(int).tolist():
+        chosen = np.flatnonzero((times[0] == towards_lo) & (times[1] == towards_hi))
+        lower = STEEP ** -np.arange(towards_lo, 0.0, -1.0)
+        upper = 1.0 - STEEP ** -np.arange(1.0, towards_hi + 1.0)
+        part = np.concatenate(([0.0], lower, upper, [1.0]))
+        lows.append((k.lo[chosen, None] + length[chosen, None] * part[:-1]).ravel())
+        lengths.append((length[chosen, None] * np.diff(part)).ravel())
+        panels.append(np.repeat(chosen, len(part) - 1))
+    return np.concatenate(panels), np.concatenate(lows), np.concatenate(lengths)
 
 
 def _bent(at_edge: Mask) -> tuple[Array, Array]:

@@ -169,3 +169,18 @@ def test_one_patch_on_the_line_has_no_gaps():
 def test_a_trace_whose_contact_reaches_its_end_may_be_repeated():
     with pytest.raises(sie.ContactError, match=r"sie\.Periodic\(trace, period\)"):
         _ = solved(profile=rough(120, period=False), normal_load=0.05).patches
+
+
+@pytest.mark.parametrize("load", [0.003, 0.01])
+def test_narrow_panels_beside_wide_ones_are_measured_as_exactly(load):
+    """A patch ends anywhere between two points of a trace, and leaves a narrow panel there."""
+    n, k = 1000, np.arange(1, 500)
+    phase = np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, len(k))
+    amplitude = np.where(k >= 4, (np.maximum(k, 4) / 4.0) ** -1.3, 1.0)
+    h = np.fft.irfft(np.concatenate(([0.0], amplitude * np.exp(1j * phase), [0.0])), n)
+    x = np.linspace(-1.0, 1.0, n)
+    ends = 0.5 * np.maximum(np.abs(x) - 0.9, 0.0) ** 2
+    trace = sie.Sampled(x, h * (0.01 / h.std()) + ends)
+    solution = sie.solve(sie.Scene(profile=trace, modulus=1.0, normal_load=load))
+    assert len(solution.patches) > 5
+    assert solution.check().residual <= 2e-12
