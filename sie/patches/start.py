@@ -103,7 +103,10 @@ def _relaxed(h: Array, p: Array, dx: float, load: float, periodic: bool) -> Arra
         before = now
         r = displaced(t)
         r -= r[contact].mean()
-        step = float(gap[contact] @ t[contact]) / float(r[contact] @ t[contact])
+        stiffness = float(r[contact] @ t[contact])
+        if stiffness == 0.0:  # the load is lost in the rounding of h
+            break
+        step = float(gap[contact] @ t[contact]) / stiffness
         old = p
         p = np.maximum(p - step * t, 0.0)
         overlap = (p == 0.0) & (gap < 0.0) & solid

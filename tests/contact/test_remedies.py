@@ -194,7 +194,8 @@ FILES = {
                         'title = "a"\n' + BODY + ROUND + HEAD),
     "pair or body": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "leave one out",
                      BODY + ROUND + HEAD),
-    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD, "dundurs = 0 alone",
+    "dundurs alone": (BODY + "[pair]\nmodulus = 1e5\n" + ROUND + HEAD,
+                      "give dundurs = 0 or coupling alone",
                       BODY + "[pair]\ndundurs = 0\n" + ROUND + HEAD),
     "a formula": (
         BODY + HEAD + '[profile]\nkind = "function"\nslope = "x^3"\n', "did you mean **?",

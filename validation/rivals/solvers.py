@@ -10,6 +10,7 @@ edges of the contact, which this package computes.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -138,9 +139,11 @@ def contact_mechanics(gap: Array, spacing: float, load: float) -> Array:
     """ContactMechanics (Pastewka et al.): periodic FFT half-space, E* = 1, its own Polonsky-Keer
     solver.
     """
-    from ContactMechanics import PeriodicFFTElasticHalfSpace  # noqa: PLC0415
-    from ContactMechanics.Systems import NonSmoothContactSystem  # noqa: PLC0415
-    from SurfaceTopography import UniformLineScan  # noqa: PLC0415
+    with warnings.catch_warnings():  # of what it imports and does not need
+        warnings.simplefilter("ignore", ImportWarning)
+        from ContactMechanics import PeriodicFFTElasticHalfSpace  # noqa: PLC0415
+        from ContactMechanics.Systems import NonSmoothContactSystem  # noqa: PLC0415
+        from SurfaceTopography import UniformLineScan  # noqa: PLC0415
 
     n = len(gap)
     system = NonSmoothContactSystem(
