@@ -207,19 +207,6 @@ def _moments(u: Array, charge: Array) -> Array:
     return A
 
 
-def _charges() -> Array:
-    """The charges on `POINTS` whose moments up to TERMS are A, as a matrix (n, i).
-
-    They are Q_i = 2/TERMS Σ' A_n T_n(v_i).
-
-    T_n(v_i) = cos(n (i + 1/2) π / TERMS) with the angle reduced as an integer: a recurrence would
-    lose n² ulp at the ends, in every level.
-    """
-    quarter = np.outer(np.arange(TERMS), 2 * np.arange(TERMS, 0, -1) - 1) % (4 * TERMS)
-    Q: Array = np.cos(np.pi / (2 * TERMS) * quarter) * (2.0 / TERMS)
-    Q[0] *= 0.5
-    return Q
-
-
 POINTS = chebyshev.points(TERMS)
-CHARGES = _charges()
+# In every level of the tree the moments become charges on these points.
+CHARGES = chebyshev.charges(TERMS)

@@ -29,6 +29,20 @@ def points(n: int) -> Array:
     return s
 
 
+def charges(n: int) -> Array:
+    """The charges on `points(n)` whose moments below n are A, as a matrix (moment, point).
+
+    They are Q_i = 2/n Σ' A_m T_m(v_i).
+
+    T_m(v_i) = cos(m (i + 1/2) π / n) with the angle reduced as an integer: a recurrence would lose
+    n² ulp at the ends.
+    """
+    quarter = np.outer(np.arange(n), 2 * np.arange(n, 0, -1) - 1) % (4 * n)
+    Q: Array = np.cos(np.pi / (2 * n) * quarter) * (2.0 / n)
+    Q[0] *= 0.5
+    return Q
+
+
 def transform(values: Array) -> Array:
     """Coefficients of the interpolant through `values` at `points(n)`, along the last axis.
 

@@ -136,15 +136,5 @@ def _gathered(u: Array, charges: Array) -> Array:
 
 
 CHUNK = 1 << 18  # entries of an array that are computed at once
-
-
-def _spread() -> Array:
-    """Charges on the Chebyshev points that have given moments, as a matrix (n, i)."""
-    quarter = np.outer(np.arange(CHARGES), 2 * np.arange(CHARGES, 0, -1) - 1) % (4 * CHARGES)
-    Q: Array = np.cos(np.pi / (2 * CHARGES) * quarter) * (2.0 / CHARGES)
-    Q[0] *= 0.5
-    return Q
-
-
 POINTS = chebyshev.points(CHARGES)
-SPREAD = _spread()
+SPREAD = chebyshev.charges(CHARGES)

@@ -256,14 +256,21 @@ def test_two_equal_parabolas(inner, width):
     assert solution.pressure(x) == pytest.approx(exact, rel=1e-11)
 
 
-@given(between(0.02, 0.98))
-@settings(max_examples=25, deadline=None)
-def test_a_wave_from_first_touch_to_nearly_full_contact(part):
+def wave_in_contact(part):
+    """Half the contact, the arguments of the closed form, and the solution of Westergaard's wave
+    that is in contact over a part of the period.
+    """
     shape = {"wavelength": 1.0, "amplitude": 0.5, "modulus": 1.0}
     half = 0.5 * part
     load = float(wavy.mean_pressure(half_width=half, **shape))
     profile = sie.FromFunction(lambda x: np.pi * np.sin(2.0 * np.pi * x))
-    solution = solved(profile=sie.Periodic(profile, 1.0), normal_load=load)
+    return half, shape, solved(profile=sie.Periodic(profile, 1.0), normal_load=load)
+
+
+@given(between(0.02, 0.98))
+@settings(max_examples=25, deadline=None)
+def test_a_wave_from_first_touch_to_nearly_full_contact(part):
+    half, shape, solution = wave_in_contact(part)
     assert solution.half_width == pytest.approx(half, rel=1e-12)
     x = half * np.array([0.0, 0.4, 0.9])
     exact = wavy.pressure(x, half_width=half, **shape)
@@ -287,11 +294,8 @@ def test_a_row_of_flats(part):
 @settings(max_examples=15, deadline=None)
 def test_the_derivative_of_the_potential_of_a_wave(part):
     """Beside the closed form, by Cauchy's formula on a circle of its own."""
-    shape = {"wavelength": 1.0, "amplitude": 0.5, "modulus": 1.0}
-    half = 0.5 * part
-    load = float(wavy.mean_pressure(half_width=half, **shape))
-    profile = sie.Periodic(sie.FromFunction(lambda x: np.pi * np.sin(2.0 * np.pi * x)), 1.0)
-    pressure = solved(profile=profile, normal_load=load).pressure
+    half, shape, solution = wave_in_contact(part)
+    pressure = solution.pressure
     z = np.array([0.1 + 0.2j, 0.3 + 0.4j, -0.45 + 0.1j])
     turn = np.exp(2j * np.pi * np.arange(48) / 48)
     circle = z[:, None] + 0.4 * z.imag[:, None] * turn
