@@ -21,7 +21,7 @@ from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
-from .certificate.trace_noise import TraceReport, patch_trace_reports, trace_reports
+from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
@@ -756,10 +756,10 @@ class Solution:
         """
         several = self._several
         if isinstance(several, SeveralPatches):
-            return patch_trace_reports(self.scene, several.edges, several)
+            return trace_reports(self.scene, several.edges, several)
         if self.scene.bonded or self.scene.coupled or several is not None:
             return ()
-        return trace_reports(self.scene, self.as_one_patch, self.slope_density)
+        return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

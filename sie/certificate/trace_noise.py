@@ -37,14 +37,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edges import Edges
-from sie.contact.pressure import Normal
 from sie.numerics.interval import EPS, Interval
 from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.profiles.fitting import Gap
 from sie.profiles.placed_traces import PlacedTrace, traces_in
-from sie.profiles.row import Periodic
 from sie.profiles.sampled import Sampled
 from sie.profiles.splines import slope_deviations
 from sie.profiles.trace_values import Mended
@@ -152,56 +149,44 @@ def _listed(shown: Iterable[str], count: int, after: str = "") -> str:
     return f"{', '.join(shown)}{more}{after}" if count else "none"
 
 
-def trace_reports(scene: Scene, normal: Normal, density: SlopeDensity) -> tuple[TraceReport, ...]:
-    """A report for each trace in the profile of a scene that was solved."""
-    found = []
-    for placed in traces_in(scene.profile):
-        reference = placed.trace.reference(_extent(placed, normal.edges.contact))
-        errors = _errors(placed, reference, scene, normal, density)
-        found.append(_report(placed, normal.edges, reference, errors))
-    return tuple(found)
+def trace_reports(
+    scene: Scene, edges: Edges, found: SlopeDensity | Answer
+) -> tuple[TraceReport, ...]:
+    """A report for each trace in the profile of a scene that was solved, in one patch or several.
 
-
-def patch_trace_reports(scene: Scene, edges: Edges, several: Answer) -> tuple[TraceReport, ...]:
-    """A report for each trace in the profile of a scene with several patches of contact.
-
-    The error of the reference is drawn: noise of its misfit, smoothed as the reference is.
+    On several patches the error of the reference is drawn: noise of its misfit, smoothed as the
+    reference is.
     """
-    return tuple(
-        _patch_report(placed, scene, edges, several) for placed in traces_in(scene.profile)
-    )
+    several = not isinstance(found, SlopeDensity)
+    repeated = several and scene.profile.period < np.inf
+    reports = []
+    for placed in traces_in(scene.profile):
+        points = placed.trace.points
+        ends = float(points[0]), float(points[-1])
+        extent = ends if repeated else placed.extent(*edges.contact[:2])
+        reference = placed.trace.reference(extent)
+        errors = (
+            _errors(placed, reference, scene, edges, found)
+            if isinstance(found, SlopeDensity)
+            else _drawn(placed, reference, scene, found)
+        )
+        report = _report(placed, edges, reference, errors)
+        reports.append(replace(report, aside=report.aside and not repeated))
+    return tuple(reports)
 
 
-def _patch_report(placed: PlacedTrace, scene: Scene, edges: Edges, several: Answer) -> TraceReport:
+def _drawn(placed: PlacedTrace, reference: Sampled, scene: Scene, several: Answer) -> PatchErrors:
     trace, period = placed.trace, scene.profile.period
-    ends = float(trace.points[0]), float(trace.points[-1])
-    reference = trace.reference(ends if period < np.inf else _extent(placed, edges.contact))
     x, noise = reference.points, reference.misfit
     known = trace.height(trace.points) - reference.height(np.clip(trace.points, x[0], x[-1]))
     draws = np.random.default_rng(0).normal(scale=noise, size=(DRAWS, len(x)))
-    errors = changes(
+    return changes(
         several,
-        _set(Sampled(trace.points, known), placed, period),
-        [_set(Sampled(x, draw, reference.lam), placed, period) for draw in draws],
+        placed.with_heights(trace.points, known, 0.0, period),
+        [placed.with_heights(x, draw, reference.lam, period) for draw in draws],
         SPREAD,
         scene.moment is not None,
     )
-    report = _report(placed, edges, reference, errors)
-    return replace(report, aside=report.aside and period == np.inf)
-
-
-def _set(error: Sampled, placed: PlacedTrace, period: float) -> Profile:
-    """An error of a trace where the trace stands in the profile."""
-    mirrored = placed.direction < 0.0
-    turned = error.mirrored() if mirrored else error
-    moved = turned.shifted(placed.origin if mirrored else -placed.origin)
-    return Periodic(moved, period) if period < np.inf else moved
-
-
-def _extent(placed: PlacedTrace, contact: Interval) -> tuple[float, float]:
-    """The ends of the contact in the trace."""
-    lo, hi = sorted(placed.origin + placed.direction * end for end in (contact.x1, contact.x2))
-    return lo, hi
 
 
 def _report(
@@ -215,11 +200,11 @@ def _report(
     return TraceReport(
         points=len(x),
         smoothing=trace.lam,
-        averaged=_averaged(trace),
-        separated=_averaged(reference) > 1.0,
+        averaged=trace.averaged,
+        separated=reference.averaged > 1.0,
         misfit=trace.misfit,
         outliers=tuple((float(x[k]), float(over[k])) for k in trace.outliers),
-        gaps=tuple(_gap(placed, gap) for gap in trace.gaps),
+        gaps=placed.gaps(),
         mended=trace.mended,
         tilt=tilt,
         aside=(middle - contact.m) * tilt > 0.5 * contact.r * abs(tilt),
@@ -228,16 +213,6 @@ def _report(
         edge_errors=errors.edges,
         unsure_patches=getattr(errors, "unsure", 0),
     )
-
-
-def _averaged(trace: Sampled) -> float:
-    x = trace.points
-    return float((trace.lam * ((len(x) - 1) / np.ptp(x)) ** 3) ** 0.25)
-
-
-def _gap(placed: PlacedTrace, gap: Gap) -> Gap:
-    lo, hi = sorted(placed.x(np.array([gap.lo, gap.hi])).tolist())
-    return Gap(lo, hi, gap.missing)
 
 
 class Errors(NamedTuple):
@@ -249,9 +224,9 @@ class Errors(NamedTuple):
 
 
 def _errors(
-    placed: PlacedTrace, reference: Sampled, scene: Scene, normal: Normal, density: SlopeDensity
+    placed: PlacedTrace, reference: Sampled, scene: Scene, edges: Edges, density: SlopeDensity
 ) -> Errors:
-    contact, sharp = normal.edges.contact, np.array(normal.edges.sharp)
+    contact, sharp = edges.contact, np.array(edges.sharp)
     place = np.pi * (np.arange(PLACES) + 0.5) / PLACES
     p = density(contact.m + contact.r * np.cos(place))
     near = density(contact.m + contact.r * np.cos([np.pi - NEAR_EDGE, NEAR_EDGE])) / NEAR_EDGE

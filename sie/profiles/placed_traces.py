@@ -34,6 +34,26 @@ class PlacedTrace(NamedTuple):
         """The places of the trace's points in the profile."""
         return self.direction * (points - self.origin)
 
+    def extent(self, x1: float, x2: float) -> tuple[float, float]:
+        """The ends, ascending, of a part of the profile in the trace."""
+        lo, hi = sorted(self.origin + self.direction * end for end in (x1, x2))
+        return lo, hi
+
+    def gaps(self) -> tuple[fitting.Gap, ...]:
+        """The gaps of the trace, where they stand in the profile."""
+        placed = ((sorted(self.x(np.array([g.lo, g.hi])).tolist()), g) for g in self.trace.gaps)
+        return tuple(fitting.Gap(lo, hi, gap.missing) for (lo, hi), gap in placed)
+
+    def with_heights(
+        self, points: Array, heights: Array, smoothing: float, period: float
+    ) -> Profile:
+        """Other heights at points of the trace, where the trace stands in the profile."""
+        other = Sampled(points, heights, smoothing)
+        mirrored = self.direction < 0.0
+        turned = other.mirrored() if mirrored else other
+        moved = turned.shifted(self.origin if mirrored else -self.origin)
+        return Periodic(moved, period) if period < np.inf else moved
+
 
 def traces_in(profile: Profile) -> Iterator[PlacedTrace]:
     """The traces in a profile that may be tilted, shifted, mirrored, added and repeated."""

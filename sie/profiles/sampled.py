@@ -216,6 +216,12 @@ class Sampled(Profile):
         return float(np.sqrt(np.mean((self.heights - self.height(self.points)) ** 2)))
 
     @property
+    def averaged(self) -> float:
+        """Over how many points the spline averages: (λ/Δ³)^(1/4), Δ their mean distance."""
+        x = self.points
+        return float((self.lam * ((len(x) - 1) / np.ptp(x)) ** 3) ** 0.25)
+
+    @property
     def gaps(self) -> tuple[fitting.Gap, ...]:
         """Gaps without points: (lo, hi, missing) of steps of x much longer than the others.
 
