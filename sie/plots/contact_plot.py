@@ -106,7 +106,6 @@ class _View:
 
     @cached_property
     def x(self) -> Array:
-        """The sample points, on the patches and beside them."""
         return abscissae(self.solution, style.POINTS)
 
     @cached_property
