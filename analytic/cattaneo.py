@@ -58,8 +58,9 @@ def slip_width(
 ) -> Number:  # fmt: skip
     """The length b - c of each slip zone, to full relative accuracy.
 
-    >>> float(slip_width(half_width=1.0, normal_load=4.0, friction=0.5, tangential_load=1.5))
-    0.5
+    >>> args = {"half_width": 1.0, "normal_load": 4.0, "friction": 0.5}
+    >>> float(slip_width(**args, tangential_load=2.0**-70)) == 2.0**-72
+    True
     """
     b = positive("half_width", half_width, lib)
     return as_result(_slip_width(lib, b, traction(lib, friction, normal_load, tangential_load)))

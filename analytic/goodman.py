@@ -61,14 +61,9 @@ def slip_width(
 
 @documented("q, a stress: positive on the right", *SOURCES)
 def flat_shear(
-    x: Number,
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    dundurs: Number,
+    x: Number, *, half_width: Number, normal_load: Number, friction: Number, dundurs: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The shear under a flat punch, f p F(arcsin(x/c), c/b)/K(c/b) in stick and f p in slip.
 
     Zero beside the contact, and at the edges infinite like the pressure. The ratio of the

@@ -77,8 +77,9 @@ def slip_width(
 ) -> Number:
     """The width of either slip zone to relative accuracy, of one friction and one dundurs > 0.
 
-    >>> round(float(slip_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
-    0.354212587613
+    >>> args = {"half_width": 1.0, "friction": 0.3, "dundurs": 0.3}
+    >>> round(float(slip_width(**args) + stick_half_width(**args)), 12)
+    1.0
     """
     b, (flat, _) = positive("half_width", half_width, lib), _solved(friction, dundurs, lib)
     return as_result(b * flat.complement / (1 + lib.sqrt(flat.k2)))
@@ -86,13 +87,9 @@ def slip_width(
 
 @documented("p(0), a stress", SPENCE)
 def flat_central_pressure(
-    *,
-    half_width: Number,
-    normal_load: Number,
-    friction: Number,
-    dundurs: Number,
+    *, half_width: Number, normal_load: Number, friction: Number, dundurs: Number,
     lib: Library = np,
-) -> Number:
+) -> Number:  # fmt: skip
     """The pressure in the middle of a flat punch, of one friction and one dundurs > 0.
 
     >>> args = {"half_width": 1.0, "normal_load": 1.0, "friction": 0.3, "dundurs": 0.3}
@@ -107,15 +104,9 @@ def flat_central_pressure(
 
 @documented("P, a force per length", SPENCE)
 def load(
-    *,
-    half_width: Number,
-    coefficient: Number,
-    exponent: Number,
-    modulus: Number,
-    friction: Number,
-    dundurs: Number,
-    lib: Library = np,
-) -> Number:
+    *, half_width: Number, coefficient: Number, exponent: Number, modulus: Number,
+    friction: Number, dundurs: Number, lib: Library = np,
+) -> Number:  # fmt: skip
     """The load under h = C |x|^m, of one friction and one dundurs > 0.
 
     >>> args = {"coefficient": 0.5, "exponent": 2, "modulus": 1.0, "friction": 0.3, "dundurs": 0.3}

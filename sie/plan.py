@@ -144,34 +144,40 @@ def _of_coupled(scene: Scene, names: tuple[str, ...]) -> Plan:
     if scene.tangential_load:
         return _of_sheared(scene, names)
     stages = {stage for name in names for stage in COUPLED[name]}
-    asked = "pressure" in stages
     how = f"β = {scene.beta:.4g}: p and q are one problem; the stick zone is that of a flat punch"
     growth = "dP/ds in closed form or by a Volterra equation; the edges from its integral"
     steps = (
         Step("coupling", True, how, "coupled"),
         Step("edges", True, growth, "normal"),
-        Step("pressure", asked, "flats superposed" if asked else "not asked for", "pressure"),
-        Step("inequalities", False, "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"),
-        Step("slip", False, "the shear and the slip come with the pressure"),
     )
-    return Plan(steps + _last(stages, names))
+    inequalities = "dP/ds > 0 is verified: p > 0 and |q| <= f p follow"
+    return Plan(steps + _of_both("flats superposed", inequalities, stages, names))
 
 
 def _of_sheared(scene: Scene, names: tuple[str, ...]) -> Plan:
     """The steps of dissimilar bodies under P, then Q."""
     stages = {stage for name in names for stage in SHEARED[name]}
-    asked = "pressure" in stages
     how = f"β = {scene.beta:.4g}: p and q are one problem; first under P alone"
     steps = (
         Step("coupling", True, how, "pressed"),
         Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
         Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
         Step("edges", True, "found with the zones", "normal"),
-        Step("pressure", asked, "with the edges" if asked else "not asked for", "pressure"),
-        Step("inequalities", False, "the certificate measures p >= 0 and |q| <= f p"),
-        Step("slip", False, "the shear and the slip come with the pressure"),
     )
-    return Plan(steps + _last(stages, names))
+    inequalities = "the certificate measures p >= 0 and |q| <= f p"
+    return Plan(steps + _of_both("with the edges", inequalities, stages, names))
+
+
+def _of_both(
+    pressure: str, inequalities: str, stages: set[str], names: tuple[str, ...]
+) -> tuple[Step, ...]:
+    """The steps after the edges where pressure and shear are one problem."""
+    return (
+        _asked_pressure(stages, pressure),
+        Step("inequalities", False, inequalities),
+        Step("slip", False, "the shear and the slip come with the pressure"),
+        *_last(stages, names),
+    )
 
 
 def _of_full_stick(scene: Scene, names: tuple[str, ...]) -> Plan:
@@ -181,15 +187,19 @@ def _of_full_stick(scene: Scene, names: tuple[str, ...]) -> Plan:
     exponents = uncoupled if scene.beta == 0.0 else coupled
     tilt = "given" if scene.moment is None else "that of the moment, which is linear in it"
     how = f"one equation for p + iq, exponents {exponents}; the tilt is {tilt}"
-    asked = "pressure" in stages
     steps = (
         Step("edges", True, "the ends of the punch", "normal"),
         Step("full stick", True, how, "bonded"),
-        Step("pressure", asked, "its real part" if asked else "not asked for", "pressure"),
+        _asked_pressure(stages, "its real part"),
         Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
         Step("slip", False, "infinite friction: nothing slips"),
     )
     return Plan(steps + _last(stages, names))
+
+
+def _asked_pressure(stages: set[str], how: str) -> Step:
+    asked = "pressure" in stages
+    return Step("pressure", asked, how if asked else "not asked for", "pressure")
 
 
 def _last(stages: set[str], names: tuple[str, ...]) -> tuple[Step, ...]:

@@ -56,9 +56,7 @@ def steady_cycle(
         Profile, bodies, friction and tilt; its loads are replaced by those of A and B.
     A, B : sequence of float
         (P, Q, σ) or (P, Q, σ, tilt) at the two turning points, as in `Path`.
-    tol : float, optional
-        As in `solve`.
-    economy : collection of str, optional
+    tol, economy : float and collection of str, optional
         As in `solve`.
 
     Returns

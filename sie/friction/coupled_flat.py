@@ -74,17 +74,13 @@ class FlatPunch:
     pressure: Array = field(repr=False)
     eigenvalue: float
 
-    @property
-    def c(self) -> float:
-        return self.modulus.k
-
-    @cached_property
-    def rest(self) -> float:
-        return self.modulus.complement**2 / (1.0 + self.modulus.k)
-
     @cached_property
     def theta(self) -> float:
         return math.atan(self.beta * self.friction) / math.pi
+
+    @property
+    def c(self) -> float:
+        return self.modulus.k
 
     @property
     def exponent(self) -> float:

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import Interval
-from sie.traction.base import Complex, Density, on_line
+from sie.traction.base import on_line
 from sie.traction.combination import Combination
 
 from .coupled_profile import NEAREST
@@ -36,6 +36,7 @@ from .goodman_functions import GoodmanFlat, goodman_flat
 from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
 from .load_limit import refuse_corner, refuse_sliding
+from .shear_density import PotentialsOfParts
 from .slip_zones import Drive, SlipZones, edge_frame, slip_zones
 from .states import GrownSlip, Step
 
@@ -50,7 +51,7 @@ KIND_UNDER_Q = "outwards under P, then along Q, β q neglected (Goodman)"
 
 
 @dataclass(frozen=True, eq=False)
-class GoodmanShear(Density):
+class GoodmanShear(PotentialsOfParts):
     """q: values from the state, the potential from series of its even and its odd part."""
 
     state: GoodmanSlip
@@ -114,15 +115,6 @@ class GoodmanShear(Density):
 
     def __call__(self, x: ArrayLike) -> Array:
         return on_line(self.state.traction, x)
-
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self.parts.cauchy(z, side)
-
-    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self.parts.cauchy_derivative(z, side)
-
-    def hilbert(self, x: ArrayLike) -> Array:
-        return self.parts.hilbert(x)
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,7 +297,7 @@ class GoodmanSlip(GrownSlip):
             continues = side == self.along
             end = ahead if continues else behind
             distances = sorted(side * (end - x) for x in inner)
-            rest = self.flat.rest * self.contact.r if continues else self.contact.r
+            rest = self.flat.modulus.rest * self.contact.r if continues else self.contact.r
             edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
             breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
             frames.append(DeficitFrame(self.deficit, self.friction, side, rest, breaks, edge))

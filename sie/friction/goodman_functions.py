@@ -47,7 +47,11 @@ def _first_kind(x: Array, y: Any, z: Any) -> Array:
 
 @dataclass(frozen=True)
 class GoodmanFlat:
-    """Functions of the flat punch: β > 0, and f as far as doubles tell it from a larger one."""
+    """Functions of the flat punch.
+
+    beta        β > 0
+    friction    f, as far as doubles tell it from a larger one
+    """
 
     beta: float
     friction: float
@@ -60,11 +64,6 @@ class GoodmanFlat:
     def k(self) -> float:
         """Half the width of the stick zone."""
         return self.modulus.k
-
-    @cached_property
-    def rest(self) -> float:
-        """1 - k."""
-        return self.modulus.complement**2 / (1.0 + self.modulus.k)
 
     def ratio(self, part: Array, from_stick: Array, square: Array) -> Array:
         """q/(f p) at t = k part, given 1 - |part| and 1 - t²."""
@@ -84,7 +83,8 @@ class GoodmanFlat:
     def slip(self, t: Array, from_edge: Array) -> Array:
         """∫ (Hq + β p) from the end of the stick zone to t on the right slip zone."""
         complement = self.modulus.complement
-        past = np.maximum(self.rest - from_edge, 0.0) if self.k > 0.5 else np.maximum(t - self.k, 0)
+        rest = self.modulus.rest
+        past = np.maximum(rest - from_edge, 0.0) if self.k > 0.5 else np.maximum(t - self.k, 0.0)
         square = from_edge * (1.0 + t)
         inner = past * (t + self.k)
         s = np.sqrt(square) * _first_kind(inner, t * t * complement**2, complement**2)

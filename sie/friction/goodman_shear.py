@@ -183,7 +183,7 @@ class GoodmanGrowth:
 
     def _reaching(self, y: Array, part: float) -> Start:
         """The half-width at which m + part r = y, or that of first touch."""
-        k, start, rest = self.flat.k, self.table.start, self.flat.rest
+        k, start, rest = self.flat.k, self.table.start, self.flat.modulus.rest
         if self.table.search.axis is not None:
             r = np.maximum(y / part, start)
         else:

@@ -11,6 +11,7 @@ inversion of the slope on the stick zone, and the integral is over the slip zone
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -29,8 +30,26 @@ Array = NDArray[np.float64]
 ROWS = 4096  # points at a time
 
 
+class PotentialsOfParts(Density):
+    """A density that has values of its own and the potentials of a sum."""
+
+    @property
+    @abstractmethod
+    def parts(self) -> Combination:
+        """The sum."""
+
+    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self.parts.cauchy(z, side)
+
+    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
+        return self.parts.cauchy_derivative(z, side)
+
+    def hilbert(self, x: ArrayLike) -> Array:
+        return self.parts.hilbert(x)
+
+
 @dataclass(frozen=True, eq=False)
-class OneSignedShear(Density):
+class OneSignedShear(PotentialsOfParts):
     """q = scale (p - p̂), scale = ± f.
 
     In a stick zone that nearly fills the contact q follows from the slip zones (`SlipZones`).
@@ -43,7 +62,7 @@ class OneSignedShear(Density):
     short: SlipZones | None = None
 
     @cached_property
-    def _difference(self) -> Combination:
+    def parts(self) -> Combination:
         return Combination(((self.scale, self.pressure), (-self.scale, self.corrective)))
 
     @property
@@ -54,11 +73,11 @@ class OneSignedShear(Density):
     def moment(self) -> float:  # type: ignore[override]
         if self.short is not None:
             return self.scale * self.short.moment
-        return self._difference.moment
+        return self.parts.moment
 
     def __call__(self, x: ArrayLike) -> Array:
         if self.short is None:
-            return self._difference(x)
+            return self.parts(x)
         x = arguments.reals("x", x)
         flat = x.ravel()
         stick = self.short.stick
@@ -68,33 +87,24 @@ class OneSignedShear(Density):
         q[~inside] = self.scale * self.pressure(flat[~inside])
         return q.reshape(x.shape)
 
-    def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._difference.cauchy(z, side)
-
-    def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        return self._difference.cauchy_derivative(z, side)
-
     @property
     def bases(self) -> tuple[tuple[float, Density], ...]:
-        return self._difference.bases
+        return self.parts.bases
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        return self._difference.breaks
+        return self.parts.breaks
 
     @property
     def singular(self) -> tuple[float, ...]:
-        return self._difference.singular
+        return self.parts.singular
 
     @property
     def hilbert_at_edges(self) -> tuple[float, float]:
-        return self._difference.hilbert_at_edges
-
-    def hilbert(self, x: ArrayLike) -> Array:
-        return self._difference.hilbert(x)
+        return self.parts.hilbert_at_edges
 
     def strength(self, x: float) -> float:
-        return self._difference.strength(x)
+        return self.parts.strength(x)
 
 
 @dataclass(frozen=True, eq=False)

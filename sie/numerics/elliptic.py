@@ -32,6 +32,11 @@ class Modulus(NamedTuple):
     K_complement: float
 
     @property
+    def rest(self) -> float:
+        """1 - k to relative accuracy."""
+        return self.complement**2 / (1.0 + self.k)
+
+    @property
     def swapped(self) -> Modulus:
         """The same with k and k' in each other's place."""
         return Modulus(self.complement, self.k, self.K_complement, self.K)

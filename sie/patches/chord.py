@@ -22,12 +22,12 @@ class Points:
     anchor: Any
     offset: Any
 
+    def __getitem__(self, k: Any) -> Points:
+        return Points(self.anchor[k], self.offset[k])
+
     @property
     def x(self) -> Any:
         return self.anchor + self.offset
-
-    def __getitem__(self, k: Any) -> Points:
-        return Points(self.anchor[k], self.offset[k])
 
 
 def _parity(turns: Any) -> Any:

@@ -48,12 +48,13 @@ class Measure:
     charge: Array = field(default_factory=lambda: np.zeros(0))
 
     @cached_property
-    def Y(self) -> Array:
-        return self.charge if self.charge.size else np.zeros(2 * self.patches.number)
-
-    @cached_property
     def panels(self) -> PatchPanels:
         return patch_panels(self.patches, self.pieces)
+
+    @cached_property
+    def Y(self) -> Array:
+        """The point charges, also where there are none."""
+        return self.charge if self.charge.size else np.zeros(2 * self.patches.number)
 
     @cached_property
     def gaps(self) -> GapPanels:
