@@ -77,9 +77,8 @@ def slip_width(
 ) -> Number:
     """The width of either slip zone to relative accuracy, of one friction and one dundurs > 0.
 
-    >>> args = {"half_width": 1.0, "friction": 0.3, "dundurs": 0.3}
-    >>> round(float(slip_width(**args) + stick_half_width(**args)), 12)
-    1.0
+    >>> round(float(slip_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
+    0.354212587613
     """
     b, (flat, _) = positive("half_width", half_width, lib), _solved(friction, dundurs, lib)
     return as_result(b * flat.complement / (1 + lib.sqrt(flat.k2)))
