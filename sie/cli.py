@@ -43,10 +43,11 @@ from .io.answers import wanted
 from .io.mesh_comparison import Comparison, compare, read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
-from .io.stress_grid import SIZE, SUFFIXES, Grid, file_bytes
+from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
 from .problem.load_path import Path
+from .problem.request import GRID
 from .solution import Solution, solve
 from .streams import discard_output, print_error, print_text
 
@@ -308,7 +309,7 @@ def _content(
             f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
             f"contact from x1 = {x1!r} to x2 = {x2!r}",
         )
-        return file_bytes(Grid(solution, *(arguments.grid or SIZE)), path.suffix[1:].lower(), head)
+        return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
     return _drawn(lambda: _figure(solution, file), path)
 
 

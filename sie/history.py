@@ -31,14 +31,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact.inequalities import slope_rises
-from .contact.pressure import Normal
+from .contact.known_contact import Normal
 from .errors import LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
 from .friction.load_steps import turning_points
 from .friction.path_slip import PathSlip
-from .friction.states import NoSlip, OneSignedSlip, Slip
+from .friction.slip_state import NoSlip, Slip
+from .friction.states import OneSignedSlip
 from .friction.turning_point import Loads, TurningPoint
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches

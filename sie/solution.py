@@ -22,11 +22,11 @@ from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
-from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
+from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
-from .contact.pressure import Normal, pressure
+from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
@@ -40,7 +40,7 @@ from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman import GoodmanSlip, goodman_slip
 from .friction.goodman_departure import departure
 from .friction.partial_slip import slip
-from .friction.states import Slip, Step
+from .friction.slip_state import Slip, Step
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
@@ -318,8 +318,7 @@ class Solution:
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        state = self.tangential
-        return state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
+        return dissipated(self.tangential)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:

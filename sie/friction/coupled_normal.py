@@ -16,8 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edges import Edges
-from sie.contact.pressure import Normal
+from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, interval_about
 from sie.problem.scene import Scene

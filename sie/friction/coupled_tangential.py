@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene

@@ -34,7 +34,8 @@ from numpy.typing import NDArray
 
 from sie.contact.edges import Found
 from sie.contact.inequalities import slope_rises
-from sie.contact.pressure import Normal, pressure
+from sie.contact.known_contact import Normal
+from sie.contact.pressure import pressure
 from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
@@ -43,7 +44,7 @@ from sie.traction.piece_quadrature import Geometry
 
 from .contact_growth import ContactGrowth
 from .memory import SlippedLayer
-from .states import Slip, Slipping
+from .slip_state import Slip, Slipping
 
 Array = NDArray[np.float64]
 
@@ -73,9 +74,9 @@ ROWS = 20_000  # parts of panels at a time
 
 
 def dissipated(state: Slip) -> float:
-    """∫|q| |slip| dx, the energy that a first loading dissipated, per unit length."""
+    """The energy that a first loading dissipated, ∫|q| |slip| dx at constant P."""
     if not isinstance(state, Slipping):
-        return 0.0
+        return state.energy
     step = state.step
     if step.tau or not (step.scene.profile.convex or slope_rises(step.pressure, step.slope)):
         return state.work  # a smaller load need not touch in one patch

@@ -37,8 +37,8 @@ from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
 from .load_limit import refuse_corner, refuse_sliding
 from .shear_density import PotentialsOfParts
+from .slip_state import GrownSlip, Step
 from .slip_zones import Drive, SlipZones, edge_frame, slip_zones
-from .states import GrownSlip, Step
 
 Array = NDArray[np.float64]
 

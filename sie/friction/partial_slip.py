@@ -45,8 +45,9 @@ from sie.traction.piece_quadrature import Geometry
 
 from .load_limit import refuse_sliding, remaining
 from .narrow_stick_zone import narrow_stick_zone
+from .slip_state import NoSlip, Slip, Step, edge_frames
 from .slip_zones import Drive, slip_zones
-from .states import NoSlip, OneSignedSlip, Sliding, Slip, Step, TwoSignedSlip, edge_frames
+from .states import OneSignedSlip, Sliding, TwoSignedSlip
 
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from .chord import Points
 from .measure import Measure, Targets, close, edge_ratio, integrals
 from .panels import GapPanels
+from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation
 
@@ -200,3 +201,14 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
         S,
     )
     return reference, T, np.asarray(o.D(targets))
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """An answer: a state that its findings certify."""
+
+    state: State
+    operator: Operator
+    findings: Findings
+    rounds: int
+    steps: int

@@ -20,15 +20,16 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Found, findings, gap, tensions
+from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
-from .operator import Operator
+from .operator import Found, Operator
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, State
+from .tension import tensions
 
 Array = NDArray[np.float64]
 
@@ -214,6 +215,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         "two of them are about to merge, or one to appear; change the load a little",
         patches=state.patches.number,
     )
+
+
+def findings(o: Operator) -> Findings:
+    """What the bounds of pressure and gap find."""
+    tension, lowest = tensions(o)
+    return Findings(tension, overlaps(o), lowest)
 
 
 def _rounded(state: State) -> tuple[object, ...]:
