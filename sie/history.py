@@ -47,9 +47,9 @@ from .patches.dissipation import PatchDissipation, Untouched
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
 from .problem.load_path import Path
-from .problem.path_scene import refuse_uncovered, unsheared
+from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
-from .problem.scene import Scene, refuse_no_scene
+from .problem.scene import Scene
 from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
@@ -100,10 +100,6 @@ def follow(
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
     """
-    if not isinstance(path, Path):
-        refuse_no_scene(scene)
-        raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
-    refuse_uncovered(scene)
     return History(scene, path, tol, economy)
 
 
@@ -140,8 +136,8 @@ class History(Sequence[Solution]):
         economy: Collection[str],
         steps: Callable[[Scene, Path, Contacts], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
-        self._first = path.first_contact
         self.scene = unsheared(scene, path)
+        self._first = path.first_contact
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self._plain: dict[Under, Solution] = {}
@@ -298,6 +294,12 @@ class History(Sequence[Solution]):
             row = dict(zip(names, loads, strict=True))
             rows.append(row | {"stick": stick, "energy_lost": energy})
         return rows
+
+    def from_rest(self, parts: int) -> History:
+        """The same after the first normal load alone, with every step in so many parts."""
+        start = (self.path.points[0][0], 0.0, 0.0)
+        path = Path([start, *self.path.points]).subdivided(parts)
+        return History(self.scene, path, self.tol, self.economy)
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""

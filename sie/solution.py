@@ -34,7 +34,6 @@ from .friction.coupled_normal import coupled_contact
 from .friction.coupled_sheared import ShearedContact, sheared_contact
 from .friction.coupled_tangential import TangentialSearch, tangential_search
 from .friction.coupled_traction import OnHalves
-from .friction.coverage import refuse_uncovered
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman import GoodmanSlip, goodman_slip
@@ -47,9 +46,10 @@ from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
+from .problem.coverage import refuse_uncovered
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
-from .problem.scene import Scene, refuse_no_scene
+from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
@@ -827,11 +827,10 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     >>> round(sie.solve(scene).half_width, 6)
     0.282095
     """
-    refuse_no_scene(scene)
+    refuse_uncovered(scene)
     tol = arguments.tolerance(tol)
     names = () if economy is ECONOMY else arguments.listed("economy", economy, "a set of names")
     for name in names:
         if not arguments.among(name, ECONOMY):
             raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
-    refuse_uncovered(scene)
     return Solution(scene, tol, economy)
