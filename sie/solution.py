@@ -271,18 +271,15 @@ class Solution:
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
         if self.scene.goodman:
-            self._refuse_goodman_in_patches()
+            if self._several is not None:
+                raise ContactError(
+                    f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear "
+                    "in it follows from how one patch grew; give a convex profile, or dundurs = 0 "
+                    "to neglect β"
+                )
             growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
             return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         return self.first_loading(self._loads, self.patches_under)
-
-    def _refuse_goodman_in_patches(self) -> None:
-        if self._several is not None:
-            raise ContactError(
-                f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear in "
-                "it follows from how one patch grew; give a convex profile, or dundurs = 0 to "
-                "neglect β"
-            )
 
     def first_loading(
         self,
