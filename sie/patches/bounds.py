@@ -31,6 +31,12 @@ def legendre(n: int) -> Array:
     return matrix
 
 
+def halves(lo: Array, hi: Array) -> tuple[Array, Array]:
+    """The ends of the left halves of parts, then those of the right ones."""
+    middle = 0.5 * (lo + hi)
+    return np.concatenate((lo, middle)), np.concatenate((middle, hi))
+
+
 def lower_bound(values: Array) -> Array:
     """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
     c = values @ legendre(values.shape[1])

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .bounds import DEEPEST, NODES, legendre, lower_bound
+from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
 from .operator import Operator, gap_values
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
 from .state import Overlap
@@ -56,12 +56,9 @@ def overlaps(o: Operator) -> tuple[Overlap, ...]:
         open_ = ~enough & ~negative.any(axis=1)
         if not open_.any() or depth == DEEPEST - 1:
             break
-        middle = 0.5 * (lo + hi)[open_]
-        panel, edge = (
-            np.tile(panel[open_], 2),
-            np.concatenate((edge[open_], np.zeros(len(middle), dtype=bool))),
-        )
-        lo, hi = np.concatenate((lo[open_], middle)), np.concatenate((middle, hi[open_]))
+        panel = np.tile(panel[open_], 2)
+        edge = np.concatenate((edge[open_], np.zeros(np.count_nonzero(open_), dtype=bool)))
+        lo, hi = halves(lo[open_], hi[open_])
     return _gathered(bad, largest)
 
 

@@ -221,5 +221,4 @@ class Found:
     state: State
     operator: Operator
     findings: Findings
-    rounds: int
     steps: int

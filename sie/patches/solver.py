@@ -201,7 +201,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             early = early if pulled or event is not None else 0
             state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
             continue
-        found = Found(state, o, findings(o), round_ + 1, steps)
+        found = Found(state, o, findings(o), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .bounds import CLOSED, DEEPEST, NODES, TENSION, lower_bound
+from .bounds import CLOSED, DEEPEST, NODES, TENSION, halves, lower_bound
 from .chord import Points
 from .operator import Operator, intensities, on_patches
 from .state import Tension
@@ -26,14 +26,13 @@ HALVED = 42  # times the distance from a concave corner is: less than CLOSED
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
     """Where the patches pull, and the lowest bound of D over the largest D."""
     k = o.panels
-    parts = np.stack((k.lo, k.hi), axis=1)
+    lo, hi = k.lo, k.hi
     panel = np.arange(len(k.lo))
     scale, lowest = 0.0, np.inf
     bad: list[tuple[int, float, float, float, float]] = []
     g, _ = chebyshev.gauss_legendre(NODES)
     for depth in range(DEEPEST):
-        lo, length = parts[:, :1], np.diff(parts, axis=1)
-        angle = lo + length * g
+        angle = lo[:, None] + (hi - lo)[:, None] * g
         D, x = intensities(o, panel, angle)
         finite = D[np.isfinite(D)]
         scale = max(scale, float(finite.max(initial=0.0)))
@@ -47,13 +46,7 @@ def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
         open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
         if not open_.any():
             break
-        middle = parts[open_].mean(axis=1)
-        parts = np.concatenate(
-            (
-                np.stack((parts[open_, 0], middle), axis=1),
-                np.stack((middle, parts[open_, 1]), axis=1),
-            )
-        )
+        lo, hi = halves(lo[open_], hi[open_])
         panel = np.tile(panel[open_], 2)
     corners, deepest = _at_corners(o)
     bad += corners
