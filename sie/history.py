@@ -295,12 +295,6 @@ class History(Sequence[Solution]):
             rows.append(row | {"stick": stick, "energy_lost": energy})
         return rows
 
-    def from_rest(self, parts: int) -> History:
-        """The same after the first normal load alone, with every step in so many parts."""
-        start = (self.path.points[0][0], 0.0, 0.0)
-        path = Path([start, *self.path.points]).subdivided(parts)
-        return History(self.scene, path, self.tol, self.economy)
-
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)

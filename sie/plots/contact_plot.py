@@ -28,10 +28,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sie.history import PathSolution
+from sie.history import PathSolution, follow
 from sie.io.answers import slip_of
 from sie.io.sample_points import abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
+from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from . import style
@@ -258,8 +259,11 @@ def _has_loop(solution: Solution) -> bool:
 
 def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
     assert isinstance(solution, PathSolution)
-    history = solution.history.from_rest(LOOP_POINTS)
-    shift, Q = np.array([one.shift for one in history]), np.array(history.path.points)[:, 1]
+    history = solution.history
+    start = (history.path.points[0][0], 0.0, 0.0)
+    path = Path([start, *history.path.points]).subdivided(LOOP_POINTS)
+    solutions = follow(history.scene, path, history.tol, history.economy)
+    shift, Q = np.array([one.shift for one in solutions]), np.array(path.points)[:, 1]
     along, length = style.scaled(float(np.abs(shift).max()) or 1.0, units.length)
     up, force = style.scaled(float(np.abs(Q).max()), units.force)
     style.zero_line(axes)
