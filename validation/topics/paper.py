@@ -18,7 +18,7 @@ import sie
 from analytic import interior, rounded_flat
 from sie import charts
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Curve, Doing, Map, Record, Table, checked
+from validation.harness.records import Claim, Curve, Map, Record, Table, checked, in_turn
 
 TITLE = "The paper: Figs 2 to 8 and its statements"
 SECONDS = (5.0, 14.0)
@@ -36,18 +36,14 @@ CROSSING = 0.540206764905  # where the strength is Hertz's again, by this projec
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    yield Doing("Fig. 2")
-    yield from figure_2()
-    yield Doing("Fig. 3")
-    yield from figure_3()
-    yield Doing("Fig. 4")
-    yield from figure_4(quick)
-    yield Doing("Figs 5, 6, 7")
-    yield from figures_5_to_7(quick)
-    yield Doing("Fig. 8")
-    yield from figure_8(quick)
-    yield Doing("statements")
-    yield from statements()
+    yield from in_turn(
+        ("Fig. 2", figure_2()),
+        ("Fig. 3", figure_3()),
+        ("Fig. 4", figure_4(quick)),
+        ("Figs 5, 6, 7", figures_5_to_7(quick)),
+        ("Fig. 8", figure_8(quick)),
+        ("statements", statements()),
+    )
     yield ERRATA
 
 
