@@ -36,6 +36,8 @@ def refuse_unsolved(scene: Scene, remedy: str) -> None:
             f"{scene.half_width:g}: Q changes the width of their contact, and the load of a width "
             "under Q is not solved; give normal_load"
         )
+    if scene.tangential_load and scene.profile.pieces.is_flat_punch:
+        refuse_corners(scene)
 
 
 def refuse_corners(scene: Scene) -> NoReturn:

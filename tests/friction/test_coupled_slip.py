@@ -39,6 +39,7 @@ PROFILES = {
     "rounded flat": sie.RoundedFlat(0.5, 1.0),
     "polynomial": sie.Polynomial((0.0, 0.0, 0.5, 0.0, 0.2)),
     "function": sie.FromFunction(slope="sinh(x)"),
+    "function without slope": sie.FromFunction(slope="0*x", domain=(-1.0, 1.0)),
     "shifted": sie.Parabola(1.0).shifted(3.0),
     "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
 }
