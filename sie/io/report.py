@@ -166,7 +166,7 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
-    head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
+    head = ("P", "Q", "σ", "stick from", "to", f"energy lost ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
     for point in solution.history.rows():
         zones = point["stick"] or [("-", "-")]
