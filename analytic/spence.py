@@ -10,8 +10,10 @@ Let k = c/b, theta = arctan(beta f)/pi, and on 0 < r < 1
     W(r) = r^(-1/2) (1-r)^(theta-1/2) (1 - k² r)^(1/2-theta),
     K v(s) = ∫ v(r) W(r) dr/(1 - k² r s).
 
-The pressure of the flat at x = c sqrt(r) is the eigenfunction v > 0 of K, and k makes its
-eigenvalue lambda = pi sqrt(1 - beta²) k^-theta (docs/derivations/coupled_slip.md). With P = b = 1,
+K v is the slope of the surface beside the contact that the pressure v(r) of the flat at
+x = c sqrt(r) makes; K K v gives the pressure back. So v > 0 is the eigenfunction of K, and k makes
+its eigenvalue lambda = pi sqrt(1 - beta²) k^-theta (derived in docs/derivations/coupled_slip.md of
+the source distribution). With P = b = 1,
 
     k^(2 theta) ∫ W v dr = 1,    p(0) = k^-theta/(pi sqrt(1 - beta²)),
     M(m) = 1/(2 pi) ∫ s^(m/2-1) (1-s)^(theta-1/2) (1 - k² s)^(1/2-theta) k^(2 theta) K v(s) ds.
