@@ -10,8 +10,8 @@ Let k = c/b, theta = arctan(beta f)/pi, and on 0 < r < 1
     W(r) = r^(-1/2) (1-r)^(theta-1/2) (1 - k² r)^(1/2-theta),
     K v(s) = ∫ v(r) W(r) dr/(1 - k² r s).
 
-K v is the slope of the surface beside the contact that the pressure v(r) of the flat at
-x = c sqrt(r) makes; K K v gives the pressure back. So v > 0 is the eigenfunction of K, and k makes
+K v is, but for a factor, the slope of the surface beside the contact under the pressure v(r) at
+x = c sqrt(r), and K K v that pressure again. So v > 0 is the eigenfunction of K, and k makes
 its eigenvalue lambda = pi sqrt(1 - beta²) k^-theta (derived in docs/derivations/coupled_slip.md of
 the source distribution). With P = b = 1,
 

@@ -1,4 +1,4 @@
-"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. Shares nothing
+"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. It shares nothing
 with the solver that it checks.
 
 Constant shear on each of n equal elements; the displacement of the indenter relative to the body
@@ -61,8 +61,8 @@ class Mesh:
             found = np.linalg.solve(K, right)
             new[free] = q[free] + found[:m]
             slip = found[m] - self.A @ (new - q) - strain * self.x
-            # free elements beyond their bound are held there, held ones whose slip pulls away are
-            # let go
+            # Free elements beyond their bound are held there. Held ones whose slip opposes it are
+            # released.
             out = free & (np.abs(new) > bound * (1.0 + 1e-13))
             back = fixed & (at * slip < -1e-14 * np.abs(slip).max())
             if not out.any() and not back.any():

@@ -1,4 +1,4 @@
-"""The normal contact in 40 digits, by quadrature alone: what the solver is measured against.
+"""The normal contact in 40 digits, by quadrature alone: the reference for the solver.
 
 Nothing here comes from the package under test. A profile is the list of its slope's pieces, each an
 analytic function of an mpmath number; the contact is found by Newton's method on the conditions,
@@ -186,7 +186,7 @@ class Contact(Between):
         H = self.pieces.functions[e](z)
         if (
             abs(z - nearest) > self.r
-        ):  # far away nothing is to be taken out, and a continued polynomial would grow
+        ): # far away no pole is to be subtracted, and a continued polynomial would grow
             H, e = mp.zero, -1
         root = mp.sqrt(z - self.x1) * mp.sqrt(z - self.x2)
         if not self.sharp:

@@ -1,6 +1,6 @@
 """Drawing, separate from computing: Matplotlib figures in one style, as SVG inside a page.
 
-Figures are drawn as narrow as a phone, so that their letters stay readable there.
+Figures have the width of a phone, so that their text is readable there.
 """
 
 from __future__ import annotations

@@ -169,7 +169,7 @@ def _data(value: Any) -> str:
 
 
 def number(value: Any) -> str:
-    """A number as one reads it: four figures, powers of ten where it is far from one."""
+    """A number to four figures, with a power of ten where it is far from one."""
     if value is None:
         return "—"
     if isinstance(value, bool) or not isinstance(value, (int, float, np.floating)):

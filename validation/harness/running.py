@@ -22,7 +22,7 @@ from validation.harness.progress import Progress
 from validation.harness.records import Found, kept
 from validation.harness.report import Section
 
-TICK = 0.5  # seconds between two looks of the progress bar
+TICK = 0.5  # seconds between two updates of the progress bar
 TOPICS = "validation.topics"
 FIGURES = f"{TOPICS}.figures"
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -98,7 +98,7 @@ def workers(topics: int) -> Iterator[Executor]:
         ) as pool:
             try:
                 for _ in range(cores):
-                    pool.submit(awake)  # they import while this process does
+                    pool.submit(awake)  # their imports run beside those of this process
                 yield pool
             # An interrupt too: else the pool would compute all that it was given before it ends
             except BaseException:

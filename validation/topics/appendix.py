@@ -29,7 +29,7 @@ TIMED = False
 DIGITS = 50
 mp = context(DIGITS + GUARD)
 few = context(12)
-WRONG = mp.mpf(10) ** -20  # relative change of φ0 that a checker of 50 digits must see
+WRONG = mp.mpf(10) ** -20  # relative change of φ0 that a checker of 50 digits must detect
 
 # (a, b, x, R): doubles, so that both packages solve the same problem
 QUICK = ((0.5, 1.25, 0.75, 2.0),)
@@ -106,7 +106,7 @@ class Setting:
 @dataclass(frozen=True)
 class Equation:
     """`left` by quadrature, `right` as it should read, `printed` as our copy prints it where that
-    is another thing.
+    differs.
 
     `numpy` and `exact` are the closed forms of `analytic`, `solver` the answer of `sie`; None where
     the equation is not one of theirs.
@@ -351,7 +351,7 @@ def compute(quick: bool) -> Iterator[Record]:
     rows: list[tuple[Any, ...]] = []
     settings = [
         Setting(*case) for case in (QUICK if quick else CASES)
-    ]  # each remembers its integrals
+    ]  # each keeps its integrals
     spoiled = Setting(*QUICK[0], spoiled=WRONG)
     for equation in EQUATIONS:
         yield Doing(equation.name)

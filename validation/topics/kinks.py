@@ -2,7 +2,7 @@
 
 A contact is drawn whose right edge lies on a break of the slope: where h'' jumps, or h' itself. The
 load at which that is so, or the half-width, is then missed by a relative 1e-15 to 1e-4 to either
-side, and the scene is asked with its tilt or with its moment. Its pieces are polynomials, whose
+side, and the scene is given with its tilt or with its moment. Its pieces are polynomials, whose
 integrals over a contact are exact (`oracles.polynomial_pieces`).
 
 The edges are the roots of the conditions in 100 digits, by Newton's method from those of the
@@ -33,7 +33,7 @@ SECONDS = (6.0, 70.0)
 TIMED = False
 
 PROMISE = 1e-12  # of the half-width and of the peak pressure
-SPOILED = 1e-10  # an answer off by so much must be seen
+SPOILED = 1e-10  # an answer off by so much must be detected
 LEFT = mp.mpf(10) ** -45  # of the conditions, relative
 PLACES = (-0.999999, -0.999, -0.7, -0.31, 0.013, 0.43, 0.81, 0.999, 0.999999)
 BESIDE = (1e-9, 1e-6, 1e-3)  # of r, from every break
@@ -41,7 +41,7 @@ EPS = float(np.finfo(float).eps)
 # Of what is given: each of the numbers may be half of one off in the answer and in the scene
 ULPS = 4.0
 MOST = 60  # evaluations of the edge integrals
-SCANNED = 60  # points where the pressure's sign is looked at
+SCANNED = 60  # points where the sign of the pressure is tested
 CLOSED = 1e-3  # of the slopes in the contact times r: a smaller gap beside it may be none
 
 
@@ -153,7 +153,7 @@ class Trial:
 
 
 def trial(rng: np.random.Generator, shape: Shape, given: str) -> Trial | None:
-    """None where a single patch with that edge would pull or need no load."""
+    """None where one patch with that edge would be in tension or would need no load."""
     at = float(rng.choice([float(b) for b in shape.breaks if b > 0 or not shape.symmetric]))
     left = -at if shape.symmetric else at - 10.0 ** rng.uniform(-1.5, 0.7)
     bare = shape.contact(mp.mpf(left), mp.mpf(at))
@@ -192,7 +192,7 @@ def _left_edge(shape: Shape, x1: Number, x2: Number, tilt: Number) -> Number:
 
 
 def _presses(contact: Exact) -> bool:
-    """Whether p > 0 across the contact and the gap is open beside it: where one patch is right."""
+    """Whether p > 0 across the contact and the gap is open beside it, as one patch requires."""
     m, r = float(contact.m), float(contact.r)
     s = np.cos(np.pi * (np.arange(SCANNED) + 0.5) / SCANNED)
     if not all(contact.pressure(m + r * float(v), mp.mpf(1)) > 0 for v in s):

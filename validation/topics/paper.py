@@ -370,7 +370,7 @@ def statements() -> Iterator[Claim]:
 
 
 def _jump() -> Claim:
-    """The friction at which the weakest point of Hertz's contact leaves for the surface."""
+    """The friction at which the weakest point of Hertz's contact moves to the surface."""
 
     def surfaces(ratio: float) -> float:
         low, high = 0.1, 0.6

@@ -3,12 +3,12 @@
 Closed forms: two equal parabolas (steps of the arithmetic-geometric mean), two equal flats, and per
 period Westergaard's wave, a row of parabolas and a row of flats, in 50 digits. Gaps: the same
 parabolas pressed until the gap between patches is 1e-10 of a patch, on the line and per period.
-Events: on h = x²/2 + cos(12x + 0.7)/20 a patch is born and grows like the square root of the load
-beyond that (up to a logarithm), and two merge like the square root of what is left; next to an
-event the certificate states the conditioning. Wave: Westergaard's from first touch to full contact.
-Rough: a self-affine profile, repeated, by this package and by the grid codes that are installed
-(pip install -e ".[peers]"), and by the FFT boundary elements of this folder: time and largest error
-of each grid.
+Events: on h = x²/2 + cos(12x + 0.7)/20 a patch appears and grows like the square root of the load
+beyond that (up to a logarithm), and the gap between two vanishes like the square root of the load
+that is left; next to an event the certificate states the conditioning. Wave: Westergaard's from
+first touch to full contact. Rough: a self-affine profile, repeated, by this package and by the grid
+codes that are installed (pip install -e ".[peers]"), and by the FFT boundary elements of this
+folder: time and largest error of each grid.
 
 The error of edges is relative to the narrowest patch, that of pressures to their peak.
 """
@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 INSIDE = np.array([-0.97, -0.6, -0.2, 0.1, 0.5, 0.9])  # of each patch, in half-widths
 BY = "this project: to machine precision"
 NEARER = 4  # times, towards an event
-# how far the exponent of a square root may be from 1/2: at a birth r² has a factor ln(1/r)
+# how far the exponent of a square root may be from 1/2: where a patch appears r² has a factor ln(1/r)
 ROOT = 0.05
 AHEAD = 1e6  # largest error of the best grid over that of this package
 POINTS = (200, 1000)  # of the rough profile
@@ -249,7 +249,7 @@ def exponent(x: Array, y: Sequence[float]) -> float:
 
 
 def events() -> Iterator[Record]:
-    """The birth and the merger nearest to the load 0.228, at which there are three patches."""
+    """The appearance and the merger nearest to the load 0.228, at which there are three patches."""
     yield Doing("events")
     for kind, size, second in (
         ("birth", narrowest_patch, 0.226),

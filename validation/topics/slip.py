@@ -56,8 +56,8 @@ class Contact:
     given: dict[str, float]
 
     def exact(self, name: str, x: Numbers, *loads: float) -> list[Any]:
-        """`name` of the module at points: the last load is that of now, the others are where it
-        turned.
+        """`name` of the module at points: the last load is the present one, the others are those of
+        the turning points.
         """
         turned = ("largest_load", "least_load")[: len(loads) - 1]
         named = {k: mp.mpf(Q) for k, Q in zip((*turned, "tangential_load"), loads, strict=True)}
@@ -353,8 +353,7 @@ def enclosed(amplitude: float, n: int) -> tuple[float, float]:
 
 
 def cost(steps: int) -> Claim:
-    """What a step of a long cycle costs: its stick zone, as a share of solving its scene by
-    itself.
+    """The cost of a step of a long cycle, its stick zone, relative to solving its scene alone.
     """
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)[1:]
     path = sie.Path([(P, 0.8 * FP * np.sin(t)) for t in angles])

@@ -3,8 +3,8 @@
 Each answer is compared with a closed form in 50 digits, at the very doubles that the solver was
 given, and with its own certificate. An answer is full if its error is within the bar; known, if it
 was refused, or if the certificate states at least a third of the error; and lost, if digits are
-lost and nothing shows it. The frontier is where full accuracy ends. The control: an answer off by
-1e-10 must miss the bar.
+lost and the certificate does not state it. The frontier is where full accuracy ends. The control:
+an answer off by 1e-10 must miss the bar.
 """
 
 from __future__ import annotations
@@ -198,8 +198,8 @@ def _error(outcome: Any) -> float:
 
 
 def conditions(quick: bool) -> Iterator[Record]:
-    """Of the square systems, against the number of unknowns: this package's Cauchy equations, and
-    the textbook's unscaled matrix.
+    """Condition numbers of the square systems of this package's Cauchy equations, and of the
+    textbook's unscaled matrix, against the number of unknowns.
     """
     yield Doing("condition numbers")
     sizes = (8, 16, 32, 64, 128) if quick else (8, 16, 32, 64, 128, 256, 512)

@@ -21,7 +21,7 @@ from sie.problem.material import SIMILAR
 from validation.harness.measures import largest
 
 mp = context(50)
-SPOILED = 1e-10  # an answer off by so much must be seen
+SPOILED = 1e-10  # an answer off by so much must be detected
 CERTIFIED_PIECES = 1000  # beyond, a certificate takes longer than the solution
 MARGIN = 0.95  # of the half-width: nearer the edge one ulp of the edge weighs more than the bar
 
