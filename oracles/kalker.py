@@ -27,9 +27,8 @@ class Mesh:
     def __init__(self, interval: tuple[float, float], n: int, modulus: float) -> None:
         edges = np.linspace(interval[0], interval[1], n + 1)
         self.x, self.h, self.modulus = 0.5 * (edges[:-1] + edges[1:]), edges[1] - edges[0], modulus
-        size = (
-            interval[1] - interval[0]
-        )  # the unit of length in the logarithm: its choice moves δ only
+        # The unit of length in the logarithm: its choice moves δ only
+        size = interval[1] - interval[0]
 
         def primitive(s: Array) -> Any:  # ∫ ln|s| ds
             return s * np.log(np.abs(s) / (4.0 * size)) - s

@@ -32,9 +32,8 @@ mp = mpmath.mp.clone()
 mp.dps = 40
 NODES = 32
 LONGEST = 0.6  # of a panel in φ, where only the slope's own analyticity counts
-KINK = (
-    mpmath.mpf(10) ** -14
-)  # panels are halved down to this towards a break where the slope is not analytic from either side
+# Panels are halved down to this towards a break where the slope is not analytic from either side
+KINK = mpmath.mpf(10) ** -14
 
 KNOT = mpmath.mpf(10) ** -38  # the same towards a pole that is a break itself
 
@@ -66,9 +65,8 @@ class Pieces:
 
     breaks: tuple[Number, ...]
     functions: tuple[Callable[[Number], Number], ...]
-    kinks: tuple[
-        Number, ...
-    ] = ()  # breaks where a function itself is not analytic, like |x|^1.5 at 0
+    # Breaks where a function itself is not analytic, like |x|^1.5 at 0
+    kinks: tuple[Number, ...] = ()
 
     def tilted(self, tilt: float) -> "Pieces":
         return Pieces(
@@ -184,9 +182,8 @@ class Contact(Between):
             else nearest + self.r * mp.mpf("1e-30")
         )
         H = self.pieces.functions[e](z)
-        if (
-            abs(z - nearest) > self.r
-        ): # far away no pole is to be subtracted, and a continued polynomial would grow
+        # Far away no pole is to be subtracted, and a continued polynomial would grow.
+        if abs(z - nearest) > self.r:
             H, e = mp.zero, -1
         root = mp.sqrt(z - self.x1) * mp.sqrt(z - self.x2)
         if not self.sharp:
@@ -358,8 +355,7 @@ def _root(
                 J[i, j] = value
         step = mp.lu_solve(J, -mp.matrix(f))
         v = [x + s for x, s in zip(v, step, strict=True)]
-        if (
-            max(abs(s) for s in step) < scale * mp.mpf(10) ** -20
-        ):  # quadratic, slope known to 1e-16: what is left is below 1e-33
+        # The convergence is quadratic, with a slope known to 1e-16: what is left is below 1e-33.
+        if max(abs(s) for s in step) < scale * mp.mpf(10) ** -20:
             return v
     raise AssertionError(f"the reference did not converge from {start}")

@@ -20,9 +20,8 @@ from oracles.ends import Between
 mp = mpmath.mp.clone()
 mp.dps = 100
 Number = Any
-Rows = tuple[
-    tuple[Number, tuple[Number, ...]], ...
-]  # each piece's origin and coefficients, low order first
+# Each piece's origin and coefficients, low order first
+Rows = tuple[tuple[Number, tuple[Number, ...]], ...]
 
 
 @dataclass(frozen=True)

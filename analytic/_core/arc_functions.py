@@ -63,9 +63,8 @@ def _B_series(lib: Library, y2: Number, c: Number) -> Number:
 
 def _B_closed(lib: Library, y2: Number, c: Number) -> Number:
     y = lib.sqrt(y2)
-    return (
-        1 - c * _artanh(lib, y, c + (c == 0)) / y
-    )  # at c = 0 the product is 0 whatever the logarithm
+    # At c = 0 the product is 0 whatever the logarithm.
+    return 1 - c * _artanh(lib, y, c + (c == 0)) / y
 
 
 def _atan_series(lib: Library, y2: Number) -> Number:

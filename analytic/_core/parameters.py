@@ -164,9 +164,8 @@ def _float64(value: Number) -> Number:
     if type(value) is float:
         return value
     array = np.asarray(value)
-    if (
-        array.dtype.kind not in "fiu"
-    ):  # strings, complex and other numbers: each must convert by itself
+    # Strings, complex and other numbers: each must convert by itself
+    if array.dtype.kind not in "fiu":
         array = array.astype(object)
     # Python's float, not NumPy's: that one is slow on the left of an array, and most parameters are
     # single numbers.

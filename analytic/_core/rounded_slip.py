@@ -73,9 +73,8 @@ def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> 
         lost = load_between(lib, a, rim - width, width)
         step = (target - lost) / ((a + rim - width) * _theta(lib, a, rim - width))
         width = width + step
-        if everywhere(
-            abs(step) <= 2.0 ** (-bits(lib) / 2) * width
-        ):  # what is left is of the order of step²
+        # The error that is left is of the order of step².
+        if everywhere(abs(step) <= 2.0 ** (-bits(lib) / 2) * width):
             break
     return width
 

@@ -270,10 +270,8 @@ class Search:
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
         guess = first_guess(self.slope, z2, target)
-        last = [
-            guess,
-            guess,
-        ]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
+        # Distances of the right edge from z2 and of the left edge from z1 that belong together
+        last = [guess, guess]
 
         def contact_at(distance: float) -> tuple[Interval, EdgeIntegrals]:
             contact, k, left = split._left_edge(

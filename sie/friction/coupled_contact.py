@@ -28,12 +28,7 @@ from .coupled_traction import CoupledTraction, Panels, resolved_panels
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
-TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
-LOOKS, EVEN = (
-    64,
-    1e-10,
-)  # where the symmetry of a profile is measured, and to what part of its slope
 ENERGY_NODES = 24
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9

@@ -37,9 +37,8 @@ Array = NDArray[np.float64]
 
 DEGREE = 20
 DECAYED = 2e-13  # of a series, its last coefficients
-NEGLIGIBLE = (
-    256.0 * EPS
-)  # of the load: rounding of the integrals that a short panel has to make up for
+# Part of the load: rounding of the integrals, which a short panel has to compensate
+NEGLIGIBLE = 256.0 * EPS
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut

@@ -49,10 +49,8 @@ Array = NDArray[np.float64]
 
 SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
 TAIL = 3
-FINE, COARSE = (
-    1024.0 * EPS,
-    1e-11,
-)  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
+# The error allowed of the last coefficients of d ln r/d ln y; across many breaks, of a trace
+FINE, COARSE = 1024.0 * EPS, 1e-11
 LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
 # ... or this, where twice as many points do not make them smaller: the slope of a function is known
 # by its series
@@ -198,9 +196,8 @@ class Dissipation:
         )
         y = lo[:, None] + (hi - lo)[:, None] * share
         rise = (at_L - at_Y) / np.where(Y > L, Y - L, np.inf)  # of P for the front's way down
-        passed = Y + (at_Y - y) / np.where(
-            rise == 0.0, np.nan, rise
-        )  # where the front is when P = y
+        # The place of the front when P = y
+        passed = Y + (at_Y - y) / np.where(rise == 0.0, np.nan, rise)
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)

@@ -12,7 +12,6 @@ the width, p changes sign: bonded surfaces can pull.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -512,9 +512,8 @@ def in_frame(
 ) -> tuple[SlopeDensity, Slope]:
     """A density on the stick zone and its slope in the frame of an edge."""
     near = lengths[frame.side > 0.0]
-    far, rest = two_sum(
-        -near, -2.0 * density.contact.r
-    )  # from the width of the stick zone, which the other length may not resolve
+    # From the width of the stick zone, which the other length may not resolve
+    far, rest = two_sum(-near, -2.0 * density.contact.r)
     ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = frame.origin
     return density.moved(ends, dx, tail), slope.shifted(dx).shifted(tail)

@@ -29,10 +29,8 @@ from .sums import add, parts
 
 Array = NDArray[np.float64]
 
-OUTWARD, INTO_GAP = (
-    2.0,
-    0.4,
-)  # most that an edge moves out: half-widths of its patch, widths of its gap
+# The most that an edge moves out: half-widths of its patch, widths of its gap
+OUTWARD, INTO_GAP = 2.0, 0.4
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200

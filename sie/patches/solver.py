@@ -52,10 +52,8 @@ NARROWEST = 0.02  # of the window: what contact takes at least of a window that 
 COARSE = 512  # cells of a grid that looks for the window
 WINDOWS = 200
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
-FAR, LOOKED_AT = (
-    1e3,
-    4000,
-)  # windows beyond a window, and places there, at which the bodies must not overlap
+# Windows beyond a window, and places there, at which the bodies must not overlap
+FAR, LOOKED_AT = 1e3, 4000
 
 
 def contact(problem: Problem) -> Found:

@@ -629,9 +629,8 @@ def test_infinite_and_vanishing_ends_are_told_apart():
 
 def test_the_sign_of_a_density_s_potential_is_the_half_plane_s():
     density = sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0).solve()
-    assert density.hilbert(0.3) == pytest.approx(
-        -1.0, abs=1e-14
-    )  # the equation's 1/(t - x) gives g = +1
+    # The equation's 1/(t - x) gives g = +1.
+    assert density.hilbert(0.3) == pytest.approx(-1.0, abs=1e-14)
     assert density.cauchy(0.3, 0) == pytest.approx(-1.0, abs=1e-14)
     assert density.cauchy(0.3, 1) == pytest.approx(-1.0 - 1j * float(density(0.3)), abs=1e-14)
 

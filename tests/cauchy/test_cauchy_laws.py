@@ -76,9 +76,8 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
             lambda s, kernel=kernel: d.value(d.m + d.r * s) * kernel(d.m + d.r * s) * d.r,
             [-1, 0, 1],
         )
-        assert (
-            abs(integral - closed) < mp.mpf(10) ** -14
-        )  # of tanh-sinh towards an end with an exponent of -0.6
+        # The error is that of tanh-sinh towards an end with an exponent of -0.6.
+        assert abs(integral - closed) < mp.mpf(10) ** -14
 
 
 # -- manufactured solutions -----------------------------------------------------------------------
@@ -461,9 +460,8 @@ def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
         1.0 - 5.0j,
         1e4 + 1e4j,
     ]
-    size = (
-        10 * PROMISE * max(1.0, 1e-3 / gap)
-    )  # the densities themselves are known so well next to the gap
+    # The densities themselves are known so well next to the gap.
+    size = 10 * PROMISE * max(1.0, 1e-3 / gap)
     for where, found in zip(z, density.cauchy(z), strict=True):
         expected = complex(sum(d.cauchy(where) for d in manufactured))
         assert abs(found - expected) <= size * abs(expected), where

@@ -105,9 +105,8 @@ def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, 
     start = settled.moved(off, -off)
     first = search.integrals(start)
     _, k, done = newton.both(start, target, False, search.touch())
-    if (
-        trial.scene.profile.convex and min(first.JL, first.JR) > 0.0
-    ):  # on a straight part there is no derivative
+    # On a straight part there is no derivative.
+    if trial.scene.profile.convex and min(first.JL, first.JR) > 0.0:
         assert done
     if done:
         rounding = newton.rounding(evaluations[-1], k, target)
@@ -249,9 +248,8 @@ def test_a_contact_much_narrower_than_the_first_guess_is_found_beside_a_kink():
         normal_load=2.7856825138523804e-18 * 0.8 / 0.8093449815863573,
         tilt=0.011428380927743514,
     )
-    meeting = replace(
-        TINY, jumps=frozenset(TINY.profile.breaks)
-    )  # its pieces do not meet but for rounding
+    # The pieces meet but for rounding.
+    meeting = replace(TINY, jumps=frozenset(TINY.profile.breaks))
     found = kinks.outcome(Trial(meeting, scene, 29.238249670088848, 0.0))
     assert not found.refused
     assert found.edges <= kinks.PROMISE

@@ -150,9 +150,10 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
     for t in (1e-1, 1e-3, 1e-6, 1e-9):
         x = float(c) * (1.0 - 1e-3 * t)
         q = E * F / 2 * (mp.sqrt(b * b - mp.mpf(x) ** 2) - mp.sqrt(c * c - mp.mpf(x) ** 2))
+        # The last term is the effect of an ulp of c.
         assert abs(float(solution.shear(x)) / q - 1) < 1e-12 + 2 * math.ulp(x) / mp.sqrt(
             (c - x) * (b - c)
-        )  # what an ulp of c does
+        )
 
 
 @pytest.mark.parametrize(

@@ -209,9 +209,8 @@ def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
         for line in axes.lines
         if line.get_linestyle() == "--" and len(line.get_ydata()) > 2
     ]
-    assert all(
-        low <= y[2 * len(y) // 5] <= high for y in limits
-    )  # beside the middle, where a wedge's is infinite
+    # Beside the middle, where a wedge's is infinite
+    assert all(low <= y[2 * len(y) // 5] <= high for y in limits)
     assert len(limits) == 1 + bool((lines(axes)["$q$"].get_ydata() < 0.0).any())
 
 

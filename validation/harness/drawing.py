@@ -182,9 +182,8 @@ def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) 
         rasterized=False,
     )
     bar = ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
-    bar.solids.set(
-        rasterized=False, edgecolor="face"
-    )  # else Matplotlib puts a bitmap into the page
+    # Without this Matplotlib puts a bitmap into the page.
+    bar.solids.set(rasterized=False, edgecolor="face")
 
 
 def svg(figure: Figure) -> str:

@@ -89,9 +89,8 @@ def workers(topics: int) -> Iterator[Executor]:
         return
     others = set(multiprocessing.active_children())
     before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ.update(
-        dict.fromkeys(ONE_THREAD, "1")
-    )  # only what is started from here on reads them
+    # Only processes that start from here on read them.
+    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
     try:
         with ProcessPoolExecutor(
             min(topics, cores), mp_context=multiprocessing.get_context("spawn")

@@ -349,9 +349,8 @@ def _to_ten(value: float) -> float:
 
 def compute(quick: bool) -> Iterator[Record]:
     rows: list[tuple[Any, ...]] = []
-    settings = [
-        Setting(*case) for case in (QUICK if quick else CASES)
-    ]  # each keeps its integrals
+    # Each setting keeps its integrals.
+    settings = [Setting(*case) for case in (QUICK if quick else CASES)]
     spoiled = Setting(*QUICK[0], spoiled=WRONG)
     for equation in EQUATIONS:
         yield Doing(equation.name)

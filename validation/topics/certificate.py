@@ -155,9 +155,8 @@ def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     profile = sie.Sampled(x, 0.5 * x * x / R)
     t = np.concatenate([x, x[:-1] + 1e-6 * b, 0.5 * (x[1:] + x[:-1])])
     t = t[(np.abs(t) < b)]
-    rounding = 2.0 * float(
-        np.abs(profile.slope(t) - t / R).max()
-    )  # p/peak ~ twice the change of slope, the peak being E* b/(2R)
+    # p/peak is about twice the change of slope, the peak being E* b/(2R).
+    rounding = 2.0 * float(np.abs(profile.slope(t) - t / R).max())
     scene = sie.Scene(profile=profile, modulus=E, half_width=b)
     return Contact(
         kind,

@@ -26,10 +26,8 @@ TIMED = False
 
 NU = charts.POISSON
 BAR = 1e-13
-SAME, PLACE = (
-    1e-10,
-    1e-6,
-)  # of limits, and of their places, where a gradient vanishes: known to half the digits
+# Differences of limits, and of their places, where a gradient vanishes: known to half the digits
+SAME, PLACE = 1e-10, 1e-6
 FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 0.3))
 PRINTED_CROSSING = 0.55
 CROSSING = 0.540206764905  # where the strength is Hertz's again, by this project
@@ -114,9 +112,8 @@ def equation_20(ratio: float, c: Any) -> Any:
 
 
 def figure_3() -> Iterator[Record]:
-    shares = (
-        1.0 - (1.0 - np.linspace(0.005, 0.995, 33)) ** 2
-    )  # closer to sliding, where the curves are steep
+    # The points are closer to sliding, where the curves are steep.
+    shares = 1.0 - (1.0 - np.linspace(0.005, 0.995, 33)) ** 2
     worst = spoiled = 0.0
     for ratio in (0.0, 0.2, 0.4, 0.6, 0.8, 0.9):
         c = np.array([stick_of(ratio, float(share)) for share in shares])

@@ -41,7 +41,8 @@ Array = NDArray[np.float64]
 INSIDE = np.array([-0.97, -0.6, -0.2, 0.1, 0.5, 0.9])  # of each patch, in half-widths
 BY = "this project: to machine precision"
 NEARER = 4  # times, towards an event
-# how far the exponent of a square root may be from 1/2: where a patch appears r² has a factor ln(1/r)
+# The distance of the exponent of a square root from 1/2: of a patch that appears r² has a factor
+# ln(1/r)
 ROOT = 0.05
 AHEAD = 1e6  # largest error of the best grid over that of this package
 POINTS = (200, 1000)  # of the rough profile

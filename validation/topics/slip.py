@@ -353,8 +353,7 @@ def enclosed(amplitude: float, n: int) -> tuple[float, float]:
 
 
 def cost(steps: int) -> Claim:
-    """The cost of a step of a long cycle, its stick zone, relative to solving its scene alone.
-    """
+    """The cost of a step of a long cycle, its stick zone, relative to solving its scene alone."""
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)[1:]
     path = sie.Path([(P, 0.8 * FP * np.sin(t)) for t in angles])
 
@@ -365,9 +364,8 @@ def cost(steps: int) -> Claim:
         for t in angles[: steps // 10]:
             _ = sie.solve(PUNCH.scene(tangential_load=0.8 * FP * np.sin(t))).stick
 
-    together, tenth = fastest(
-        (followed, a_tenth), patience=0.002 * steps
-    )  # other topics run beside this one
+    # Other topics run beside this one.
+    together, tenth = fastest((followed, a_tenth), patience=0.002 * steps)
     return checked(
         lambda times: times[0] / times[1],
         (together, 10.0 * tenth),
