@@ -215,7 +215,7 @@ def _pressure_inside(
 
 
 class _View(NamedTuple):
-    """Lengths as one rim sees them."""
+    """Lengths measured from one rim."""
 
     inside: Number  # from the end of the flat, inwards
     near: Number  # from its edge

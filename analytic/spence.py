@@ -1,7 +1,8 @@
 """Dissimilar bodies pressed with friction: the stick zone, and the load under a power form.
 
 While the load grows both bodies stick on |x| < c and slip outwards beside it, q = ± f p. Under
-every symmetric convex form c/b is that of the flat punch, and h = C |x|^m carries (Spence 1975)
+every symmetric convex form c/b is that of the flat punch, and the load under h = C |x|^m is (Spence
+1975)
 
     P = E* C b^m/(2 M(m)).
 
@@ -39,7 +40,7 @@ from analytic.goodman import SPENCE
 
 POINTS = 0.15  # per bit and unit of t: as many as the singularity at 1/k² asks for
 WIDEST = 27.0  # of |ln(k²/(1-k²))|: thinner zones need more points than are worth it
-NEAR = 1e-9  # in ln(k²/(1-k²)): doubles are that good
+NEAR = 1e-9  # in ln(k²/(1-k²)): its accuracy in doubles
 SEARCHES, POWERS = 30, 2000
 ONE = "friction or dundurs is an array; give one number of each, for the stick zone is searched."
 
@@ -64,7 +65,7 @@ class _Flat(NamedTuple):
 def stick_half_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The half-width of the stick zone, of one friction and one dundurs > 0.
+    """The half-width of the stick zone, for single numbers friction and dundurs > 0.
 
     >>> round(float(stick_half_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.645787412387
@@ -77,7 +78,8 @@ def stick_half_width(
 def slip_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The width of either slip zone to relative accuracy, of one friction and one dundurs > 0.
+    """The width of either slip zone to relative accuracy, for single numbers friction and dundurs >
+    0.
 
     >>> round(float(slip_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.354212587613
@@ -91,7 +93,7 @@ def flat_central_pressure(
     *, half_width: Number, normal_load: Number, friction: Number, dundurs: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure in the middle of a flat punch, of one friction and one dundurs > 0.
+    """The pressure in the middle of a flat punch, for single numbers friction and dundurs > 0.
 
     >>> args = {"half_width": 1.0, "normal_load": 1.0, "friction": 0.3, "dundurs": 0.3}
     >>> round(float(flat_central_pressure(**args)), 12)
@@ -108,7 +110,7 @@ def load(
     *, half_width: Number, coefficient: Number, exponent: Number, modulus: Number,
     friction: Number, dundurs: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The load under h = C |x|^m, of one friction and one dundurs > 0.
+    """The load under h = C |x|^m, for single numbers friction and dundurs > 0.
 
     >>> args = {"coefficient": 0.5, "exponent": 2, "modulus": 1.0, "friction": 0.3, "dundurs": 0.3}
     >>> round(float(load(half_width=1.0, **args)), 11)

@@ -60,7 +60,7 @@ LARGEST = 1e150
 LARGEST_OF = {name: 1e250 for name in MEANING if name.endswith("_load")}
 LARGEST_OF |= dict.fromkeys(("coefficient", "inner", "moment"), sys.float_info.max)
 OTHER_UNITS = "where products are doubles (choose other units, or an mpmath context as lib)"
-# Positions may be as far away as doubles go.
+# Positions may have any size of a double.
 POSITIONS = ("x", "y", "z")
 
 
