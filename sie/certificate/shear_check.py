@@ -105,7 +105,7 @@ def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]
     """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
     Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
-    zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    zone next to a sharp edge, where q is infinite, the nodes there dominate.
     """
     force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
     for factor, density, contact, (x, _, weight, *_) in terms:

@@ -50,7 +50,7 @@ from sie.traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 SPREAD = 2.5  # standard deviations: of some dozens of independent points few contacts have a larger
-PLACES = 64  # at which the error of the pressure is looked at
+PLACES = 64  # at which the error of the pressure is computed
 FEWEST_NODES, MOST_NODES = 128, 1024  # of the slope's error; beyond, roughness is sampled only
 NODES_PER_POINT = 2.0
 INNER = 0.9  # of the contact

@@ -42,7 +42,7 @@ NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is deriv
 SPARE = 4
 # Nodes of the double exponential rule for the logarithm in ε: its step, and where it is cut.
 STEP, LAST = 0.09, 42
-# Where 1 - c is less than this the punch sticks all over, as far as doubles can tell.
+# Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
 # K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
 # tell

@@ -1,7 +1,7 @@
 """Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t =
 x/b.
 
-Two functions say all (notation of `coupled_flat`; S is derived in
+Two functions give all of them (notation of `coupled_flat`; S is derived in
 docs/derivations/coupled_slip.md):
 
     stick, t < c        p = A                  q = f A - χ S/β

@@ -1,7 +1,7 @@
 """How the load of a symmetric convex profile grows with its contact, where pressure and shear are
 coupled.
 
-Beside the contact of half-width x, at its edge, equation (1) says for P'(s) = dP/ds
+Beside the contact of half-width x, at its edge, equation (1) reads, with P'(s) = dP/ds,
 
     ∫_a^x P'(s) D(x/s) ds/s = E*/2 h'(x),        D = χ Ψ of the flat outside (`coupled_functions`),
 

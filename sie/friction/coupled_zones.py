@@ -186,7 +186,7 @@ class Map:
 
 
 class Answer(NamedTuple):
-    """What given zones miss: each is 0 in the state that is sought.
+    """The defects of the conditions with given zones: each is 0 in the state that is sought.
 
     load            a measure of ∫p_d, a stress
     left, right     p times the distance from the edge, to the powers a1 and a2, over β
@@ -327,7 +327,7 @@ class StickProblem:
         close = np.abs(apart) < np.repeat(CLOSE * np.ptp(panels, axis=1), NODES)
         quotients = (self.of_rule[1] - g[:, None]) / np.where(close, 1.0, apart)
         for i, j in zip(*np.nonzero(close), strict=True):
-            # So close, rounding counts: the others of the panel tell it
+            # So close, rounding counts: the value is interpolated from the others of the panel
             panel = slice(j - j % NODES, j - j % NODES + NODES)
             quotients[i, j] = quotients[i, panel] @ _from_others(self.rule.x[panel], j % NODES)
         values: Array = quotients @ self.rule.weight

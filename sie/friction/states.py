@@ -316,8 +316,8 @@ class Sliding(Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may pull the lowest point of the whole profile out of it,
-        and the last to let go is an edge.
+        """On the contact alone: a strain may move the lowest point of the whole profile out of it;
+        then an edge slips last.
         """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)

@@ -73,7 +73,7 @@ def lower_bound(values: Array) -> Array:
 
 
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
-    """Where the patches pull, and the lowest bound of D over the largest D."""
+    """Where the patches are in tension, and the lowest bound of D over the largest D."""
     k = o.panels
     parts = np.stack((k.lo, k.hi), axis=1)
     panel = np.arange(len(k.lo))

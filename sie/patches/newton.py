@@ -243,8 +243,8 @@ def _settled(sizes: list[float], enough: float) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
-    row; or what a single edge insists on.
+    """Patches whose edges are asked to pass each other, and gaps that are asked to close, several
+    times in a row; or the same of a single edge.
     """
     P, out = state.patches, asked * state.outward > 0.0
     single = insists >= INSISTS
