@@ -252,33 +252,33 @@ def exponent(x: Array, y: Sequence[float]) -> float:
 def events() -> Iterator[Record]:
     """The appearance and the merger nearest to the load 0.228, at which there are three patches."""
     yield Doing("events")
-    for kind, size, second in (
-        ("birth", narrowest_patch, 0.226),
-        ("merger", narrowest_gap, 0.235),
+    for what, size, second in (
+        ("patch that appears", narrowest_patch, 0.226),
+        ("gap that closes", narrowest_gap, 0.235),
     ):
         away, near = approached(size, 0.228, second)
         sizes = [size(s) for s in near]
         loads = [s.normal_load for s in near]
-        what = f"narrowest {'patch after a birth' if kind == 'birth' else 'gap before a merger'}"
         yield Claim(
-            f"{what}: its exponent in the distance of the load, less 1/2", "square root of a fold",
+            f"narrowest {what}: its exponent in the distance of the load, less 1/2",
+            "square root of a fold",
             abs(exponent(away, sizes) - 0.5), abs(exponent(away, loads) - 0.5),
             "the load, which stays", high=ROOT,
         )  # fmt: skip
         certificates: list[Any] = [s.check() for s in near]
         yield Claim(
-            f"answers beside a {kind} that are not certified", "certificate",
+            f"answers next to a {what}, and not certified", "certificate",
             sum(not c.ok for c in certificates), len(near), "all of them", high=0.0,
         )  # fmt: skip
-        if kind == "birth":
+        if size is narrowest_patch:
             stated = [c.condition * float(e) for c, e in zip(certificates, away, strict=True)]
             yield Claim(
-                "condition of a patch just born times the distance of the load, less 1/2",
+                "condition of a patch that appears times the distance of the load, less 1/2",
                 "certificate: d ln r / d ln P of a square root", abs(stated[-1] - 0.5),
                 abs(certificates[0].condition * float(away[-1]) - 0.5),
                 "the condition stated for the first load", high=ROOT,
             )  # fmt: skip
-        yield Curve("events", what, away, sizes, "both")
+        yield Curve("events", f"narrowest {what}", away, sizes, "both")
     s = waved(0.228)
     x = np.linspace(*s.edges, 1201)
     yield Curve("events: pressure", "P = 0.228 E*", x, s.pressure(x))

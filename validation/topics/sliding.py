@@ -162,11 +162,11 @@ def _claims(
 
 def _drawn(slider: Slider, k: float) -> Iterator[Curve]:
     solution = slider.solve(k)
-    s, scale = (
-        np.cos(np.linspace(np.pi, 0.0, 161)[1:-1]),
-        solution.half_width / solution.normal_load,
-    )
-    x = solution.centre + solution.half_width * s
+    scale = solution.half_width / solution.normal_load
+    inside = np.cos(np.linspace(np.pi, 0.0, 161)[1:-1])
+    x = solution.centre + solution.half_width * inside
+    if not any(solution.sharp):
+        x = np.concatenate((solution.edges[:1], x, solution.edges[1:]))
     yield Curve(f"p: {slider.name}", f"βf = {k:g}", x, scale * solution.pressure(x))
     marks = solution.centre + solution.half_width * PLACES[1:-1]
     yield Curve(

@@ -129,7 +129,7 @@ def compute(quick: bool) -> Iterator[Record]:
     yield checked(
         in_silence, every,
         [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
-        what="answers of contacts that lost digits in silence", by="this project: stability",
+        what="answers that lost digits beyond what their certificates state", by="this project: stability",
         named=f"answers off by {sweeps.SPOILED:.0e} with the certificates of right ones", high=0,
     )  # fmt: skip
     yield Table(
@@ -150,8 +150,8 @@ def _promise(sweep: Sweep, inside: list[Outcome]) -> Iterator[Claim]:
 
 def _beyond(states: list[str]) -> str:
     if "lost" in states:
-        return "digits are lost in silence"
-    return "the certificate says so" if "known" in states else "no end was found"
+        return "digits are lost, and not stated"
+    return "the certificate states it" if "known" in states else "no end was found"
 
 
 def in_silence(outcomes: list[Outcome]) -> int:

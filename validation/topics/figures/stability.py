@@ -92,7 +92,7 @@ def _frontier(found: Found) -> Figure:
     return Figure(
         "frontier", drawing,
         "How far each number can be taken. Green: full accuracy; yellow: refused, or the "
-        "certificate shows it; red: lost in silence. "
+        "certificate shows it; red: lost, and not stated. "
         "Below each row, what is promised.",
     )  # fmt: skip
 
