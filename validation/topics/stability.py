@@ -129,7 +129,8 @@ def compute(quick: bool) -> Iterator[Record]:
     yield checked(
         in_silence, every,
         [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
-        what="answers that lost digits beyond what their certificates state", by="this project: stability",
+        what="answers that lost digits which the certificate does not state",
+        by="this project: stability",
         named=f"answers off by {sweeps.SPOILED:.0e} with the certificates of right ones", high=0,
     )  # fmt: skip
     yield Table(
