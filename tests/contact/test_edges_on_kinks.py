@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 import sie
 from sie.contact import edge_refinement, edges, tilt_of_moment
 from sie.contact.edges import Search
+from validation.kinked_contacts import ASKED, KINDS, Shape, Trial, drawn, mp
 from validation.topics import kinks
-from validation.topics.kinks import Shape, Trial, mp
 
 EPS = float(np.finfo(float).eps)
 
@@ -77,21 +77,21 @@ def test_a_moment_is_met_where_tilting_moves_the_contact_across_a_straight_part_
     assert solution.check().ok
 
 
-@pytest.mark.parametrize(("kind", "asked"), kinks.ASKED, ids=lambda v: v.replace(" ", "-"))
+@pytest.mark.parametrize(("kind", "asked"), ASKED, ids=lambda v: v.replace(" ", "-"))
 @settings(max_examples=4)
 @given(seed=st.integers(0, 2**32))
 def test_no_edge_on_a_kink_is_refused_or_wrong(kind, asked, seed):
-    found = kinks.outcome(kinks.drawn(seed, kind, asked))
+    found = kinks.outcome(drawn(seed, kind, asked))
     assert not found.refused
     assert found.edges <= kinks.PROMISE
     assert found.pressure <= kinks.PROMISE
 
 
-@given(seed=st.integers(0, 2**32), kind=st.sampled_from([*kinks.KINDS]), inside=st.booleans())
+@given(seed=st.integers(0, 2**32), kind=st.sampled_from([*KINDS]), inside=st.booleans())
 @settings(max_examples=30)
 def test_the_search_ends_within_its_bound_at_the_rounding_of_its_residual(seed, kind, inside):
     """From a contact that is 20 % too narrow or too wide on both sides."""
-    trial = kinks.drawn(seed, kind, "load, tilt")
+    trial = drawn(seed, kind, "load, tilt")
     search = Search(trial.scene.profile.pieces.tilted(trial.scene.tilt), 0.5 * trial.scene.Estar)
     settled = sie.solve(trial.scene).normal.edges.contact
     target, evaluations = trial.scene.normal_load / search.half_modulus, []
@@ -120,7 +120,7 @@ def test_the_rounding_of_a_residual_is_its_difference_from_exact_integrals():
     """Two-sided: within the rounding allowed for, and not below a hundredth of it everywhere."""
     shares = []
     for seed in range(40):
-        trial = kinks.drawn(seed, "straight pieces", "load, tilt")
+        trial = drawn(seed, "straight pieces", "load, tilt")
         slope = trial.scene.profile.pieces.tilted(trial.scene.tilt)
         contact = sie.solve(trial.scene).normal.edges.contact
         k = Search(slope, 1.0).integrals(contact)
