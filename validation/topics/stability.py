@@ -34,7 +34,7 @@ def all_sweeps(quick: bool) -> tuple[Sweep, ...]:
     shares = near_ends(15, step)
     flat = (*shares, -1e-16, -1e-18, -1e-20)
     decades = np.arange(-15.0, 0.0, 3.0 if quick else 1.0)
-    found = [
+    return (
         Sweep("a/b, load given", FLATNESS, lambda v: sweeps.flatness(v, "load"), flat,
               (-15.2, 15.2), decades=logit),
         Sweep("a/b, width given", FLATNESS, lambda v: sweeps.flatness(v, "width"), shares,
@@ -59,24 +59,9 @@ def all_sweeps(quick: bool) -> tuple[Sweep, ...]:
             "gap between two punches", "decades of the gap / b", sweeps.gap,
             _powers(-16, 0, 4 if quick else 1), (-8, 0), certified=False,
         ),
-    ]  # fmt: skip
-    if hasattr(sie.Solution, "stick"):
-        ends = (
-            *(10.0**-k for k in range(14, 0, -step)),
-            0.5,
-            *(-(10.0**-k) for k in range(1, 15, step)),
-        )
-        found.append(
-            Sweep(
-                "Q/fP",
-                "decades of (Q/fP)/(1 - Q/fP)",
-                sweeps.partial_slip,
-                ends,
-                (-14.2, 14.2),
-                decades=logit,
-            )
-        )
-    return tuple(found)
+        Sweep("Q/fP", "decades of (Q/fP)/(1 - Q/fP)", sweeps.partial_slip, near_ends(14, step),
+              (-14.2, 14.2), decades=logit),
+    )  # fmt: skip
 
 
 def _powers(lo: int, hi: int, step: int) -> tuple[float, ...]:
