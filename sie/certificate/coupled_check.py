@@ -150,7 +150,8 @@ def _marks(state: CoupledContact) -> tuple[float, ...]:
 
 def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
     """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end
-    with a power."""
+    with a power.
+    """
     half, at_edge = 0.5 * width, power != 0.0
     levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
     near = half * np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))

@@ -221,7 +221,8 @@ class CoupledContact:
 
     def raised(self, y: Array) -> Array:
         """2/E* times the integral of that from b to each y >= b: how far the surfaces part less
-        than the profile rises."""
+        than the profile rises.
+        """
         ahead = y - self.b
         none = np.full(len(y), np.inf)
         owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)

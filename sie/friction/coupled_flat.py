@@ -96,7 +96,8 @@ class FlatPunch:
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
     """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i
-    ratio."""
+    ratio.
+    """
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 

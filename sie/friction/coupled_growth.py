@@ -47,7 +47,8 @@ NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink
 
 class Piece(NamedTuple):
     """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth
-    there."""
+    there.
+    """
 
     lo: float
     hi: float
@@ -98,7 +99,8 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
 
 def _missed(panel: GrowthPanel) -> float:
     """The load that the last coefficients of a series carry, 0 where they are small beside the
-    others."""
+    others.
+    """
     size, length = np.abs(panel.series), panel.hi - panel.lo
     tail = float(size[-3:].max())
     return tail * length ** (1.0 + panel.power) if tail > DECAYED * float(size.max()) else 0.0
@@ -113,7 +115,8 @@ def _first_power(h: float, piece: Piece, first: bool) -> float:
 
 def _panels(origin: float, lo: float, hi: float) -> list[tuple[float, float]]:
     """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the
-    origin."""
+    origin.
+    """
     n = 1 if lo == 0.0 else max(1, math.ceil(math.log2(hi / lo)))
     ends = [lo - origin, *(lo * (hi / lo) ** (k / n) - origin for k in range(1, n)), hi - origin]
     return list(itertools.pairwise(ends))
@@ -169,7 +172,8 @@ def load_slope(
     flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
 ) -> Array:
     """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the
-    contact."""
+    contact.
+    """
     total = np.zeros(len(x))
     for panel in growth:
         length = min(panel.hi, ahead) - panel.lo

@@ -175,7 +175,8 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
     """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
-    there."""
+    there.
+    """
     for panel in growth:
         s, mass = panel.places
         near = s < ahead

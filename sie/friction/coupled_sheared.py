@@ -221,7 +221,8 @@ class ShearedContact:
     @property
     def least_gain(self) -> float:
         """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
-        law."""
+        law.
+        """
         left, right = self._gained
         gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
         return float(gained.min()) / float(np.abs(gained).max())

@@ -372,7 +372,8 @@ def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
 
 def flat_on_a_grid(beta, friction, n=120):
     """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and
-    pressures."""
+    pressures.
+    """
     edges = np.linspace(-1.0, 1.0, n + 1)
     x = 0.5 * (edges[1:] + edges[:-1])
     # ∫ ln|x - t| dt over the cells: both equations integrated once are displacements
