@@ -79,40 +79,12 @@ def compute(quick: bool) -> Iterator[Record]:
     for sweep in all_sweeps(quick):
         yield Doing(sweep.name)
         outcomes = [sweep.run(v) for v in sweep.values]
-        x = [sweep.decades(v) for v in sweep.values]
-        inside = [
-            o
-            for o, d in zip(outcomes, x, strict=True)
-            if sweep.promised[0] <= d <= sweep.promised[1]
-        ]
-        yield from _promise(sweep, inside)
+        yield from _promise(sweep, outcomes)
+        yield from _drawn(sweep, outcomes)
         every += outcomes if sweep.certified else []
-        states = [o.state(sweep.bar) for o in outcomes]
-        about = {"axis": sweep.axis, "states": states, "promised": sweep.promised}
-        yield Curve("sweep: " + sweep.name, "error", x, [o.error for o in outcomes], "both", about)
-        if any(math.isfinite(o.estimate) for o in outcomes):
-            yield Curve(
-                "sweep: " + sweep.name,
-                "certificate's estimate",
-                x,
-                [o.estimate for o in outcomes],
-                "dashed",
-            )
-        full = [d for d, s in zip(x, states, strict=True) if s == "full"]
-        beyond = sorted({o.refused.split(":")[0][:90] for o in outcomes if o.refused}) or [
-            _beyond(states)
-        ]
-        rows.append(
-            (
-                sweep.name,
-                sweep.axis,
-                f"{sweep.promised[0]:g} … {sweep.promised[1]:g}",
-                f"{min(full):.1f} … {max(full):.1f}",
-                *beyond[:1],
-            )
-        )
+        rows.append(_frontier(sweep, outcomes))
     yield checked(
-        in_silence, every,
+        unstated, every,
         [Outcome(o.spoiled, estimate=o.estimate) for o in every if not o.refused],
         what="answers that lost digits which the certificate does not state",
         by="this project: stability",
@@ -125,7 +97,34 @@ def compute(quick: bool) -> Iterator[Record]:
     yield from conditions(quick)
 
 
-def _promise(sweep: Sweep, inside: list[Outcome]) -> Iterator[Claim]:
+def _drawn(sweep: Sweep, outcomes: list[Outcome]) -> Iterator[Curve]:
+    key, x = "sweep: " + sweep.name, [sweep.decades(v) for v in sweep.values]
+    states = [o.state(sweep.bar) for o in outcomes]
+    about = {"axis": sweep.axis, "states": states, "promised": sweep.promised}
+    yield Curve(key, "error", x, [o.error for o in outcomes], "both", about)
+    stated = [o.estimate for o in outcomes]
+    if any(map(math.isfinite, stated)):
+        yield Curve(key, "certificate's estimate", x, stated, "dashed")
+
+
+def _frontier(sweep: Sweep, outcomes: list[Outcome]) -> tuple[str, ...]:
+    """The promised range, that of full accuracy, and the first thing that happens beyond it."""
+    states = [o.state(sweep.bar) for o in outcomes]
+    full = [sweep.decades(v) for v, s in zip(sweep.values, states, strict=True) if s == "full"]
+    words = sorted({o.refused.split(":")[0][:90] for o in outcomes if o.refused})
+    return (
+        sweep.name,
+        sweep.axis,
+        f"{sweep.promised[0]:g} … {sweep.promised[1]:g}",
+        f"{min(full):.1f} … {max(full):.1f}",
+        words[0] if words else _beyond(states),
+    )
+
+
+def _promise(sweep: Sweep, outcomes: list[Outcome]) -> Iterator[Claim]:
+    low, high = sweep.promised
+    decades = map(sweep.decades, sweep.values)
+    inside = [o for o, d in zip(outcomes, decades, strict=True) if low <= d <= high]
     yield Claim(
         f"{sweep.name}: largest error in the promised range", "this project: stability",
         largest(math.inf if o.refused else o.error for o in inside),
@@ -140,7 +139,7 @@ def _beyond(states: list[str]) -> str:
     return "the certificate states it" if "known" in states else "no end was found"
 
 
-def in_silence(outcomes: list[Outcome]) -> int:
+def unstated(outcomes: list[Outcome]) -> int:
     return sum(o.state(BAR) == "lost" for o in outcomes)
 
 
