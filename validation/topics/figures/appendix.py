@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from oracles.principal_value import GUARD
+from validation.appendix_equations import DIGITS
 from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.records import Found
-from validation.topics.appendix import DIGITS
 
 
 def figures(found: Found) -> Iterator[Figure]:
