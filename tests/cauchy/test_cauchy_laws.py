@@ -1,7 +1,7 @@
 """What every solution of a Cauchy equation obeys, and manufactured ones: exponents, kernels,
 intervals and poles drawn at random.
 
-The reference (`oracles.manufactured`) is in 40 digits and knows nothing of orthogonal polynomials.
+The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials.
 """
 
 from typing import NamedTuple
@@ -314,8 +314,8 @@ def test_the_coefficients_at_a_gap_have_the_error_of_rounding_of_g_and_state_it(
 def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_absurd_one(
     a, ends, gap, at
 ):
-    """Of φ over its peak, singular ends divided out; where g varies across a gap, doubles x are
-    what limits it.
+    """The error is that of φ over its peak, singular ends divided out; where g varies across a gap,
+    doubles x limit it.
     """
     intervals, both = ((at - 1.0, at), (at + gap, at + 1.5)), (ends, ends[::-1])
     manufactured = [

@@ -148,7 +148,7 @@ def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded)
 def test_rim_inverts_the_load_to_the_last_digits(contact: Rounded) -> None:
     P = rounded_flat.load(**contact.given, **UNIT)
     rim = rounded_flat.rim(normal_load=P, half_flat=contact.given["half_flat"], **UNIT)
-    # One step of Newton's method at high precision tells how far the rim is from the exact answer
+    # A step of Newton's method at high precision gives the distance of the rim from the exact one
     # for this very load.
     b = contact.a + deep.mpf(float(rim))
     step = (formula_35(contact.a, b) - deep.mpf(float(P))) / (b * deep.acos(contact.a / b))

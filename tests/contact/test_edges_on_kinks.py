@@ -275,7 +275,7 @@ def test_a_half_width_with_the_moment_of_a_tilt_gives_that_moment(profile, r, ti
 @pytest.mark.parametrize("share", [1e3, 1e6, -1e9])
 @pytest.mark.parametrize("radius", [1e-7, 1.0, 1e5])
 def test_a_half_width_far_from_the_axis_carries_what_it_does_on_the_axis(share, radius):
-    """Of a parabola the load is that of the half-width, wherever it acts: m = M/P, tilt = -m/R."""
+    """The load of a parabola is that of the half-width, wherever it acts: m = M/P, tilt = -m/R."""
     r = 0.3 * radius
     P = 0.25 * np.pi * r * r / radius
     solution = sie.solve(

@@ -227,8 +227,8 @@ def test_slip_at_incipient_sliding_is_f_times_the_height_of_the_profile():
 )
 @pytest.mark.parametrize("strain", [-1e3, -4.0, 0.1, 7.0])
 def test_full_sliding_under_any_bulk_stress_is_the_limit_of_what_slipped_before(profile, strain):
-    """Where the strain pulls the lowest point out of the contact, or there is none, the last point
-    to let go is an edge.
+    """Where the strain pulls the lowest point out of the contact, or there is none, an edge slips
+    last.
     """
     whole, almost = (
         sheared(profile, fraction, bulk_stress=strain * P) for fraction in (1.0, 1.0 - 1e-12)
