@@ -92,8 +92,8 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
         *[biggest] * (len(patches) > 1),
         (
             "gap volume",
-            f"{_number(solution.gap_volume)} {units.length}²"
-            f" {'in each period' if repeats else 'between them'}",
+            f"{_number(solution.gap_volume)} {units.length}² "
+            f"{'in each period' if repeats else 'between them'}",
         ),
     )
 
