@@ -54,7 +54,7 @@ MEANING = {
     "peak_pressure": "the largest pressure of the line contact, a stress > 0",
 }
 
-# Of larger parameters, and of smaller ones, products leave the range of doubles. Loads and moments
+# Products of larger parameters, and of smaller ones, leave the range of doubles. Loads and moments
 # are products themselves, a coefficient is over a power of a length, `inner` enters by a logarithm.
 LARGEST = 1e150
 LARGEST_OF = {name: 1e250 for name in MEANING if name.endswith("_load")}

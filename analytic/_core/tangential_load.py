@@ -14,7 +14,7 @@ SPLITTER = 2.0**27 + 1
 STEP_TIMES_BITS = 3.3
 
 
-# Of the loads of a cycle, in the order of time.
+# The loads of a cycle, in the order of time.
 NAMES = ("largest_load", "least_load", "tangential_load")
 
 

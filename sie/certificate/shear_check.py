@@ -35,7 +35,7 @@ POINTS = 24  # in the stick zone
 # Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
 # does the cost of a value.
 MANY = 12
-# Of the contact, to which the end of a zone is known: there |q| falls from f p like a square root.
+# The end of a zone is known to this part of the contact: there |q| falls from f p like a root.
 ENDS = 32.0 * EPS
 
 

@@ -249,7 +249,7 @@ def _errors(
     angle = _angles(placed, contact)
     regular, moved = _operator(angle, place, contact, kappa, scene)
 
-    # Of the singular terms C ± c_0' the one of the nearer edge is taken apart
+    # The singular term C ± c_0' of the nearer edge is taken apart
     turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
     nearer = (place < 0.5 * np.pi).astype(int)
     own = turned[np.arange(PLACES), nearer]

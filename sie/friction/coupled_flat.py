@@ -44,8 +44,8 @@ SPARE = 4
 STEP, LAST = 0.09, 42
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
-# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
-# tell
+# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess does not
+# decide
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.3
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
 WIDEST_RATIO = 250.0

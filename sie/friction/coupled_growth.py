@@ -87,7 +87,7 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
             panel = _collocated(flat, solved, piece, panel)
             more, missed = panel.load(math.inf), _missed(panel)
             negligible = missed <= NEGLIGIBLE * abs(load + more)
-            # Of rounding a shorter panel misses as much
+            # A shorter panel misses as much, by rounding
             if negligible or missed > NO_LESS * before or len(solved) > MOST:
                 solved.append(panel)
                 load += more

@@ -98,7 +98,7 @@ ELSEWHERE = {
     "of": 'it belongs to kind "row"',
     "period": "it belongs in [profile], and repeats the whole of it",
 }
-# Of a trace, applied in this order before the others.
+# Modifiers of a trace, applied in this order before the others.
 TREATMENTS: dict[str, Reader] = {"without_outliers": flag, "levelled": flag_or_pair}
 
 

@@ -4,8 +4,8 @@ by samples.
     on a patch     D >= 0, panel by panel: a Legendre series has c_0 - Σ|c_n| as a lower bound
     beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
 
-A panel whose bound says nothing is halved. Where the conditions of the edges hold as well this is
-the answer: the problem is convex. At a concave corner, where H jumps down, D falls without bound
+A panel whose bound decides nothing is halved. Where the conditions of the edges hold as well this
+is the answer: the problem is convex. At a concave corner, where H jumps down, D falls without bound
 like a logarithm, which no polynomial shows: a patch that covers one is in tension there, on an
 interval that may be too narrow for doubles. The gap at given points comes from the same series.
 """

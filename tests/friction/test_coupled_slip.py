@@ -360,7 +360,7 @@ def test_rounded_flat_tends_to_a_parabola_and_to_a_flat():
 
 
 def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
-    # Of similar bodies P = E* A m b^m W with W = sqrt(π)/2 Γ((m+1)/2)/Γ(m/2+1), so that 2 m M W = 1
+    # If β = 0, P = E* A m b^m W with W = sqrt(π)/2 Γ((m+1)/2)/Γ(m/2+1), so that 2 m M W = 1
     flat = flat_functions(1e-7, 1e-7)
     for m in (1.0, 2.0, 3.7, 9.0):
         W = 0.5 * math.sqrt(math.pi) * math.gamma(0.5 * (m + 1.0)) / math.gamma(0.5 * m + 1.0)

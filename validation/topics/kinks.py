@@ -37,7 +37,7 @@ SPOILED = 1e-10  # an answer off by so much must be detected
 PLACES = (-0.999999, -0.999, -0.7, -0.31, 0.013, 0.43, 0.81, 0.999, 0.999999)
 BESIDE = (1e-9, 1e-6, 1e-3)  # of r, from every break
 EPS = float(np.finfo(float).eps)
-# Of what is given: each of the numbers may be half of one off in the answer and in the scene
+# Ulps of what is given: each number may be half of one off in the answer and in the scene
 ULPS = 4.0
 MOST = 60  # evaluations of the edge integrals
 NAMES = {"edges": "half-width", "pressure": "peak"}
