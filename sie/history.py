@@ -4,7 +4,7 @@ The first point is answered like a scene: P and the tilt alone, then Q and σ in
 each point to the next all loads change in proportion to time. What is exact, and covered:
 
     constant P and tilt, Q alone       every unloading, reloading and nested loop
-    P and Q at will, σ constant        Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
+    P and Q in any way, σ constant     Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
                                        |dQ/dP| on either side of f, or falls
     P, Q, σ and tilt together          the same superposition of tilted profiles, where both ends of
                                        the stick zone recede along the step and pass earlier ones

@@ -172,7 +172,9 @@ class Solution:
 
     @cached_property
     def unverified(self) -> Normal:
-        """The contact that carries the load and the moment; bodies may overlap there, or pull."""
+        """The contact that carries the load and the moment; bodies may overlap there, or be in
+        tension.
+        """
         return normal_contact(self.scene, self.tol, self.economy)
 
     @cached_property
@@ -513,7 +515,7 @@ class Solution:
 
     @property
     def energy_lost(self) -> float:
-        """Energy that friction turned into heat since the normal load was applied.
+        """Energy that friction dissipated since the normal load was applied.
 
         Returns
         -------

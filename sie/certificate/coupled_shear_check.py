@@ -32,7 +32,7 @@ PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest 
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 NARROW = 1e-12  # half-widths: marks that are nearer are one
-LOOKS = 5  # points between two marks at which the equations are looked at
+LOOKS = 5  # points between two marks at which the equations are measured
 FEW = 24  # points at most
 
 
@@ -100,7 +100,7 @@ def _of_shear(
 
 
 def _marks(state: ShearedContact) -> tuple[float, ...]:
-    """Those of the tractions that are apart."""
+    """The marks of the tractions that are apart."""
     apart = NARROW * state.contact.r
     kept = [state.marks[0]]
     for x in state.marks[1:-1]:

@@ -12,9 +12,9 @@ evaluation bounds one edge of the contact sought:
     I0 < 0, F1 < 0: x2 is too far left       I0 < 0, F1 > 0: x1 is too far left
 
 (Were x2 not too far right in the first, then x1 would be by I0 > 0; this contact would lie in the
-one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, and give way to their
-middle where two of them have not halved the residual. So every second step halves the residual or a
-bracket, and MAX_POLISHING steps are enough.
+one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, and are replaced by
+their middle where two of them have not halved the residual. So every second step halves the
+residual or a bracket, and MAX_POLISHING steps are enough.
 
 Newton's method alone converges slowly, or oscillates, where an edge is next to a break at which H
 or H' jumps: at a distance d behind the break, to leading order,

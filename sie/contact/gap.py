@@ -27,10 +27,10 @@ NODES = 20
 # ... and so few of them on a panel this short, relative to its θ (all singularities have
 # Re θ = 0) and to 1
 SHORT, SHORT_NODES = 0.125, 6
-# Half-widths from an edge, as far as a gap is looked at: between them a function needs few pieces.
+# Half-widths from an edge, as far as a gap is tested: between them a function needs few pieces.
 DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
-# Of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded
-# break)
+# The longest panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a
+# graded break)
 LONGEST = 0.5
 
 

@@ -43,7 +43,7 @@ MOMENT = 1e304  # bounds a moment
 NEARER = (
     "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 )
-# Looks at a function between the points that resolved it, each with the breaks that the last added.
+# Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
 
 
@@ -245,7 +245,7 @@ def _refuse_infinite_ends(slope: Slope) -> None:
 
 
 def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
-    """Whether the slope does what the series of the contact does not show."""
+    """Whether the slope has features that the series of the contact does not show."""
     assert found.series is not None
     contact = found.edges.contact
     series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])

@@ -32,10 +32,8 @@ Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
-LOOKS, EVEN = (
-    64,
-    1e-10,
-)  # where the symmetry of a profile is measured, and to what part of its slope
+# Points where the symmetry of a profile is measured, and to what part of its largest slope.
+LOOKS, EVEN = 64, 1e-10
 
 
 def _axis(scene: Scene, bound: Edges) -> float:
@@ -45,15 +43,13 @@ def _axis(scene: Scene, bound: Edges) -> float:
         return profile.axis
     y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
     right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
-    uneven = float(np.abs(right + left).max() / np.abs(right).max())
-    if uneven > EVEN:
+    uneven, largest = float(np.abs(right + left).max()), float(np.abs(right).max())
+    if uneven > EVEN * largest:
         raise ContactError(
             f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
-            f"{uneven:.2g} of the "
-            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as "
-            "others tilt "
-            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to "
-            "neglect β"
+            f"{uneven / largest:.2g} of the largest; for dissimilar bodies with friction only "
+            "symmetric profiles are solved, as others tilt the stick zone while the load grows; "
+            "set friction = 0, or give dundurs = 0 to neglect β"
         )
     return contact.m
 
@@ -181,7 +177,8 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
     """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
-    there."""
+    there.
+    """
     for panel in growth:
         s, mass = panel.places
         near = s < ahead

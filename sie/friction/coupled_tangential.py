@@ -215,7 +215,8 @@ class TangentialSearch:
     @cached_property
     def _bounds(self) -> tuple[float, float]:
         """What the stick zone may reach: the contact under P alone on the left, its stick zone on
-        the right."""
+        the right.
+        """
         return -self.normal.b, self.normal.c
 
     @cached_property

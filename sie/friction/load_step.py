@@ -1,8 +1,8 @@
 """What each step of a load path does to the memory of a contact, and the steps that are refused.
 
 Along a step P, Q, σ and the tilt change in proportion to time. `memory` says what slip of one sign
-at both edges leaves, if the stick zone only recedes. With dΛ, dS the changes of level and shear, of
-which an edge feels Re ∓ (ρ/r₀) Im (right, left; ρ the half-width of a zone), that is:
+at both edges leaves, if the stick zone only recedes. With dΛ, dS the changes of level and shear,
+whose effect at an edge is Re ∓ (ρ/r₀) Im (right, left; ρ the half-width of a zone), that is:
 
     both ends of the stick zone recede        s dS - dΛ >= 0 at both ends
     slip keeps its direction out to the edge  Re arccosh v ∓ (ρ/r₀) Im sqrt(v² - 1) >= 0 of
@@ -250,7 +250,9 @@ class Step:
     # -- conditions --------------------------------------------------------------------------------
 
     def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
-        """What the left and the right end of a zone of half-width r feel of a change of Λ or S."""
+        """The effect of a change of Λ or S at the left and the right end of a zone of half-width
+        r.
+        """
         turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
         return change.real + turn, change.real - turn
 

@@ -52,8 +52,8 @@ from .states import OneSignedSlip, Sliding, TwoSignedSlip
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
-# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it
-# lies between two doubles.
+# Part of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that
+# it lies between two doubles.
 BESIDE = 16.0 * EPS
 # Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they
 # would underflow.

@@ -69,8 +69,8 @@ class Sliding(Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may pull the lowest point of the whole profile out of it,
-        and the last to let go is an edge.
+        """On the contact alone: a strain may move the lowest point of the whole profile out of it;
+        then an edge slips last.
         """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
@@ -269,9 +269,8 @@ def in_frame(
 ) -> tuple[SlopeDensity, Slope]:
     """A density on the stick zone and its slope in the frame of an edge."""
     near = lengths[frame.side > 0.0]
-    far, rest = two_sum(
-        -near, -2.0 * density.contact.r
-    )  # from the width of the stick zone, which the other length may not resolve
+    # From the width of the stick zone, which the other length may not resolve
+    far, rest = two_sum(-near, -2.0 * density.contact.r)
     ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = frame.origin
     return density.moved(ends, dx, tail), slope.shifted(dx).shifted(tail)

@@ -50,7 +50,7 @@ class SeveralPatches:
         return self.pressure.patches
 
     def gap(self, x: Array) -> Array:
-        """The gap at x (1-d), also beyond the window in which contact was looked for."""
+        """The gap at x (1-d), also beyond the window in which contact was sought."""
         o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
         inside = x[np.isfinite(x) & (x >= domain[0]) & (x <= domain[1])]
         first, last = float(inside.min(initial=lo)), float(inside.max(initial=hi))
@@ -71,7 +71,7 @@ class SeveralPatches:
 
 
 def asks_for_patches(profile: Profile) -> bool:
-    """Whether a profile is a row or periodic, or made of rows: one patch is then not looked for."""
+    """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
     parts = profile.placed if isinstance(profile, Derived) else ()
     return (
         profile.period < np.inf

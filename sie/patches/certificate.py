@@ -90,8 +90,7 @@ def _notes(condition: float) -> tuple[str, ...]:
         return ()
     sentence = (
         "note: a patch of contact is about to appear, or two to merge: a change of the load by "
-        "1e-9 "
-        f"changes the narrowest patch by {1e-9 * condition:.0e} of its width"
+        f"1e-9 changes the narrowest patch by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
 

@@ -78,8 +78,8 @@ class PatchSlip(Slip):
         if self.tau != 0.0 and math.isfinite(self.period):
             raise ContactError(
                 f"bulk_stress = {self.scene.bulk_stress:g} in one of two bodies that meet "
-                "periodically has no periodic "
-                "answer: leave it out, or give it to both bodies as a stress afterwards"
+                "periodically has no periodic answer: leave it out, or give it to both bodies as a "
+                "stress afterwards"
             )
         if self.Q == 0.0 != self.tau:
             raise ContactError(

@@ -33,7 +33,7 @@ from .tree import Level, Separation, Tree
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-# half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
+# half-lengths of a panel, in its angle, from its middle: Gauss' rule resolves poles beyond
 NEAR = 2.5
 
 

@@ -1,8 +1,8 @@
 """The patches of a load, their number included.
 
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
-they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
-where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
+they fail, a patch is cut where it is in tension, added where the bodies overlap, or merged with the
+next where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
 
 At fixed tilt the patches only grow, appear and merge with the load: dp/dP is the pressure of the
 flat punch on the patches, and positive. So the patches of a smaller load are a start for a larger
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
-SEVERAL = 12  # patches: of more than these, cuts are looked for ...
+SEVERAL = 12  # patches: of more than these, cuts are sought ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
@@ -50,13 +50,11 @@ FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
-COARSE = 512  # cells of a grid that looks for the window
+COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
-FAR, LOOKED_AT = (
-    1e3,
-    4000,
-)  # windows beyond a window, and places there, at which the bodies must not overlap
+# Windows beyond a window, and places there, at which the bodies must not overlap
+FAR, LOOKED_AT = 1e3, 4000
 
 
 def contact(problem: Problem) -> Found:

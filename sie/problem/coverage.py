@@ -56,6 +56,8 @@ def _refuse_dissimilar(scene: Scene) -> None:
             f"{scene.half_width:g}: Q changes the width of their contact, and the load of a width "
             "under Q is not solved; give normal_load"
         )
+    if scene.tangential_load and scene.profile.pieces.is_flat_punch:
+        refuse_corners(scene)
 
 
 def refuse_corners(scene: Scene) -> NoReturn:

@@ -168,7 +168,7 @@ class Found(list[Record]):
         return [r for r in self if isinstance(r, Curve) and r.figure == figure]
 
     def keys(self, beginning: str = "") -> list[str]:
-        """The names of the figures that there are curves for, in the order they came."""
+        """The names of the figures that have curves, in the order of the curves."""
         return list(
             dict.fromkeys(
                 r.figure for r in self if isinstance(r, Curve) and r.figure.startswith(beginning)

@@ -26,7 +26,7 @@ TITLE = "Paths of all loads, and steady cycles"
 SECONDS = (3.0, 20.0)
 TIMED = False
 EXACT, TABULATED, FOLLOWED = 1e-12, 2e-7, 1e-12
-# Of the mesh: mean error of q over the largest f p, of the energy, and how they fall.
+# Bounds for the mesh: mean error of q over the largest f p, that of the energy, and their decrease.
 MEAN_ERROR, ENERGY_ERROR, HALVED = 4e-3, 3e-2, 0.75
 BALANCE = 1e-6
 BY = "this project"
