@@ -262,6 +262,7 @@ class Profile(ABC):
         Returns
         -------
         Profile
+            The same indenter, further from the surface.
 
         Raises
         ------

@@ -160,8 +160,8 @@ class Cycle:
 
         Parameters
         ----------
-        x, y : array_like of float
-            Positions and depths, length, broadcast against each other.
+        x, y : array_like
+            As of `history`.
 
         Returns
         -------
@@ -203,8 +203,8 @@ class Cycle:
 
         Parameters
         ----------
-        x : array_like of float
-            Positions, length.
+        x : array_like
+            As of `slip_range`.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions, as of `slip_range`.
 
         Returns
         -------
