@@ -26,7 +26,7 @@ from . import arguments
 from .errors import ContactError
 from .friction.load_steps import steady_points
 from .friction.path_slip import step_slip
-from .friction.states import Slip
+from .friction.slip_state import Slip
 from .history import History
 from .problem.load_path import Path
 from .problem.path_scene import refuse_uncovered

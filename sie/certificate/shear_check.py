@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.states import GrownSlip, Slip
+from sie.friction.slip_state import GrownSlip, Slip
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined

@@ -36,7 +36,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.numerics.interval import EPS, Interval
 from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene

@@ -25,7 +25,6 @@ There a step leads to the root of this model, on whichever side of the break tha
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
 their sizes (`size1` and `size2` of the edge integrals), and the rounding of a function's values.
-`uncertainty` is the error of the edges that remains.
 """
 
 from __future__ import annotations
@@ -58,16 +57,6 @@ STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals a
 MAX_POLISHING = 2 * (53 + 2 * 106)
 MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
-
-
-def uncertainty(contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
-    """The shift of either edge for an ulp of the load and the rounding of its own equation.
-
-    Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
-    """
-    r = contact.r
-    off = [EPS * target + ROUNDINGS * (r * size + target) for size in (k.size1, k.size2)]
-    return off[0] / (r * k.JL), off[1] / (r * k.JR)
 
 
 @dataclass

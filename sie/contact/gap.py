@@ -18,7 +18,6 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.base import zero_or_nan
 from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
@@ -41,7 +40,7 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
-    out: Array = zero_or_nan(x)
+    out = np.where(np.isnan(x), np.nan, 0.0)
     lo, hi = slope.domain
     # The surface sinks like a logarithm of the distance.
     out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf

@@ -17,8 +17,9 @@ from sie.numerics.root_finding import Bracket, Place, logarithmic_root
 
 from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
-from .edges import PLACES, Edges, Found, Search
+from .edges import PLACES, Found, Search
 from .first_guess import first_guess
+from .known_contact import Edges
 
 NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
 # The search for a centre: the first step over the half-width, and what the next are longer by.

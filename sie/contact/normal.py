@@ -27,8 +27,9 @@ from sie.profiles.slope import Slope
 from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
 
 from . import given_moment
-from .edges import PLACES, Edges, Found, Search
-from .pressure import Normal, resolution, slope_series, upright_law, with_breaks
+from .edges import PLACES, Found, Search
+from .known_contact import Edges, Normal, with_breaks
+from .pressure import resolution, slope_series, upright_law
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .widest_contact import widest_contact

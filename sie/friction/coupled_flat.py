@@ -58,7 +58,6 @@ class FlatPunch:
 
     beta, friction      β > 0 and f, such that 1 - c >= FULL_STICK
     modulus             k = c, the half-width of the stick zone
-    rest                1 - c
     square, remainder   sn² and cn² at the nodes
     weight              of the rule for 2 cn^2θ dn^(2-2θ) du
     pressure            p(c sn u) at the nodes
@@ -79,12 +78,8 @@ class FlatPunch:
         return math.atan(self.beta * self.friction) / math.pi
 
     @property
-    def c(self) -> float:
-        return self.modulus.k
-
-    @property
     def exponent(self) -> float:
-        """h: p ~ (1 - x)^-h."""
+        """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
         return 0.5 - self.theta
 
     @cached_property

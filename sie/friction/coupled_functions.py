@@ -48,7 +48,7 @@ class FlatFunctions:
     def __init__(self, punch: FlatPunch) -> None:
         self.punch = punch
         self.beta, self.friction, self.theta = punch.beta, punch.friction, punch.theta
-        self.c, self.rest, self.h = punch.c, punch.modulus.rest, punch.exponent
+        self.c, self.rest, self.h = punch.modulus.k, punch.modulus.rest, punch.exponent
         # sin πh = cos πθ and cos πh = sin πθ, κ = cot πh
         self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
         root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate

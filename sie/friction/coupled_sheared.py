@@ -22,7 +22,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval

@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import Interval
+from sie.problem.load_limit import refuse_corner, refuse_sliding
 from sie.traction.base import on_line
 from sie.traction.combination import Combination
 
@@ -35,10 +36,9 @@ from .goodman_frame import DeficitFrame
 from .goodman_functions import GoodmanFlat, goodman_flat
 from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
-from .load_limit import refuse_corner, refuse_sliding
 from .shear_density import PotentialsOfParts
+from .slip_state import GrownSlip, Step
 from .slip_zones import Drive, SlipZones, edge_frame, slip_zones
-from .states import GrownSlip, Step
 
 Array = NDArray[np.float64]
 

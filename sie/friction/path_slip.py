@@ -16,7 +16,7 @@ from sie.problem.scene import Scene
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
-from .states import Slip
+from .slip_state import Slip
 from .turning_point import Loads, TurningPoint
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
@@ -16,12 +16,12 @@ from sie.profiles.base import Derived, Profile
 from sie.profiles.row import Row
 from sie.profiles.slope import Slope
 
-from .admissible import Found, gap, gap_volume
 from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
+from .gap import gap, gap_volume
 from .of_scene import Problem, problem_of
-from .operator import Operator
+from .operator import Found, Operator
 from .result import PatchCertificate
 from .solver import contact
 

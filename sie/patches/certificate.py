@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .admissible import Found
 from .density import PatchPressure
 from .newton import conditions
-from .operator import Operator
+from .operator import Found, Operator
 from .panels import PatchPanels
 from .result import GRADING, LEAST, PatchCertificate
 from .state import Given, State

@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.load_limit import remaining
-from sie.friction.states import Slip
+from sie.friction.slip_state import Slip
 from sie.numerics.zones import Zones, left_over, within
+from sie.problem.load_limit import remaining
 from sie.problem.scene import Scene
 from sie.traction.base import Density
 from sie.traction.combination import superposed

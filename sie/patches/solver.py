@@ -20,15 +20,16 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Found, findings, gap, tensions
+from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
-from .operator import Operator
+from .operator import Found, Operator
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, State
+from .tension import tensions
 
 Array = NDArray[np.float64]
 
@@ -198,7 +199,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             early = early if pulled or event is not None else 0
             state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
             continue
-        found = Found(state, o, findings(o), round_ + 1, steps)
+        found = Found(state, o, findings(o), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -212,6 +213,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         "two of them are about to merge, or one to appear; change the load a little",
         patches=state.patches.number,
     )
+
+
+def findings(o: Operator) -> Findings:
+    """What the bounds of pressure and gap find."""
+    tension, lowest = tensions(o)
+    return Findings(tension, overlaps(o), lowest)
 
 
 def _rounded(state: State) -> tuple[object, ...]:

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 import sie
 from oracles.kalker import Mesh
 from sie.friction.memory import LoadMemory
+from sie.friction.slip_state import edge_frames
 from sie.friction.slip_zones import slip_zone
-from sie.friction.states import edge_frames
 from sie.io.export import as_dict
 from sie.io.report import summary
 from sie.io.scene_file import SceneFile

@@ -139,6 +139,13 @@ class Doing:
 Record = Claim | Table | Curve | Map | Doing
 
 
+def in_turn(*parts: tuple[str, Iterator[Record]]) -> Iterator[Record]:
+    """The records of the parts of a topic, each announced to the progress bar."""
+    for name, records in parts:
+        yield Doing(name)
+        yield from records
+
+
 BROKEN = "the topic runs to its end; it broke off with"
 
 

@@ -17,7 +17,7 @@ import sie
 from analytic import interior, rounded_flat
 from sie import charts
 from validation.harness.measures import largest, smallest
-from validation.harness.records import Claim, Curve, Doing, Map, Record, checked
+from validation.harness.records import Claim, Curve, Map, Record, checked, in_turn
 from validation.rounded_punch import (
     NU,
     closed_tension,
@@ -40,18 +40,14 @@ FIGURE_4 = ((0.3, 0.0), (0.3, 0.3), (0.55, 0.0), (0.55, 0.3), (0.8, 0.0), (0.8, 
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    yield Doing("Fig. 2")
-    yield from figure_2()
-    yield Doing("Fig. 3")
-    yield from figure_3()
-    yield Doing("Fig. 4")
-    yield from figure_4(quick)
-    yield Doing("Figs 5, 6, 7")
-    yield from figures_5_to_7(quick)
-    yield Doing("Fig. 8")
-    yield from figure_8(quick)
-    yield Doing("statements")
-    yield from statements()
+    yield from in_turn(
+        ("Fig. 2", figure_2()),
+        ("Fig. 3", figure_3()),
+        ("Fig. 4", figure_4(quick)),
+        ("Figs 5, 6, 7", figures_5_to_7(quick)),
+        ("Fig. 8", figure_8(quick)),
+        ("statements", statements()),
+    )
     yield ERRATA
 
 

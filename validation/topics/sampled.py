@@ -24,7 +24,7 @@ from analytic import hertz
 from oracles import normal_contact
 from oracles.normal_contact import Pieces, contact, mp
 from validation.harness.measures import apart
-from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
+from validation.harness.records import Claim, Curve, Record, Table, checked, in_turn
 from validation.harness.timing import fastest
 
 TITLE = "Sampled profiles: splines, growth, noise"
@@ -45,12 +45,11 @@ ONE_PERCENT = 0.01
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    yield Doing("spline in 40 digits")
-    yield from spline(SAMPLES[not quick])
-    yield Doing("growth")
-    yield from growth(SIZES[not quick], patience=0.25 if quick else 0.5)
-    yield Doing("noise")
-    yield from noise(NOISY[not quick])
+    yield from in_turn(
+        ("spline in 40 digits", spline(SAMPLES[not quick])),
+        ("growth", growth(SIZES[not quick], patience=0.25 if quick else 0.5)),
+        ("noise", noise(NOISY[not quick])),
+    )
 
 
 # -- the spline -----------------------------------------------------------------------------------
