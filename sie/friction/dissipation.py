@@ -161,9 +161,8 @@ class Dissipation:
         )
         y = lo[:, None] + (hi - lo)[:, None] * share
         rise = (at_L - at_Y) / np.where(Y > L, Y - L, np.inf)  # of P for the front's way down
-        passed = Y + (at_Y - y) / np.where(
-            rise == 0.0, np.nan, rise
-        )  # where the front is when P = y
+        # The place of the front when P = y
+        passed = Y + (at_Y - y) / np.where(rise == 0.0, np.nan, rise)
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)

@@ -159,12 +159,12 @@ class GrowthPanels:
                 series, missed = self._series(lo, hi, kinked, n)
                 if hi - lo <= SHORTEST * lo:
                     return [Panel(lo, hi, kinked, series)]
-                # Beside what a front of such a load turns into heat
+                # Beside what a front of such a load dissipates
                 enough = (COARSE if at_break else FINE) * min(whole, hi) / (hi - lo)
                 if missed <= enough or 0.25 * before <= missed <= NOISE:
                     return [Panel(lo, hi, kinked, series)]
                 if missed * (missed / before) ** 2 > enough:
-                    break  # twice as many points would not do either
+                    break  # twice as many points would not be enough
                 before = missed
         if not at_break:
             cut = lo * (hi / lo) ** (0.25 if kinked else 0.75 if below else 0.5)

@@ -1,6 +1,6 @@
 """Lower bounds of polynomials on panels, by which p >= 0 and gap >= 0 are verified.
 
-A Legendre series on a panel is nowhere below c_0 - Σ|c_n|. A panel whose bound says nothing is
+A Legendre series on a panel is nowhere below c_0 - Σ|c_n|. A panel whose bound decides nothing is
 halved.
 """
 

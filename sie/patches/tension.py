@@ -24,7 +24,7 @@ HALVED = 42  # times the distance from a concave corner is: less than CLOSED
 
 
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
-    """Where the patches pull, and the lowest bound of D over the largest D."""
+    """Where the patches are in tension, and the lowest bound of D over the largest D."""
     k = o.panels
     lo, hi = k.lo, k.hi
     panel = np.arange(len(k.lo))
