@@ -33,7 +33,7 @@ FINEST = 1e-12
 # Many marks that are nearer to each other, in half-widths, are merged.
 RESOLVED = 1e-8
 MANY_MARKS = 40
-# Of the singular marks so many are kept at most, those with the highest pressure.
+# The most singular marks that are kept: those with the highest pressure.
 MOST_SINGULAR = 24
 # The columns reach so many half-widths beside the contact.
 OUTSIDE = 1.8
