@@ -172,8 +172,9 @@ class Solution:
 
     @cached_property
     def unverified(self) -> Normal:
-        """The contact that carries the load and the moment; bodies may overlap there, or be in
-        tension.
+        """The contact that carries the load and the moment.
+
+        Bodies may overlap there, or be in tension.
         """
         return normal_contact(self.scene, self.tol, self.economy)
 
@@ -256,9 +257,7 @@ class Solution:
 
     @property
     def sheared(self) -> bool:
-        """Whether the shear is found after the pressure: partial slip, or similar bodies
-        sliding.
-        """
+        """Whether the shear is found after the pressure: partial slip, or similar bodies."""
         scene = self.scene
         elsewhere = scene.epsilon or scene.bonded or scene.coupled
         return sheared(scene, self.economy) and not elsewhere
@@ -290,8 +289,10 @@ class Solution:
         near: Interval | None = None,
         one_sign: bool = False,
     ) -> Slip:
-        """The state after Q and τ on this contact without shear; `under` gives it under other
-        loads and tilts, `near` is as of `load_step`, `one_sign` as of `slip`.
+        """The state after Q and τ on this contact without shear.
+
+        `under` gives it under other loads and tilts, `near` is as of `load_step`, `one_sign` as of
+        `slip`.
         """
         if self._several is None:
             try:
@@ -304,8 +305,10 @@ class Solution:
         return state
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
-        """The load Q and the strain τ on this contact of one patch; `near` is a stick zone that may
-        be close to the one sought: it saves work, and does not change the answer.
+        """The load Q and the strain τ on this contact of one patch.
+
+        `near` is a stick zone that may be close to the one sought: it saves work, and does not
+        change the answer.
         """
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under = partial(
@@ -384,8 +387,9 @@ class Solution:
 
     @property
     def gap_volume(self) -> float:
-        """∫ of the gap between the patches, or over one period, where there is an indenter: what a
-        fluid would fill, volume per length of the line of contact.
+        """∫ of the gap between the patches, or over one period, where there is an indenter.
+
+        A fluid would fill this volume per length of the line of contact.
         """
         several = self._several
         return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
@@ -740,8 +744,7 @@ class Solution:
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
-        """The measured traces in the profile: what was done with them, and what their noise
-        implies.
+        """The measured traces in the profile, with their treatment and what their noise implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate measures something else: how well the equations are solved for this spline.

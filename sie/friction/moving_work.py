@@ -26,8 +26,9 @@ MOST_HALVINGS = 6
 
 
 def work(state: Callable[[float], Slip], dP: float, strain: float) -> float:
-    """∫∫ f p d|g| dx while the states follow each other from time 0 to 1, P changes by dP and E*/2
-    times the tilt by `strain`.
+    """∫∫ f p d|g| dx while the states follow each other from time 0 to 1.
+
+    Meanwhile P changes by dP and E*/2 times the tilt by `strain`.
     """
     whole = _held(state(1.0)) - _held(state(0.0))
 

@@ -234,8 +234,9 @@ class Periodic(Profile):
 
     @cached_property
     def repeated(self) -> Profile:
-        """The profile that is repeated: the given one, or the lowest of it and its neighbours
-        where the ends of an unbounded one do not meet.
+        """The profile that is repeated: the given one, or the lowest of it and its neighbours.
+
+        The latter is taken where the ends of an unbounded one do not meet.
         """
         if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
             return self.profile

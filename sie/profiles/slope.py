@@ -385,8 +385,9 @@ def _distance(origins: Array, breaks: Array) -> Array:
 
 
 def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins, by synthetic division (Horner); exact where
-    the origin stays.
+    """Coefficients of the pieces k about new origins, by synthetic division (Horner).
+
+    They are exact where the origin stays.
     """
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]

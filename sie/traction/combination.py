@@ -30,8 +30,9 @@ CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rou
 
 @dataclass(frozen=True, eq=False)
 class Combination(Density):
-    """Σ factor × density, each zero outside its own interval; `resultant` and `moment` are theirs,
-    summed. `superposed` builds it.
+    """Σ factor × density, each zero outside its own interval.
+
+    `resultant` and `moment` are theirs, summed. `superposed` builds it.
 
     >>> Combination(((2.0, ZERO),)).resultant
     0.0
@@ -102,8 +103,9 @@ class Combination(Density):
         return float(np.mean(self(self._beside(x))))
 
     def _steepness(self, x: float) -> float:
-        """The derivative where those of terms are infinite: finite where they cancel, each in
-        proportion to its strength if it has one.
+        """The derivative where those of terms are infinite.
+
+        It is finite where they cancel, each in proportion to its strength if it has one.
         """
         steep = [
             (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
@@ -146,8 +148,9 @@ class Combination(Density):
     def _without_nan(
         self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]
     ) -> Complex:
-        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are
-        infinite.
+        """The sum of values at z.
+
+        At real z where terms are infinite, its imaginary part comes from `imaginary`.
         """
         with np.errstate(invalid="ignore"):
             total: Complex = self._total(values)

@@ -96,8 +96,9 @@ class SlopeDensity(Density):
 
     @abstractmethod
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
-        """The same far from the contact, without the constant that the first tends to where an edge
-        is singular.
+        """F and F' far from the contact.
+
+        The constant that F tends to where an edge is singular is left out.
         """
 
     @abstractmethod
@@ -107,8 +108,9 @@ class SlopeDensity(Density):
     resolves = True  # whether a slope that is a function is known by its values at some points only
 
     def resolved_slope(self, x: Array) -> Array:
-        """H inside the contact, x ascending, as the pressure uses it: for a function its
-        resolution.
+        """H inside the contact, x ascending, as the pressure uses it.
+
+        For a function this is its resolution.
         """
         return self._slope(x)
 
@@ -119,8 +121,9 @@ class SlopeDensity(Density):
 
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
-        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is
-        infinite.
+        """(break, +inf or -inf) inside the contact where p' is infinite.
+
+        It is -inf where p itself is infinite.
         """
         return ()
 
@@ -151,8 +154,9 @@ class SlopeDensity(Density):
         return np.sqrt(ratio)
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
-        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0;
-        real: beside the contact).
+        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2.
+
+        These are complex (Im > 0), or real beside the contact.
         """
         root = (
             np.sqrt(left) / np.sqrt(right)
@@ -162,8 +166,9 @@ class SlopeDensity(Density):
         return 0.5 * (self.k2 * root - self.k1 / root)
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:
-        """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one
-        side of the contact.
+        """(G, continued) of `_beside` in true units (a slope), singular ends included.
+
+        All x are on one side of the contact.
         """
         G, continued = in_order(self._beside, x)
         if self.k1 or self.k2:
@@ -264,8 +269,9 @@ class SlopeDensity(Density):
         return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
-        """The part of the singular ends in F and F', (2, n); `far` leaves out the limit
-        (k2 - k1)/2 of the first.
+        """The part of the singular ends in F and F', (2, n).
+
+        `far` leaves out the limit (k2 - k1)/2 of the first.
         """
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
         root1, root2 = np.sqrt(left), np.sqrt(right)
@@ -300,8 +306,9 @@ class SlopeDensity(Density):
 
 @dataclass(frozen=True, eq=False)
 class TransformDensity(SlopeDensity):
-    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s). One DCT gave g;
-    nothing was solved.
+    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s).
+
+    One DCT gave g; nothing was solved.
     """
 
     series: Array
@@ -353,8 +360,9 @@ class TransformDensity(SlopeDensity):
         return outer_series(self.series, self.contact, z)
 
     def _powers(self, rho: Any) -> Any:
-        """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to
-        -g_0 far away.
+        """Σ_{n>=0} g_n ρ^n by Horner's rule.
+
+        g_0 belongs to the singular ends, whose part of F tends to -g_0 far away.
         """
         total = np.zeros_like(rho)
         for g in self.series[:0:-1]:
