@@ -203,9 +203,11 @@ class History(Sequence[Solution]):
         return complex(loads.Q, loads.sigma * self._tau * self.arm) if loads.sigma else loads.Q
 
     def contact(self, loads: Loads) -> Interval:
+        """The contact under these loads, which is one patch."""
         return self.plain(*loads.normal).as_one_patch.edges.contact
 
     def half_width(self, loads: Loads) -> float:
+        """The half-width of the contact under these loads."""
         return self.plain(*loads.normal).half_width
 
     def plain(self, P: float, turn: float = 0.0) -> Solution:
@@ -264,6 +266,7 @@ class History(Sequence[Solution]):
 
     @property
     def period(self) -> float:
+        """The period of the profile, inf if it does not repeat itself."""
         return self.scene.profile.period
 
     @cached_property
@@ -343,14 +346,17 @@ class PathSolution(Solution):
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
+        """The contact without shear, as of `Solution`."""
         return self._plain.normal
 
     @cached_property
     def in_patches(self) -> SeveralPatches | FullContact:
+        """The contact in several patches, as of `Solution`."""
         return self._plain.in_patches
 
     @cached_property
     def pressure(self) -> SlopeDensity:
+        """The pressure p(x), a stress, as of `Solution`."""
         return self._plain.slope_density
 
     @property
@@ -360,6 +366,7 @@ class PathSolution(Solution):
 
     @cached_property
     def tangential(self) -> Slip:
+        """The state of slip at this point of the path."""
         return PathSlip(self.history, self.index)
 
     @property
@@ -376,6 +383,7 @@ class PathSolution(Solution):
         return self.history.energy(self.index) if self.sheared else 0.0
 
     def with_(self, **changes: Any) -> Solution:
+        """Raises ValueError: a changed scene or path has to be followed again."""
         raise ValueError(
             "this solution is a point of a path: change the scene or the path, and follow it again"
         )

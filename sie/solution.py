@@ -324,6 +324,7 @@ class Solution:
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
+        """The certificate that `check` returns, measured once."""
         if self.scene.bonded:
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol

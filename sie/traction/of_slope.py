@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
@@ -49,6 +50,7 @@ class SlopeDensity(Density):
     moment: float
 
     @property
+    @override
     def interval(self) -> tuple[float, float]:
         return self.contact.x1, self.contact.x2
 
@@ -127,6 +129,7 @@ class SlopeDensity(Density):
         """
         return ()
 
+    @override
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         flat = x.ravel()
@@ -179,6 +182,7 @@ class SlopeDensity(Density):
             )
         return G, continued
 
+    @override
     def hilbert(self, x: ArrayLike) -> Array:
         return self._on_line(self._hilbert, x)
 
@@ -201,6 +205,7 @@ class SlopeDensity(Density):
     def _hilbert_inside(self, x: Array) -> Array:
         return self.half_modulus * self._slope(x)
 
+    @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         def potential(flat: Complex) -> Complex:
             real = flat.imag == 0.0
@@ -216,6 +221,7 @@ class SlopeDensity(Density):
         F: Complex = self._in_plane(potential, z, side)
         return F
 
+    @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         def derivative(flat: Complex) -> Complex:
             real = flat.imag == 0.0
@@ -230,6 +236,7 @@ class SlopeDensity(Density):
         dF: Complex = self._in_plane(derivative, z, side, derivative=True)
         return dF
 
+    @override
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         z = arguments.complexes("z", z)
         flat = z.ravel()
@@ -240,10 +247,12 @@ class SlopeDensity(Density):
         return self.cauchy(z, side), self.cauchy_derivative(z, side)
 
     @property
+    @override
     def singular(self) -> tuple[float, ...]:
         return self.interval
 
     @property
+    @override
     def hilbert_at_edges(self) -> tuple[float, float]:
         left, right = self._slope_at_edges
         return self.half_modulus * left, self.half_modulus * right
@@ -314,6 +323,7 @@ class TransformDensity(SlopeDensity):
     series: Array
 
     @property
+    @override
     def slope_scale(self) -> float:
         return float(np.abs(self.series).max())
 

@@ -23,6 +23,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.slope import SEEN_JUMP, Slope
@@ -199,10 +200,12 @@ class SlidingGeometry(Geometry):
         self.epsilon = epsilon
 
     @property
+    @override
     def edge(self) -> Powers:
         return Powers(self.contact, self.epsilon)
 
     @property
+    @override
     def totals(self) -> Array:
         _, _, weight, _ = self.nodes(quadrature_order(0))
         out: Array = weight.sum(axis=1)

@@ -55,6 +55,7 @@ class Block(NamedTuple):
 
     @property
     def closed(self) -> bool:
+        """Whether the closed form serves the block."""
         return self.s is not None
 
 
