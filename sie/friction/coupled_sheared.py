@@ -31,7 +31,7 @@ from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
 
-from .coupled_gradient import SlipGradient
+from .coupled_gradient import RESOLVED, SlipGradient
 from .coupled_integral import RATIO, Integral, integral, towards_ends
 from .coupled_tangential import TangentialSearch, Trial
 from .coupled_traction import Panels, resolved_panels
@@ -221,11 +221,15 @@ class ShearedContact:
     @property
     def least_gain(self) -> float:
         """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
-        law.
+        law, and 0 where it is less than the error of γ.
         """
         left, right = self._gained
         gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
-        return float(gained.min()) / float(np.abs(gained).max())
+        longest = max(float(np.ptp(zone.cuts)) for zone in (left, right))
+        least = float(gained.min())
+        if least > -RESOLVED * self.search.stress * longest:
+            return max(least, 0.0)
+        return least / float(np.abs(gained).max())
 
     def _gain(self, u: Array) -> Array:
         """γ - that under P alone, in slip."""

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .coupled_profile import NEAREST, _graded
+from .coupled_panels import shrinking
+from .coupled_profile import NEAREST
 from .slip_zones import EdgeFrame, SlipZone
 
 Array = NDArray[np.float64]
@@ -48,7 +49,7 @@ class DeficitFrame:
         before = np.full(len(width), NEAREST * length)
         before[0] = self.scale
         after = np.append(before[1:], nearest * width[-1])
-        owner, first, size, left, kind = _graded(width, np.minimum(before, width), after)
+        owner, first, size, left, kind = shrinking(width, np.minimum(before, width), after)
         x, _, w = gauss_jacobi(NODES, 0.0, 0.0)
         places = np.array([x * x, x, 1.0 - x * x])
         weights = np.array([2.0 * x * w, w, 2.0 * x * w])
