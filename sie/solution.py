@@ -210,6 +210,11 @@ class Solution:
     @cached_property
     def pressed(self) -> tuple[Edges, CoupledContact]:
         """The same under the normal load alone."""
+        scene = self.scene
+        if not scene.profile.convex:
+            P, b = scene.normal_load, scene.half_width
+            plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+            _ = Solution(plain, self.tol).as_one_patch
         return coupled_contact(self.scene, self._frictionless)
 
     @cached_property
