@@ -121,6 +121,26 @@ def test_slope_of_the_surface_is_finite_one_double_beside_the_contact(flat_base)
     assert pytest.approx(float(state.half_modulus * (state.b - flat_base)), rel=1e-6) == H
 
 
+def test_a_steel_punch_on_titanium_is_answered():
+    punch = sie.Scene(
+        profile=sie.RoundedFlat(1.0, 50.0),
+        body=sie.Elastic(115e3, 0.32),
+        indenter=sie.Elastic(210e3, 0.3),
+        normal_load=600.0,
+        friction=0.3,
+        tangential_load=90.0,
+    )
+    solution = sie.solve(punch)
+    certificate, similar = (
+        solution.check(),
+        solution.with_(body=None, indenter=None, modulus=punch.Estar, dundurs=0.0),
+    )
+    assert certificate.ok and certificate.shear.ok
+    # The mismatch shears outwards: Q slips more ahead of the stick zone, and less behind it
+    assert solution.stick[0][1] < similar.stick[0][1]
+    assert solution.stick[0][0] < similar.stick[0][0]
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     right = solved()
     wrong = sheared_certificate(right.coupled[1], replace(right.scene, dundurs=0.3001), 1e-13)
