@@ -72,7 +72,7 @@ class Solution:
     scene : Scene
         The question.
     tol : float, optional
-        Relative accuracy that is asked of the resolution of functions and of the certificate.
+        Relative accuracy, as in `solve`.
     economy : collection of str, optional
         The savings that are allowed, as in `solve`.
 
@@ -627,7 +627,7 @@ class Solution:
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions at y = 0, length.
 
         Returns
         -------
@@ -680,7 +680,7 @@ class Solution:
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions on the surface, in the contact or beside it, length.
 
         Returns
         -------

@@ -157,7 +157,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface that do not leave the contact, length.
 
         Returns
         -------
@@ -187,7 +187,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions on the surface, also those that leave the contact, length.
 
         Returns
         -------

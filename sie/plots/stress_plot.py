@@ -23,7 +23,7 @@ from . import style
 LEVELS = np.arange(1, 11) / 10.0
 NX, NY = 321, 161
 # Inches: width of the panel, height of its labels, and of a line of the title.
-PANEL, LABELS, LINE = 2.38, 0.56, 0.17
+PANEL, LABELS, LINE = 2.38, 0.6, 0.2
 BAR, STICK_BAR = 2.2, 4.5  # points
 ABOVE = 0.14  # of the depth: room above the surface for the bars
 COLOURS = "YlGnBu"
