@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.known_contact import Edges
-from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
@@ -262,15 +261,6 @@ class ShearedContact:
 
         return on_line(value, x)
 
-    @property
-    def energy(self) -> float:
-        """Not known: raises ContactError."""
-        raise ContactError(
-            "the energy that dissimilar bodies (β != 0) dissipate under a tangential load is not "
-            "solved: it is a sum over all states on the way to the last one, which alone is found; "
-            "set tangential_load = 0 for that of the normal load, or give dundurs = 0 to neglect β"
-        )
-
     # -- beside the contact ------------------------------------------------------------------------
 
     def hilbert_outside(self, u: Array) -> Array:
@@ -357,6 +347,13 @@ class ShearedContact:
         power = a1 if side == self.flip else a2
         own = tuple((lambda y, f=f: f(at + side * y)) for f in functions)
         return resolved_panels(own, tuple(sorted(ends)), power)
+
+    @property
+    def frame_marks(self) -> tuple[float, ...]:
+        """The same in the frame."""
+        return tuple(
+            sorted({*self.trial.zones, *(self.flip * (x - self.axis) for x in self.marks)})
+        )
 
     @cached_property
     def marks(self) -> tuple[float, ...]:

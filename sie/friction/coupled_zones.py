@@ -205,10 +205,20 @@ class Answer(NamedTuple):
 
 
 class StickProblem:
-    """p_d/β in a contact with these zones, for γ_d at the places of the rule; Φ/β at the nodes."""
+    """p_d/β in a contact with these zones, for γ_d at the places of the rule; Φ/β at the nodes.
+
+    poles       of Φ at y = -1 and 1, for states that are infinite at the ends of the stick zone
+    """
 
     def __init__(
-        self, zones: Zones, beta: float, friction: float, rule: Rule, gamma: Array
+        self,
+        zones: Zones,
+        beta: float,
+        friction: float,
+        rule: Rule,
+        gamma: Array,
+        *,
+        poles: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self.beta, self.friction, self.rule, self.gamma = beta, friction, rule, gamma
         self.map = Map(zones, math.atan(beta * friction) / math.pi)
@@ -219,6 +229,7 @@ class StickProblem:
         own = m.kernel(s, nodes) * m.weight
         below, above, mass = m.of_rule(rule)
         source = -(m.kernel(s, (below, above)) @ (mass * gamma)) / (1.0 - beta * beta)
+        source += m.kernel(s, (np.array([0.0, 2.0]), np.array([2.0, 0.0]))) @ np.array(poles)
         n = len(m.weight)
         whole = own @ own[:n] / ((1.0 - beta * beta) * math.pi**2)
         # ∫p_d = 0 is asked of Φ, and what the equations then miss is an unknown: next to β = 0 a

@@ -518,6 +518,20 @@ def test_an_unsymmetric_profile_is_refused():
         _ = solved(sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.1))).edges
 
 
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        (sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 2.0)]), "in 2 patches"),
+        (sie.Periodic(sie.Parabola(1.0), 4.0), "without its period"),
+        (sie.Polynomial((0.0, 0.0, -0.5, 0.0, 0.5)), "patches"),
+    ],
+)
+def test_contact_in_several_patches_is_refused(profile, words):
+    scene = sie.Scene(profile=profile, modulus=2.0, dundurs=0.3, friction=0.3, normal_load=0.01)
+    with pytest.raises(sie.ContactError, match=words):
+        _ = sie.solve(scene).edges
+
+
 def test_a_path_of_dissimilar_bodies_is_refused():
     with pytest.raises(sie.ContactError, match="path of dissimilar bodies"):
         sie.follow(scene(), sie.Path([(1.0, 0.0), (0.5, 0.0)]))
