@@ -20,12 +20,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .gap_rows import across_gaps
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
 from .pieces import Pieces
 from .state import Event, Given, State
-from .sums import add, parts
 
 Array = NDArray[np.float64]
 
@@ -106,20 +106,6 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
     K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
     return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
-
-
-def across_gaps(o: Operator, weight: Array) -> Array:
-    """Σ weight/d(x, e) over the nodes x of each gap and all edges e, (N - 1, 2N)."""
-    P, k = o.patches, o.gaps
-    e = P.edges
-    out = np.zeros((P.number - 1, len(e)))
-    for some in parts(len(k.gap), k.dx.shape[1] * len(e)):
-        step = P.chord.apart(
-            k.points.anchor[some, :, None] - e[:, None], k.points.offset[some, None, :]
-        )
-        sums = np.reciprocal(step, out=step) @ weight[some, :, None]
-        add(out, k.gap[some], sums[..., 0])
-    return out
 
 
 class Damping(NamedTuple):
