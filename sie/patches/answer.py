@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +67,8 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        return certificate(self.found, self.pressure, self.problem.given, tol)
+        found = certificate(self.found, self.pressure, self.problem.given, tol)
+        return replace(found, notes=found.notes + self.problem.notes)
 
 
 def asks_for_patches(profile: Profile) -> bool:
