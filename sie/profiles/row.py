@@ -272,13 +272,13 @@ class Periodic(Profile):
         if not any(a == hi for a, _ in self.walls) or all(self.repeated.ends_are_corners):
             return ""
         first, last = self.repeated.height(np.array([lo, hi])).tolist()
+        rise = f"{abs(first - last):.4g} {'higher' if first > last else 'lower'}"
         left = self.start + self.repeats - hi
         between = f" beyond {left:.4g} without indenter" if left > WHOLE * self.repeats else ""
         return (
-            f"note: the trace begins {abs(first - last):.4g} {'higher' if first > last else 'lower'} "
-            f"than it ends, and repeats at x = {hi:.6g}{between}: that is a corner, and contact "
-            "there has an infinite pressure; cut the trace between two places of one height and "
-            "slope"
+            f"note: the trace begins {rise} than it ends, and repeats at x = {hi:.6g}{between}: "
+            "that is a corner, and contact there has an infinite pressure; cut the trace between "
+            "two places of one height and slope"
         )
 
     def within(self, x: Array) -> Array:
