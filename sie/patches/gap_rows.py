@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chord import Points
-from .measure import Measure
 from .panels import GapPanels, Patches
 from .sums import add, parts
 from .tree import CHARGES, FAR, POINTS, gathered
@@ -45,9 +44,8 @@ class Clusters(NamedTuple):
         return np.asarray(step / self.half[k, None])
 
 
-def across_gaps(o: Measure, weight: Array) -> Array:
+def across_gaps(P: Patches, k: GapPanels, weight: Array) -> Array:
     """A (N - 1, 2N) for weights on the nodes of the gaps."""
-    P, k = o.patches, o.gaps
     N = P.number
     first, last = np.arange(0, N, TOGETHER), np.minimum(np.arange(0, N, TOGETHER) + TOGETHER, N) - 1
     edges = Clusters.between(P.a[first], P.b[last])
@@ -57,7 +55,7 @@ def across_gaps(o: Measure, weight: Array) -> Array:
     # by cluster, gap in it, cluster, edge in it
     out = np.zeros((len(gaps.middle), TOGETHER, *e.shape))
     far = _far(P, gaps, edges)
-    _add_near(out, o, weight, e, far)
+    _add_near(out, (P, k, weight), e, far)
     I, J = np.nonzero(far)
     if I.size:
         sources, places = _spread(k, gaps, weight, out.shape[:2]), _weights(edges, e)
@@ -92,9 +90,9 @@ def _weights(edges: Clusters, e: Array) -> Array:
     return unit.reshape(*e.shape, CHARGES).transpose(0, 2, 1)
 
 
-def _add_near(out: Array, o: Measure, weight: Array, e: Array, far: NDArray[np.bool_]) -> None:
+def _add_near(out: Array, o: Operator, weight: Array, e: Array, far: NDArray[np.bool_]) -> None:
     """The sums over the nodes of gaps as they are, at the clusters of edges that are not far."""
-    P, k = o.patches, o.gaps
+    P, k, weight = nodes
     cluster, panel = np.nonzero(~far[k.gap // TOGETHER].T)
     rows = out.reshape(-1, e.shape[1])
     for some in parts(len(panel), k.dx.shape[1] * e.shape[1]):

@@ -31,10 +31,8 @@ from .state import Event, Given, State
 
 Array = NDArray[np.float64]
 
-OUTWARD, INTO_GAP = (
-    2.0,
-    0.4,
-)  # most that an edge moves out: half-widths of its patch, widths of its gap
+# The most that an edge moves out: half-widths of its patch, widths of its gap
+OUTWARD, INTO_GAP = 2.0, 0.4
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
@@ -107,7 +105,7 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
     K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
-    return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
+    return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
 
 
 class Damping(NamedTuple):
@@ -254,8 +252,8 @@ def _settled(sizes: list[float], enough: float) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
-    row; or what a single edge insists on.
+    """Patches whose edges are asked to pass each other, and gaps that are asked to close, several
+    times in a row; or the same of a single edge.
     """
     P, out = state.patches, asked * state.outward > 0.0
     single = insists >= INSISTS

@@ -43,7 +43,7 @@ def test_charges_at_edges_open_far_gaps_as_their_plain_sum_says(period):
     step = o.patches.chord.apart(k.points.anchor[..., None] - e, k.points.offset[..., None])
     plain = np.zeros((o.patches.number - 1, len(e)))
     np.add.at(plain, k.gap, (k.dx[..., None] / step).sum(axis=1))
-    across = gap_rows.across_gaps(o, k.dx)
+    across = gap_rows.across_gaps(o.patches, k, k.dx)
     scale = np.abs(plain).max(axis=1, keepdims=True)
     np.testing.assert_allclose(across / scale, plain / scale, rtol=0.0, atol=1e-14)
 
