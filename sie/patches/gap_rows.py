@@ -90,7 +90,9 @@ def _weights(edges: Clusters, e: Array) -> Array:
     return unit.reshape(*e.shape, CHARGES).transpose(0, 2, 1)
 
 
-def _add_near(out: Array, o: Operator, weight: Array, e: Array, far: NDArray[np.bool_]) -> None:
+def _add_near(
+    out: Array, nodes: tuple[Patches, GapPanels, Array], e: Array, far: NDArray[np.bool_]
+) -> None:
     """The sums over the nodes of gaps as they are, at the clusters of edges that are not far."""
     P, k, weight = nodes
     cluster, panel = np.nonzero(~far[k.gap // TOGETHER].T)

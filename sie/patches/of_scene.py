@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.problem.scene import Scene
-from sie.profiles.row import Periodic
 
 from .chord import Chord
 from .pieces import Pieces
@@ -28,7 +27,6 @@ class Problem:
     slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
     domain     where the indenter is known; corners: whether its ends are the indenter's own
     given      load, tilt or moment
-    notes      sentences on the profile
     """
 
     pieces: Callable[[tuple[float, float]], Pieces]
@@ -40,7 +38,6 @@ class Problem:
     breaks: Array
     chord: Chord
     given: Given
-    notes: tuple[str, ...] = ()
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
         """h + tilt x on the window, up to a constant; a slope that is a function is resolved once
@@ -71,7 +68,6 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         breaks=np.asarray(profile.breaks),
         chord=Chord(profile.period),
         given=Given(scene.normal_load / G, scene.tilt, moment),
-        notes=(profile.joint,) if isinstance(profile, Periodic) and profile.joint else (),
     )
 
 
