@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from sie.numerics import chebyshev
 
 from .chord import Points
+from .newton import CLOSED
 from .operator import Operator, gap_values, intensities, on_patches
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
 from .state import Findings, Overlap, State, Tension
@@ -31,9 +32,8 @@ Index = NDArray[np.int64]
 
 NODES = 8  # on a part of a panel
 DEEPEST = 30  # halvings
-HALVED = 42  # times the distance from a concave corner is: less than CLOSED
+HALVED = 42  # times the distance from a concave corner is
 TENSION = 1e-13  # of the largest D: rounding
-CLOSED = 1e-12  # half-widths of its patch: the gap at a concave corner is not told from none
 OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
 
 
@@ -132,7 +132,9 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
         widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
         deepest = np.minimum(deepest, D.min(axis=1))
     left, right = widths
-    open_ = np.maximum(left, right) > CLOSED * P.r[patch]
+    # D < 0 on half of the gap that opens there, of which a quarter at least is found
+    narrower = 0.5 * np.minimum(corners - P.a[patch], P.b[patch] - corners)
+    open_ = left + right > CLOSED * narrower
     lo, hi = corners - left, corners + right
     runs = [
         (int(patch[k]), float(lo[k]), float(lo[k]), float(hi[k]), float(hi[k]))
