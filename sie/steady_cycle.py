@@ -26,7 +26,7 @@ from . import arguments
 from .errors import ContactError
 from .friction.load_steps import steady_points
 from .friction.path_slip import step_slip
-from .friction.states import Slip
+from .friction.slip_state import Slip
 from .history import History
 from .problem.load_path import Path
 from .problem.path_scene import refuse_uncovered
@@ -56,8 +56,10 @@ def steady_cycle(
         Profile, bodies, friction and tilt; its loads are replaced by those of A and B.
     A, B : sequence of float
         (P, Q, σ) or (P, Q, σ, tilt) at the two turning points, as in `Path`.
-    tol, economy : float and collection of str, optional
-        As in `solve`.
+    tol : float, optional
+        Relative accuracy, as in `solve`.
+    economy : collection of str, optional
+        What may be skipped, as in `solve`.
 
     Returns
     -------
@@ -155,7 +157,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface that do not leave the contact, length.
 
         Returns
         -------
@@ -185,7 +187,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions on the surface, also those that leave the contact, length.
 
         Returns
         -------

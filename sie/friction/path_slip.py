@@ -16,7 +16,7 @@ from sie.problem.scene import Scene
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
-from .states import Slip
+from .slip_state import Slip
 from .turning_point import Loads, TurningPoint
 
 Array = NDArray[np.float64]
@@ -71,8 +71,8 @@ class PathSlip(Slip):
             Q, sigma = depth.real, depth.imag / self.history.shear(Loads(0.0, 0.0, 1.0)).imag
             raise ContactError(
                 f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
-                f"{sigma:.6g}, zones of slip have "
-                "retreated on the way, and what they left depends on that way; lower Q or σ",
+                f"{sigma:.6g}, zones of slip have retreated on the way, and what they left "
+                "depends on that way; lower Q or σ",
                 step=self.index,
             )
 
@@ -199,9 +199,9 @@ class PathSlip(Slip):
         new = self._touches(x, loads) & ~self._touches(x, before)
         if new.any():
             raise ContactError(
-                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while it "
-                "slips: how far it slipped since is not "
-                f"covered; ask for points within the contact under P = {before.P:.6g}",
+                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while "
+                "it slips: how far it slipped since is not covered; ask for points within the "
+                f"contact under P = {before.P:.6g}",
                 step=index,
             )
 

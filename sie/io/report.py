@@ -92,8 +92,8 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
         *[biggest] * (len(patches) > 1),
         (
             "gap volume",
-            f"{_number(solution.gap_volume)} {units.length}²"
-            f" {'in each period' if repeats else 'between them'}",
+            f"{_number(solution.gap_volume)} {units.length}² "
+            f"{'in each period' if repeats else 'between them'}",
         ),
     )
 
@@ -166,7 +166,7 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
-    head = ("P", "Q", "σ", "stick from", "to", f"energy lost / ({units.moment})")
+    head = ("P", "Q", "σ", "stick from", "to", f"energy lost ({units.moment})")
     lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
     for point in solution.history.rows():
         zones = point["stick"] or [("-", "-")]

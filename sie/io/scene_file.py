@@ -88,7 +88,7 @@ class Units:
 UNITS = Units()
 EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
-# A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
+# A trace of 1e4 points has 0.4 MB as x and h; longer ones belong in a file of their own.
 MOST_BYTES = 10**6
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
@@ -151,7 +151,7 @@ def read(path: str | pathlib.Path) -> SceneFile:
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
     """The scene in a TOML text. Raises SceneFileError.
 
-    `name` stands for the text in messages; files that it names are looked for in `folder`.
+    `name` stands for the text in messages; files that it names are read from `folder`.
     """
     if len(text) > MOST_BYTES:
         raise SceneFileError(

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .bounds import CLOSED
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
@@ -29,10 +30,8 @@ from .sums import add, parts
 
 Array = NDArray[np.float64]
 
-OUTWARD, INTO_GAP = (
-    2.0,
-    0.4,
-)  # most that an edge moves out: half-widths of its patch, widths of its gap
+# The most that an edge moves out: half-widths of its patch, widths of its gap
+OUTWARD, INTO_GAP = 2.0, 0.4
 TO_CORNER = 0.9  # of the way to a concave corner
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
@@ -46,8 +45,6 @@ NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
-# half-widths of the narrower patch beside it: a gap that edges in doubles do not tell from none
-CLOSED = 2.5e-11
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
@@ -257,8 +254,8 @@ def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
-    row; or what a single edge insists on.
+    """Patches whose edges are asked to pass each other, and gaps that are asked to close, several
+    times in a row; or the same of a single edge.
     """
     P, out = state.patches, asked * state.outward > 0.0
     single = insists >= INSISTS

@@ -17,12 +17,11 @@ from sie.errors import ContactError
 from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
-from sie.friction.states import Slip
+from sie.friction.slip_state import Slip
 from sie.friction.turning_point import Loads, TurningPoint
 from sie.problem.scene import Scene
 
 from .dissipation import PatchDissipation
-from .friction import PatchSlip
 
 
 class Followed(Protocol):
@@ -134,4 +133,4 @@ class PathEnergy:
         if not depth:
             return 0.0
         found = self.path.first_loading(state.loads.normal, depth, state.turned)
-        return found.energy if isinstance(found, PatchSlip) else dissipated(found)
+        return dissipated(found)

@@ -122,11 +122,8 @@ class Slope:
 
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
-        k = np.clip(
-            np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1,
-            0,
-            len(self.origins) - 1,
-        )
+        k = np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1
+        k = np.clip(k, 0, len(self.origins) - 1)
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:
@@ -140,6 +137,11 @@ class Slope:
         if self.functions:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))
+
+    @property
+    def is_flat_punch(self) -> bool:
+        """Whether all pieces are flat and the domain ends on both sides."""
+        return bool(self.is_zero.all() and np.isfinite(self.domain).all())
 
     @cached_property
     def has_zero(self) -> bool:

@@ -160,8 +160,8 @@ class Cycle:
 
         Parameters
         ----------
-        x, y
-            As of `history`.
+        x, y : array_like of float
+            Positions and depths, as of `history`.
 
         Returns
         -------
@@ -188,7 +188,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface where the slip of all states is known, length.
 
         Returns
         -------
@@ -203,8 +203,8 @@ class Cycle:
 
         Parameters
         ----------
-        x
-            As of `slip_range`.
+        x : array_like of float
+            Positions as of `slip_range`.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, as of `slip_range`.
+            Positions on the surface where the slip and the tension of all states are known.
 
         Returns
         -------
