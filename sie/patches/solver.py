@@ -55,7 +55,7 @@ FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
-# ... where the slope is resolved to rounding of its largest value there, or a tilt is sought
+# ... where the slope is resolved to rounding of its largest value there
 FITTED = 0.18
 COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
@@ -325,14 +325,13 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
         return problem.domain[0], problem.domain[0] + problem.chord.period
     lo, hi = _first_window(problem)
     # the contact gets to the load by a tilt, and possibly by another indenter than the lowest
-    reached: list[float] = []
+    centre = None
     if problem.given.moment is not None:
         centre = problem.given.moment / problem.given.load
         size = hi - lo
         lo = max(min(lo, centre - size), problem.domain[0]) if centre < lo else lo
         hi = min(max(hi, centre + size), problem.domain[1]) if centre > hi else hi
-        reached = [centre, *problem.breaks[np.isfinite(problem.breaks)].tolist()]
-    fitted = problem.by_slope or problem.given.moment is not None
+    fitted = problem.by_slope and centre is None
     widened, narrowest = 0, FITTED if fitted else NARROWEST
     for _ in range(WINDOWS):
         height = problem.tilted(problem.given.tilt, (lo, hi))
@@ -350,8 +349,7 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
             lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
             lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
             continue
-        a, b = min([a, *reached]), max([b, *reached])
-        if b - a >= narrowest * (hi - lo):
+        if b - a >= narrowest * (hi - lo) or not a <= (b if centre is None else centre) <= b:
             return lo, hi
         lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
     raise LoadError(
