@@ -27,7 +27,7 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError
+from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
 from .friction.coupled_normal import coupled_contact
@@ -108,7 +108,7 @@ class Solution:
             return self._in_patches()
         try:
             return self.one_patch()
-        except (InequalityError, LoadError) as error:
+        except (InequalityError, LoadError, ResolutionError) as error:
             if self._may_be_in_patches:
                 return self._in_patches(error)
             raise explained(error, self.scene.profile) from None

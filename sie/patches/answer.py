@@ -138,8 +138,8 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
 def _refuse_uncovered(scene: Scene) -> None:
     if scene.normal_load is None:
         raise ContactError(
-            f"half_width = {scene.half_width:g} of contact in several patches is not covered: "
-            "give normal_load"
+            f"half_width = {scene.half_width:g} does not say of which of several patches, nor at "
+            "which load they all press: give normal_load"
         )
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"

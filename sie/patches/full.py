@@ -23,7 +23,7 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
 
-from .bounds import CLOSED, DEEPEST, NODES, TENSION, halves, lower_bound
+from .bounds import DEEPEST, NODES, TENSION, halves, lower_bound
 from .density import AROUND, NARROW
 from .measure import NEAR
 from .pieces import Pieces
@@ -34,6 +34,7 @@ Complex = NDArray[np.complex128]
 
 GAUSS = 16  # nodes on a panel
 FEWEST = 8  # panels
+CLOSED = 1e-12  # periods: a gap at a concave corner that is no wider is taken for none
 LEVELS = 12  # how often the panels of the certificate are graded towards breaks
 SUSPECTS = 16  # places of lowest pressure on a grid: tension there rules full contact out
 CHUNK = 1 << 18

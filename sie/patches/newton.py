@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .bounds import CLOSED
 from .gap_rows import across_gaps
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
@@ -33,6 +34,7 @@ Array = NDArray[np.float64]
 
 # The most that an edge moves out: half-widths of its patch, widths of its gap
 OUTWARD, INTO_GAP = 2.0, 0.4
+TO_CORNER = 0.9  # of the way to a concave corner
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
@@ -45,7 +47,6 @@ NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
-CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
@@ -122,13 +123,14 @@ class Damping(NamedTuple):
     insists: Array
     turns: Array
 
-    def limited(self, state: State, asked: Array) -> Damping:
+    def limited(self, state: State, asked: Array, corners: Array) -> Damping:
+        """Those after a step that asks for moves; no edge moves out over a concave corner."""
         P, outward = state.patches, state.outward
         r = np.repeat(P.r, 2)
         gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
         most = np.where(
             asked * outward > 0.0,
-            np.minimum(OUTWARD * r, INTO_GAP * gaps),
+            np.minimum(np.minimum(OUTWARD * r, INTO_GAP * gaps), TO_CORNER * room(P, corners)),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
         back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
@@ -155,6 +157,14 @@ class Damping(NamedTuple):
         return cls(np.full(n, np.inf), *np.zeros((3, n)))
 
 
+def room(patches: Patches, corners: Array) -> Array:
+    """The distances of the edges (2N,) from the next corner outwards; inf where there is none."""
+    lower, upper = np.append(-np.inf, corners), np.append(corners, np.inf)
+    behind = patches.a - lower[np.searchsorted(corners, patches.a)]
+    ahead = upper[np.searchsorted(corners, patches.b, side="right")] - patches.b
+    return np.stack((behind, ahead), axis=1).ravel()
+
+
 def solve(
     state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
 ) -> tuple[State, Event | None, int]:
@@ -172,12 +182,12 @@ def solve(
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
-        damping = damping.limited(state, 0.0 * asked if unknown else asked)
+        damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
         size = relative_size(state, y, asked)
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
-        if _settled(sizes, enough):
+        if _settled(sizes, enough, state.sharp.any()):
             wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
             return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
         event = _event(state, asked, damping.insists, pieces)
@@ -240,14 +250,15 @@ def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tupl
     return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
 
 
-def _settled(sizes: list[float], enough: float) -> bool:
+def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
     """Whether the last step is small enough, what follows is by the steps' quadratic decrease, or
-    only rounding is left.
+    only rounding is left. Beside sharp edges a move is wrong as far as the charges before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
     if last < enough:
         return True
-    decreased = last < QUADRATIC and before < QUADRATIC and last * (last / before) ** 2 < enough
+    rate = before if sharp else (last / before) ** 2
+    decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
     return decreased or (last < SETTLED and last >= 0.5 * before)
 
 
@@ -263,7 +274,7 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     closing = growing[1::2] & np.roll(growing[::2], -1)
     outward = single & out
     closing |= outward[1::2] | np.roll(outward[::2], -1)
-    closed = P.gaps < CLOSED * P.r.min()
+    closed = P.gaps < CLOSED * np.minimum(P.r, np.roll(P.r, -1))
     if not P.chord.periodic:
         closing[-1] = closed[-1] = False
     kept = np.flatnonzero(closing & ~closed)
