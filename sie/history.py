@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, overload
@@ -32,7 +33,7 @@ from numpy.typing import NDArray
 
 from .contact.inequalities import slope_rises
 from .contact.pressure import Normal
-from .errors import LoadError
+from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
@@ -286,16 +287,20 @@ class History(Sequence[Solution]):
         return ((contact.x1, contact.x2),)
 
     def rows(self) -> list[dict[str, Any]]:
-        """For files: the loads of each point, its stick zones, and the energy dissipated up to
-        it.
+        """For files: the loads of each point, its stick zones, and the energy dissipated up to it
+        if that is known.
         """
-        names = ("normal_load", "tangential_load", "bulk_stress")
+        turned = "tilt" if self.path.tilt else "moment"
         rows = []
-        for loads, point in zip(self.path.points, self, strict=True):
-            stick = [list(zone) for zone in point.stick] if loads[0] else []
-            energy = point.energy_lost if loads[0] else 0.0
-            row = dict(zip(names, loads, strict=True))
-            rows.append(row | {"stick": stick, "energy_lost": energy})
+        for state, point in zip(self.turning_points, self, strict=True):
+            P, Q, sigma, turn = state.loads
+            row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
+            if self.path.tilt or self.path.moment:
+                row[turned] = turn
+            row["stick"] = [list(zone) for zone in point.stick] if P else []
+            with suppress(ContactError):
+                row["energy_lost"] = point.energy_lost if P else 0.0
+            rows.append(row)
         return rows
 
     def energy(self, index: int) -> float:
