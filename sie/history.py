@@ -38,7 +38,7 @@ from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
 from .friction.load_steps import turning_points
-from .friction.path_slip import PathSlip
+from .friction.path_slip import PathSlip, step_shift
 from .friction.states import NoSlip, OneSignedSlip, Slip
 from .friction.turning_point import Loads, TurningPoint
 from .numerics.interval import EPS, Interval
@@ -152,6 +152,7 @@ class History(Sequence[Solution]):
         self._energy = PathEnergy(self)
         self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
         self._known: dict[Under, KnownZones] = {}
+        self._shifts: dict[int, float] = {}
         self._dissipation: dict[float, Dissipation] = {}
         self._work_in_patches: dict[float, PatchDissipation] = {}
         self.turning_points = steps(scene, path, self)
@@ -245,7 +246,7 @@ class History(Sequence[Solution]):
 
     def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
         """The same between two turning points; it is not kept."""
-        plain = self._frictionless(*normal)
+        plain = self._plain.get(normal) or self._frictionless(*normal)
         if not depth:
             return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
         return self._loaded(plain, depth, turned)
@@ -306,6 +307,12 @@ class History(Sequence[Solution]):
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)
+
+    def shift_of_step(self, index: int) -> float:
+        """The shift of the indenter that slip adds in one step."""
+        if index not in self._shifts:
+            self._shifts[index] = step_shift(self, index)
+        return self._shifts[index]
 
     def dissipation(self, turn: float) -> Dissipation:
         """The dissipated energy, and the contacts under all loads of the path, at one tilt."""

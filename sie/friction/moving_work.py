@@ -34,17 +34,21 @@ def work(state: Callable[[float], Slip], dP: float, strain: float) -> float:
         found = state(time)
         return found.work_of(dP, strain) if isinstance(found, Slipping) else 0.0
 
-    return whole - _integral(rate, 0.0, 1.0, abs(whole), MOST_HALVINGS)
+    return whole - integral(rate, abs(whole))
 
 
 def _held(state: Slip) -> float:
     return state.work if isinstance(state, Slipping) else 0.0
 
 
-def _integral(
-    rate: Callable[[float], float], start: float, end: float, scale: float, halvings: int
+def integral(
+    rate: Callable[[float], float],
+    scale: float,
+    ends: tuple[float, float] = (0.0, 1.0),
+    halvings: int = MOST_HALVINGS,
 ) -> float:
     """∫ rate dt, by halves until two rules agree."""
+    start, end = ends
     known, judge = (
         (end - start) * sum(b * rate(start + (end - start) * a) for a, b in zip(g, w, strict=True))
         for g, w in (
@@ -54,6 +58,6 @@ def _integral(
     if not halvings or abs(known - judge) <= SETTLED * scale:
         return known
     middle = 0.5 * (start + end)
-    return _integral(rate, start, middle, scale, halvings - 1) + _integral(
-        rate, middle, end, scale, halvings - 1
+    return sum(
+        integral(rate, scale, half, halvings - 1) for half in ((start, middle), (middle, end))
     )

@@ -112,7 +112,8 @@ class SceneFile:
     title        one line of text
     units        labels
     want         the quantities to be answered, empty if the file names none
-    load_path    None without one
+    path         turning points (P, Q, σ), empty without a path
+    tilt, moment what the path adds to the scene's at each point, empty for nothing
     reads        the files that it names
     """
 
@@ -120,13 +121,15 @@ class SceneFile:
     title: str = ""
     units: Units = UNITS
     want: tuple[str, ...] = ()
-    load_path: Path | None = None
+    path: tuple[tuple[float, float, float], ...] = ()
+    tilt: tuple[float, ...] = ()
+    moment: tuple[float, ...] = ()
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
     @property
-    def path(self) -> tuple[tuple[float, float, float], ...]:
-        """The turning points (P, Q, σ) of the load path."""
-        return self.load_path.points if self.load_path else ()
+    def load_path(self) -> Path | None:
+        """The load path, None without one."""
+        return Path(self.path, self.tilt, self.moment) if self.path else None
 
 
 # -- reading -------------------------------------------------------------------------------------
@@ -247,7 +250,9 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
         title=text("title", top.get("title", "")),
         units=Units(**values_of("units", top.get("units", {}))),
         want=wants("want", texts("want", top.get("want", []))),
-        load_path=path,
+        path=path.points if path else (),
+        tilt=path.tilt if path else (),
+        moment=path.moment if path else (),
         reads=tuple(
             folder / name
             for name in (
