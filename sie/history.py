@@ -284,8 +284,12 @@ class History(Sequence[Solution]):
         """The patches of contact under P."""
         if not self.in_one_patch:
             return self.under(P, self.plain(self.largest, turn).tilt).patches
-        contact = self.dissipation(turn).contacts.contact(P).interval
+        contact = self.upright_contact(P, turn)
         return ((contact.x1, contact.x2),)
+
+    def upright_contact(self, P: float, turn: float) -> Interval:
+        """The contact under P, in one patch, beside others at the same tilt."""
+        return self.dissipation(turn).contacts.contact(P).interval
 
     def rows(self) -> list[dict[str, Any]]:
         """For files: the loads of each point, its stick zones, and the energy dissipated up to it

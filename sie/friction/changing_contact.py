@@ -24,12 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.halving import integral
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 
-from .dissipation import Dissipation
 from .memory import SlippedLayer
-from .moving_work import integral
 from .states import Slip
 from .turning_point import Loads, TurningPoint
 
@@ -51,7 +50,7 @@ class Followed(Protocol):
     level            Λ of loads
     shear            S of loads
     on_the_way       the state of a contact that was never sheared before S rose to a depth
-    dissipation      the contacts under all loads at one tilt, in one patch
+    upright_contact  the contact under P, in one patch, beside others at the same tilt
     """
 
     scene: Scene
@@ -66,7 +65,7 @@ class Followed(Protocol):
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
     def on_the_way(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
-    def dissipation(self, turn: float) -> Dissipation: ...
+    def upright_contact(self, P: float, turn: float) -> Interval: ...
 
 
 class ChangingContact:
@@ -143,7 +142,7 @@ class ChangingContact:
         """The contact of the level at a depth below that under the loads."""
         if not (self.rise.imag or depth.imag):
             load = loads.P - depth.real / self.path.scene.friction
-            return self.path.dissipation(loads.turn).contacts.contact(load).interval
+            return self.path.upright_contact(load, loads.turn)
         state = self.path.on_the_way(loads.normal, depth, False)
         return Interval(*state.stick[0]) if depth else state.contact
 
