@@ -23,11 +23,14 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.contact.edges import Search
 from sie.errors import ContactError
 from sie.numerics.halving import integral
 from sie.numerics.interval import EPS, Interval
 from sie.problem.scene import Scene
 
+from .contact_growth import near_contact
+from .known_zones import KnownZones
 from .memory import SlippedLayer
 from .states import Slip
 from .turning_point import Loads, TurningPoint
@@ -77,6 +80,7 @@ class ChangingContact:
         self.start, self.end = path.turning_points[index - 1].loads, self.state.loads
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
+        self._edges, self._fronts = KnownZones(), KnownZones()
 
     def slip_of_new(self, x: Array) -> Array:
         """The slip at the end of the step at x, which came into contact in it."""
@@ -108,12 +112,12 @@ class ChangingContact:
         """The shift that slip adds in the step."""
         self._refuse("how far slip shifts the indenter is not covered")
         return sum(
-            event.sign * o.jump * self._shift_of(o)
+            event.sign * o.jump * self._shift_of(o, event.sign)
             for event in self.state.slips
             for o in event.layers
         )
 
-    def _shift_of(self, o: SlippedLayer) -> float:
+    def _shift_of(self, o: SlippedLayer, sign: float) -> float:
         """The shift while a front passes a layer, for s j = 1."""
         first, last = self._shares(o)
         change, G = o.lower - o.upper, 0.5 * self.path.scene.Estar
@@ -121,9 +125,8 @@ class ChangingContact:
         def rate(v: float) -> float:
             # In v the logarithm of a stick zone that vanishes at the end has a smooth weight.
             u = 1.0 - (1.0 - v) ** 4
-            loads = self._at(first + u * (last - first))
-            outer = self._zone(loads, 0.0)
-            inner = self._zone(loads, self._below(loads, o.upper + u * change))
+            share = first + u * (last - first)
+            outer, inner = self._contact(share), self._front_zone(o, sign, share)
             added = math.log(outer.r / inner.r) / (math.pi * G) * change.real
             turned = (outer.m - inner.m) / (G * self.path.arm) * change.imag
             return 4.0 * (1.0 - v) ** 3 * (added - turned)
@@ -136,15 +139,30 @@ class ChangingContact:
         return self.start.towards(self.end, share)
 
     def _contact(self, share: float) -> Interval:
-        return self._zone(self._at(share), 0.0)
+        loads = self._at(share)
+        return self._zone(self.path.level(loads), share, self._edges)
 
-    def _zone(self, loads: Loads, depth: complex) -> Interval:
-        """The contact of the level at a depth below that under the loads."""
-        if not (self.rise.imag or depth.imag):
-            load = loads.P - depth.real / self.path.scene.friction
-            return self.path.upright_contact(load, loads.turn)
-        state = self.path.on_the_way(loads.normal, depth, False)
-        return Interval(*state.stick[0]) if depth else state.contact
+    def _front_zone(self, o: SlippedLayer, sign: float, share: float) -> Interval:
+        """The stick zone that a front in a layer has reached at a share of the step."""
+        level = self.path.level(self.end) - self._front(o, sign, share)
+        return self._zone(level, share, self._fronts)
+
+    def _zone(self, level: complex, share: float, near: KnownZones) -> Interval:
+        """The contact of a level; `near` are those at other shares of the step."""
+        path, scene, start = self.path, self.path.scene, self.start
+        load = level.real / scene.friction
+        if not (self.rise.imag or level.imag):
+            return path.upright_contact(load, start.turn)
+        lever = scene.friction * 0.5 * scene.Estar * path.arm
+        turn = start.turn + (level - path.level(start)).imag / lever
+        guess, pieces = near.guess(share), scene.profile.pieces
+        found = None
+        if guess is not None and not pieces.functions:
+            search = Search(pieces.tilted(scene.tilt + turn), 0.5 * scene.Estar)
+            found = near_contact(search, load, guess, load)
+        zone = found.interval if found else path.on_the_way((load, turn), 0.0, False).contact
+        near.add(share, zone)
+        return zone
 
     def _below(self, loads: Loads, depth: complex) -> complex:
         """A depth below the level at the end of the step, counted from that under other loads."""
