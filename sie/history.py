@@ -236,7 +236,9 @@ class History(Sequence[Solution]):
         """
         key = (normal, depth)
         if key not in self._first_loadings:
-            near = self._known.setdefault(normal, KnownZones())
+            if normal not in self._known:
+                self._known[normal] = KnownZones()
+            near = self._known[normal]
             guess = None if depth.imag else near.guess(depth.real)
             found = self._loaded(self.plain(*normal), depth, turned, guess)
             if isinstance(found, OneSignedSlip) and not depth.imag:

@@ -34,7 +34,8 @@ def turning_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turnin
                 f"Q of point {k} = {loads.Q:g} without friction: a frictionless contact carries "
                 "none; give friction > 0"
             )
-        named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
+        if abs(loads.Q) > f * loads.P:
+            named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
     start = points[0]._replace(Q=0.0, sigma=0.0)
     state = TurningPoint(start, LoadMemory(contacts.level(start)))
     for k, loads in enumerate(points):

@@ -54,7 +54,7 @@ class PathSlip(Slip):
         self.state = history.turning_points[index]
         self.normal = self.state.loads.normal
         self.friction = history.scene.friction
-        if self.state.straight:
+        if self.state.straight and isinstance(self.state.memory.total, complex):
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
