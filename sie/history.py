@@ -194,6 +194,21 @@ class History(Sequence[Solution]):
         level = f * loads.P
         return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
 
+    def tilt_of(self, level: complex) -> float:
+        """The tilt of the contact of a level."""
+        lever = self.scene.friction * 0.5 * self.scene.Estar * self.arm
+        return self.plain(*self._first).tilt + level.imag / lever
+
+    def contact_at(self, P: float, tilt: float) -> Interval:
+        """The contact under P at a tilt, in one patch."""
+        scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
+        return Solution(scene, self.tol, self.economy).as_one_patch.edges.contact
+
+    @property
+    def by_moment(self) -> bool:
+        """Whether moments are added along the path, not tilts."""
+        return bool(self.path.moment)
+
     @cached_property
     def curved(self) -> bool:
         """Whether the tilt follows from a moment that is carried at changing places."""

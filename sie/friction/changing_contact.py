@@ -48,12 +48,15 @@ class Followed(Protocol):
 
     turning_points   the layers after each step
     in_one_patch     whether the contact is one patch under every load
-    curved           whether the tilt follows from a moment
+    curved           whether the tilt follows from a moment, and not in proportion to time
+    by_moment        whether moments are added along the path, not tilts
     arm              π r₀
     level            Λ of loads
     shear            S of loads
     on_the_way       the state of a contact that was never sheared before S rose to a depth
     upright_contact  the contact under P, in one patch, beside others at the same tilt
+    tilt_of          the tilt of a level
+    contact_at       the contact under P at a tilt
     """
 
     scene: Scene
@@ -64,11 +67,15 @@ class Followed(Protocol):
     @property
     def curved(self) -> bool: ...
     @property
+    def by_moment(self) -> bool: ...
+    @property
     def arm(self) -> float: ...
     def level(self, loads: Loads) -> complex: ...
     def shear(self, loads: Loads) -> complex: ...
     def on_the_way(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def upright_contact(self, P: float, turn: float) -> Interval: ...
+    def tilt_of(self, level: complex) -> float: ...
+    def contact_at(self, P: float, tilt: float) -> Interval: ...
 
 
 class ChangingContact:
@@ -98,7 +105,7 @@ class ChangingContact:
         if event is None:
             return 0.0
         for o in event.layers:
-            first, last = self._shares(o)
+            first, last = self.shares(o)
             depths = [
                 (share, self._front(o, event.sign, share))
                 for share in (min(max(share, first), last) for share in (begin, end))
@@ -110,7 +117,7 @@ class ChangingContact:
     @property
     def shift(self) -> float:
         """The shift that slip adds in the step."""
-        self._refuse("how far slip shifts the indenter is not covered")
+        self.refuse("how far slip shifts the indenter is not covered")
         return sum(
             event.sign * o.jump * self._shift_of(o, event.sign)
             for event in self.state.slips
@@ -119,19 +126,42 @@ class ChangingContact:
 
     def _shift_of(self, o: SlippedLayer, sign: float) -> float:
         """The shift while a front passes a layer, for s j = 1."""
-        first, last = self._shares(o)
-        change, G = o.lower - o.upper, 0.5 * self.path.scene.Estar
+        (first, last), G = self.shares(o), 0.5 * self.path.scene.Estar
 
         def rate(v: float) -> float:
             # In v the logarithm of a stick zone that vanishes at the end has a smooth weight.
-            u = 1.0 - (1.0 - v) ** 4
-            share = first + u * (last - first)
+            share = last - (last - first) * (1.0 - v) ** 4
             outer, inner = self._contact(share), self._front_zone(o, sign, share)
+            change = self._change(o, sign, outer)
             added = math.log(outer.r / inner.r) / (math.pi * G) * change.real
             turned = (outer.m - inner.m) / (G * self.path.arm) * change.imag
-            return 4.0 * (1.0 - v) ** 3 * (added - turned)
+            return 4.0 * (last - first) * (1.0 - v) ** 3 * (added - turned)
 
-        return integral(rate, abs(change) / G)
+        return integral(rate, abs(o.lower - o.upper) / G)
+
+    def _change(self, o: SlippedLayer, sign: float, contact: Interval) -> complex:
+        """The rate at which a front gets deeper below the level at the end of the step."""
+        strain = self.strain(contact)
+        f, arm = self.path.scene.friction, self.path.arm
+        rise = complex(f * (self.end.P - self.start.P), f * strain * arm) if strain else self.rise
+        return (sign * (self.path.shear(self.end) - self.path.shear(self.start)) - rise) / o.jump
+
+    def strain(self, contact: Interval) -> float:
+        """E*/2 times the rate of the tilt. Where it follows from the moment M, dp = [dP/π - G dθ
+        (x - m)]/w carries dM = m dP - π/2 G r² dθ.
+        """
+        turned, G = self.end.turn - self.start.turn, 0.5 * self.path.scene.Estar
+        if not self.path.curved:
+            return G * (0.0 if self.path.by_moment else turned)
+        moment = turned if self.path.by_moment else 0.0
+        load = self.end.P - self.start.P
+        return 2.0 * (contact.m * load - moment) / (math.pi * contact.r**2)
+
+    def state_at(self, o: SlippedLayer, sign: float, share: float) -> Slip:
+        """The first loading to the depth of a front in a layer, at a share of the step."""
+        loads = self._at(share)
+        depth = self._below(loads, self._front(o, sign, share))
+        return self.path.on_the_way(loads.normal, depth, self.state.turned)
 
     # -- contacts and states on the way ------------------------------------------------------------
 
@@ -153,14 +183,12 @@ class ChangingContact:
         load = level.real / scene.friction
         if not (self.rise.imag or level.imag):
             return path.upright_contact(load, start.turn)
-        lever = scene.friction * 0.5 * scene.Estar * path.arm
-        turn = start.turn + (level - path.level(start)).imag / lever
-        guess, pieces = near.guess(share), scene.profile.pieces
-        found = None
+        tilt, pieces = path.tilt_of(level), scene.profile.pieces
+        guess, found = near.guess(share), None
         if guess is not None and not pieces.functions:
-            search = Search(pieces.tilted(scene.tilt + turn), 0.5 * scene.Estar)
+            search = Search(pieces.tilted(tilt), 0.5 * scene.Estar)
             found = near_contact(search, load, guess, load)
-        zone = found.interval if found else path.on_the_way((load, turn), 0.0, False).contact
+        zone = found.interval if found else path.contact_at(load, tilt)
         near.add(share, zone)
         return zone
 
@@ -184,7 +212,7 @@ class ChangingContact:
         inside = np.nextafter(contact.x1, np.inf), np.nextafter(contact.x2, -np.inf)
         return float(self._states[key].slip(np.clip([x], *inside))[0])
 
-    def _shares(self, o: SlippedLayer) -> tuple[float, float]:
+    def shares(self, o: SlippedLayer) -> tuple[float, float]:
         """The shares of the step at which the front enters and leaves a layer."""
         first, last = (1.0 - (surface / self.rise).real for surface in o.surface)
         return first, last
@@ -196,7 +224,7 @@ class ChangingContact:
             loads = self._at(share)
             return sign * self.path.shear(loads) - self.path.level(loads)
 
-        return o.upper + (carried(share) - carried(self._shares(o)[0])) / o.jump
+        return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
 
     def _crossed(self, x: float) -> float:
         """The share of the step at which an edge passes x: the last time if x comes into contact,
@@ -216,20 +244,20 @@ class ChangingContact:
         return _crossing(inside, known[k], known[k + 1])
 
     def _refuse_slip(self, x: Array) -> None:
-        self._refuse(
+        self.refuse(
             f"how far x = {float(x[0]):.6g} slips while it is in contact is not covered; ask for "
             f"points within the contact under P = {min(self.start.P, self.end.P):.6g}"
         )
 
-    def _refuse(self, what: str) -> None:
+    def refuse(self, what: str) -> None:
         """Refuse steps in which fronts are not where P and the tilt alone put them."""
         why = ""
         if not self.path.in_one_patch:
             why = "the contact is not in one patch under every load"
         elif not all(event.timed for event in self.state.slips):
             why = "one end of the stick zone is held up or passes an earlier one before the other"
-        elif self.path.curved:
-            why = "the tilt follows from the moment"
+        elif self.path.curved and any(len(event.layers) > 1 for event in self.state.slips):
+            why = "the tilt follows from the moment, the front passes an earlier one"
         if why:
             raise ContactError(
                 f"step {self.index} of the path, to {self.end}: {why} while the contact changes "

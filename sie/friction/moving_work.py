@@ -14,19 +14,20 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from sie.numerics.halving import integral
+from sie.numerics.interval import Interval
 
 from .states import Slip, Slipping
 
 
-def work(state: Callable[[float], Slip], dP: float, strain: float) -> float:
+def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval], float]) -> float:
     """∫∫ f p d|g| dx while the states follow each other from time 0 to 1, P changes by dP and E*/2
-    times the tilt by `strain`.
+    times the tilt at the rate `strain` of the contact.
     """
     whole = _held(state(1.0)) - _held(state(0.0))
 
     def rate(time: float) -> float:
         found = state(time)
-        return found.work_of(dP, strain) if isinstance(found, Slipping) else 0.0
+        return found.work_of(dP, strain(found.contact)) if isinstance(found, Slipping) else 0.0
 
     return whole - integral(rate, abs(whole))
 

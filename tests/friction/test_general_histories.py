@@ -425,6 +425,23 @@ def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contac
     assert (work[1:] > 0.0).all() and steady.slip_range(1.2) == 0.0
 
 
+@pytest.mark.parametrize("moments", [(0.0, 0.02), (0.0, 0.0)], ids=["given", "none"])
+def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it(moments):
+    """A path of so many straight parts in the tilt is off by their square: extrapolated."""
+    points = scaled([(1, 0, 0), (1.2, 0.6, 0.05)])
+    path = sie.Path(points, moment=moments)
+    whole = sie.follow(replace(LOPSIDED, moment=0.0), path)
+    found = []
+    for n in (4, 8):
+        parts = path.subdivided(n)
+        tilts = [solution.tilt for solution in sie.follow(whole.scene, parts)]
+        last = sie.follow(LOPSIDED, sie.Path(parts.points, tilt=tilts))[-1]
+        found.append((last.energy_lost, last.shift))
+    (coarse, fine), last = np.array(found), whole[-1]
+    expected = (4.0 * fine - coarse) / 3.0
+    assert (last.energy_lost, last.shift) == pytest.approx(tuple(expected), rel=1e-6)
+
+
 def test_slip_is_the_same_with_the_path_in_parts():
     scene, points = LOPSIDED, [(1, 0, 0, 0), (1.2, 0.6, 0.1, 0.01)]
     whole, parts = (followed(scene, points, n)[-1] for n in (1, 4))

@@ -315,7 +315,7 @@ def test_the_slip_is_drawn_below_the_shear(scene):
 
 
 def test_slip_that_a_path_does_not_determine_is_not_drawn():
-    scene = sie.Scene(**PRESSED | {"normal_load": 1e3}, profile=sie.Parabola(1.0), moment=1.0)
+    scene = sie.Scene(**PRESSED | {"normal_load": 1e3}, profile=ROW.profile)
     solution = sie.follow(scene, sie.Path([(1e3, 300.0), (2e3, 950.0)]))[-1]
     with pytest.raises(sie.ContactError):
         solution.slip(np.linspace(*solution.edges, 101))
