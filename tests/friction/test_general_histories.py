@@ -489,3 +489,20 @@ def test_the_energy_of_a_history_agrees_with_a_mesh_to_its_error(case):
     ]
     errors = [abs(state.energy / lost - 1.0) for state in found]
     assert errors[1] < 0.75 * errors[0] < 1.5e-2
+
+
+@pytest.mark.parametrize("case", ["growing", "reversed while it grows", "tilt"])
+def test_the_slip_of_a_history_agrees_with_a_mesh_to_its_error(case):
+    """Away from the edges of all turning points, where one element decides."""
+    cases = {"growing": GROWING, "reversed while it grows": [(0.8, 0.55, 0), (1.3, -0.9, 0)]}
+    scene, points = GENERAL[case] if case == "tilt" else (HERTZ, cases[case])
+    points = [(*point, 0.0)[:4] for point in points]
+    history, errors = followed(scene, points), []
+    for n, increments in ((80, 10), (160, 40)):
+        mesh = Mesh((-1.5, 1.5), n, 1.0)
+        last = on_a_mesh(mesh, scene.profile.height, f, scaled(points), increments)[-1]
+        away = [np.abs(mesh.x - edge) > 0.05 for state in history for edge in state.edges]
+        x = mesh.x[np.all(away, axis=0)]
+        exact, found = history[-1].slip(x), last.slip[np.all(away, axis=0)]
+        errors.append(float(np.abs(found - exact).mean() / np.abs(exact).mean()))
+    assert errors[1] < 0.75 * errors[0] and errors[1] < 0.03
