@@ -3,16 +3,16 @@
 A rigid indenter, or one of the half-plane's own kind, is pressed on an elastic half-plane y > 0.
 Each module is one indenter under one kind of load:
 
-    hertz, flat, rounded_flat, wedge, power               pressed without friction, or bodies alike
+    hertz, flat, rounded_flat, wedge, power               pressed, no friction or similar bodies
     two_flats, two_parabolas                              two patches, one load
     wavy, flat_row, parabola_row                          a row of contacts that repeats
     sliding_hertz, sliding_flat, sliding_rounded_flat     sliding, dissimilar bodies
     bonded_flat                                           no slip at all, dissimilar bodies
-    cattaneo, cattaneo_rounded                            partial slip, bodies alike
+    cattaneo, cattaneo_rounded                            partial slip, similar bodies
     goodman, spence                                       stick zone of dissimilar bodies
-    cracks                                                what corresponds among cracks
+    cracks                                                rows of cracks
 
-All speak one notation:
+All modules share one notation:
 
     word in a call    symbol      meaning
     x                 x           position on the surface

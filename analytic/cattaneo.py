@@ -1,7 +1,7 @@
 """Cattaneo and Mindlin: a parabola under a constant load P, then under a tangential load that
 rises, falls and rises again.
 
-Bodies alike (beta = 0). The contact [-b, b] is that of Hertz; while Q < f P it sticks on [-c, c]
+Similar bodies (beta = 0). The contact [-b, b] is that of Hertz; while Q < f P it sticks on [-c, c]
 (Cattaneo 1938; Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2),
 
     c = b sqrt(1 - Q/(fP)),      q = f p_b - f p_c,      p_c = (2P/(pi b²)) sqrt(c² - x²)

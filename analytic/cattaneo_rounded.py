@@ -1,10 +1,10 @@
 """Partial slip of a flat with rounded edges under a constant load P and a tangential load that
 rises, falls and rises again.
 
-Bodies alike (beta = 0). The corrective traction is the pressure of the same profile under the load
-P - Q/f, so that the stick zone [-c, c] is the contact under that load and always covers the flat, c
-> a (Ciavarella, Hills & Monno 1998, eqs 18 to 20; Ciavarella 1998; Jager 1998). With theta(s) =
-arccos(a/s) and s from c to b
+Similar bodies (beta = 0). The corrective traction is the pressure of the same profile under the
+load P - Q/f, so that the stick zone [-c, c] is the contact under that load and always covers the
+flat, c > a (Ciavarella, Hills & Monno 1998, eqs 18 to 20; Ciavarella 1998; Jager 1998). With
+theta(s) = arccos(a/s) and s from c to b
 
     Q/f = P(b) - P(c) = (E*/R) ∫ s theta ds
     q/f = p_b - p_c = (E*/(pi R)) ∫ s theta/sqrt(s² - x²) ds
@@ -19,8 +19,8 @@ omega_1)/(a² + omega_1 omega_2) = tan(theta_2 - theta_1),
                           - (a² + omega_1 omega_2) (y - atan(y))
 
 lose no digits, the last term being a third of the second or less; where p_b and p_c are nearly
-equal their difference is integrated. Loads, not widths, are what is given, since Q and f P must be
-known exactly where they are nearly equal.
+equal their difference is integrated. Loads are given and not widths, since Q and f P must be known
+exactly where they are nearly equal.
 """
 
 import numpy as np

@@ -1,5 +1,4 @@
-"""Stress intensity factors of cracks in a row, which are to contacts what a tension is to a
-pressure.
+"""Stress intensity factors of cracks in a row: the problems of rows of contacts, under tension.
 
 Two collinear cracks a < |x| < b under a remote tension sigma (Willmore 1949; Tada, Paris & Irwin,
 The Stress Analysis of Cracks Handbook), with complete elliptic integrals of modulus k, k² = 1 -

@@ -37,7 +37,7 @@ SOURCES = (GOODMAN, SPENCE)
 def stick_half_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The half-width of the stick zone, of dundurs > 0.
+    """The half-width of the stick zone, for dundurs > 0.
 
     >>> round(float(stick_half_width(half_width=1.0, friction=0.01, dundurs=0.01)), 12)
     0.707106781187
@@ -50,7 +50,7 @@ def stick_half_width(
 def slip_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The width of either slip zone to relative accuracy, of dundurs > 0.
+    """The width of either slip zone to relative accuracy, for dundurs > 0.
 
     >>> float(slip_width(half_width=1.0, friction=1.0, dundurs=0.1)) < 2e-13
     True
@@ -66,9 +66,9 @@ def flat_shear(
 ) -> Number:  # fmt: skip
     """The shear under a flat punch, f p F(arcsin(x/c), c/b)/K(c/b) in stick and f p in slip.
 
-    Zero beside the contact, and at the edges infinite like the pressure. The ratio of the
-    integrals by Landen's transformation, which takes it from φ to φ + atan(tan φ g/a)
-    (Abramowitz & Stegun 1964, § 17.6).
+    Zero beside the contact, and at the edges infinite like the pressure. Landen's transformation
+    gives the ratio of the integrals; it maps φ to φ + atan(tan φ g/a) (Abramowitz & Stegun 1964, §
+    17.6).
 
     >>> args = {"half_width": 1.0, "normal_load": 1.0, "friction": 0.1, "dundurs": 0.1}
     >>> round(float(flat_shear(0.7071067811865475, **args)), 9)

@@ -113,8 +113,7 @@ def _shape(exponent: Number, coefficient: Number, lib: Library) -> tuple[Number,
         raise ValueError(
             f"exponent = {exponent} is not a single number from 1 to {LARGEST_EXPONENT}; below 1 "
             "the indenter is a cusp pointing down, whose slope is infinite at its tip; each 2 "
-            "above "
-            "takes a step of a recurrence, and several exponents take a call each."
+            "above takes a step of a recurrence, and several exponents take a call each."
         )
     return as_result(m), positive("coefficient", coefficient, lib)
 

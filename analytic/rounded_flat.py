@@ -161,9 +161,8 @@ def rim(
     for _ in range(MOST_STEPS):
         step = unit.newton_step(lib, a, d, length)
         d = d * lib.exp(step)
-        if most(step * step, lib) < 2.0 ** -bits(
-            lib
-        ):  # the error that is left is of the order of step²
+        # The error that is left is of the order of step².
+        if most(step * step, lib) < 2.0 ** -bits(lib):
             break
     return as_result(d)
 

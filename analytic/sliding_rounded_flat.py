@@ -147,9 +147,8 @@ def _contact_of(
     for _ in range(MOST_STEPS):
         left, right = _newton_step(lib, contact, target)
         contact = _Contact(a, contact.left * lib.exp(left), contact.right * lib.exp(right), k)
-        if most(larger(left * left, right * right, lib), lib) < 2.0 ** -bits(
-            lib
-        ):  # what is left is of the order of step²
+        # The error that is left is of the order of step².
+        if most(larger(left * left, right * right, lib), lib) < 2.0 ** -bits(lib):
             break
     return contact
 
@@ -216,7 +215,7 @@ def _pressure_inside(
 
 
 class _View(NamedTuple):
-    """Lengths as one rim sees them."""
+    """Lengths measured from one rim."""
 
     inside: Number  # from the end of the flat, inwards
     near: Number  # from its edge

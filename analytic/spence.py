@@ -1,7 +1,8 @@
 """Dissimilar bodies pressed with friction: the stick zone, and the load under a power form.
 
 While the load grows both bodies stick on |x| < c and slip outwards beside it, q = ± f p. Under
-every symmetric convex form c/b is that of the flat punch, and h = C |x|^m carries (Spence 1975)
+every symmetric convex form c/b is that of the flat punch, and the load under h = C |x|^m is (Spence
+1975)
 
     P = E* C b^m/(2 M(m)).
 
@@ -10,8 +11,10 @@ Let k = c/b, theta = arctan(beta f)/pi, and on 0 < r < 1
     W(r) = r^(-1/2) (1-r)^(theta-1/2) (1 - k² r)^(1/2-theta),
     K v(s) = ∫ v(r) W(r) dr/(1 - k² r s).
 
-The pressure of the flat at x = c sqrt(r) is the eigenfunction v > 0 of K, and k makes its
-eigenvalue lambda = pi sqrt(1 - beta²) k^-theta (docs/derivations/coupled_slip.md). With P = b = 1,
+K v is, but for a factor, the slope of the surface beside the contact under the pressure v(r) at
+x = c sqrt(r), and K K v that pressure again. So v > 0 is the eigenfunction of K, and k makes
+its eigenvalue lambda = pi sqrt(1 - beta²) k^-theta (derived in docs/derivations/coupled_slip.md of
+the source distribution). With P = b = 1,
 
     k^(2 theta) ∫ W v dr = 1,    p(0) = k^-theta/(pi sqrt(1 - beta²)),
     M(m) = 1/(2 pi) ∫ s^(m/2-1) (1-s)^(theta-1/2) (1 - k² s)^(1/2-theta) k^(2 theta) K v(s) ds.
@@ -37,7 +40,7 @@ from analytic.goodman import SPENCE
 
 POINTS = 0.15  # per bit and unit of t: as many as the singularity at 1/k² asks for
 WIDEST = 27.0  # of |ln(k²/(1-k²))|: thinner zones need more points than are worth it
-NEAR = 1e-9  # in ln(k²/(1-k²)): doubles are that good
+NEAR = 1e-9  # in ln(k²/(1-k²)): its accuracy in doubles
 SEARCHES, POWERS = 30, 2000
 ONE = "friction or dundurs is an array; give one number of each, for the stick zone is searched."
 
@@ -62,7 +65,7 @@ class _Flat(NamedTuple):
 def stick_half_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The half-width of the stick zone, of one friction and one dundurs > 0.
+    """The half-width of the stick zone, for single numbers friction and dundurs > 0.
 
     >>> round(float(stick_half_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.645787412387
@@ -75,7 +78,8 @@ def stick_half_width(
 def slip_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The width of either slip zone to relative accuracy, of one friction and one dundurs > 0.
+    """The width of either slip zone to relative accuracy, for single numbers friction and dundurs >
+    0.
 
     >>> round(float(slip_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.354212587613
@@ -89,7 +93,7 @@ def flat_central_pressure(
     *, half_width: Number, normal_load: Number, friction: Number, dundurs: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure in the middle of a flat punch, of one friction and one dundurs > 0.
+    """The pressure in the middle of a flat punch, for single numbers friction and dundurs > 0.
 
     >>> args = {"half_width": 1.0, "normal_load": 1.0, "friction": 0.3, "dundurs": 0.3}
     >>> round(float(flat_central_pressure(**args)), 12)
@@ -106,7 +110,7 @@ def load(
     *, half_width: Number, coefficient: Number, exponent: Number, modulus: Number,
     friction: Number, dundurs: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The load under h = C |x|^m, of one friction and one dundurs > 0.
+    """The load under h = C |x|^m, for single numbers friction and dundurs > 0.
 
     >>> args = {"coefficient": 0.5, "exponent": 2, "modulus": 1.0, "friction": 0.3, "dundurs": 0.3}
     >>> round(float(load(half_width=1.0, **args)), 11)

@@ -145,7 +145,7 @@ def _pressure_inside(lib: Library, r: Number, s: Number, contact: _Contact) -> N
 
 
 def _pressure_not_inside(lib: Library, r: Number, s: Number, contact: _Contact) -> Number:
-    # at lift-off the outer corner of one side carries nothing
+    # at lift-off the outer corner of one side has no load
     carried = (
         contact.slant * r + s * contact.A * (r * r - contact.level) > ROUNDING * contact.slant * r
     )

@@ -9,7 +9,7 @@ b_(n+1)² = a_n b_n, c_(n+1) = (a_n - b_n)/2, from a_0 = c2, b_0 = c1:
     p = (E* d/(3 pi R)) |x| sqrt((x² - c1²)(c2² - x²)) R_J(0, c1², c2², x²)
 
 with Carlson's elliptic integral of the third kind. The first term, c_1 = (c2 - c1)/2, is Hertz
-under P/2 on each parabola; the others are what each feels of its neighbour. The patches never
+under P/2 on each parabola; the others are the effect of each patch on the other. The patches never
 merge: c1 > 0 under any load, for h has a ridge at x = 0. (For the equations behind: Gladwell,
 Contact Problems, 1980.)
 """

@@ -114,7 +114,7 @@ def _arccosh(lib: Library, x: Number, b: Number) -> Number:
 
 
 def _arccosh_beside_apex(lib: Library, x: Number, b: Number) -> Number:
-    """By arccosh(1+2s²) = 2 arsinh(s), which keeps what b - x knows near the edge."""
+    """By arccosh(1+2s²) = 2 arsinh(s), which keeps the digits of b - x near the edge."""
     return 2 * lib.asinh(lib.sqrt((b - x) * (x < b)) / lib.sqrt(2 * x))
 
 

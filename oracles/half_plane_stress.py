@@ -1,5 +1,5 @@
-"""Stresses in 40 digits, by quadrature of the slope alone: what the stress of the solver is
-measured against.
+"""Stresses in 40 digits, by quadrature of the slope alone: the reference for the stress of the
+solver.
 
 From the potential F(z) = 1/π ∫p/(z - t) of `oracles.normal_contact` (smooth edges; e the piece
 next to z, continued), differentiated under the integral:

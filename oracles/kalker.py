@@ -1,4 +1,4 @@
-"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. Shares nothing
+"""Partial slip on a mesh: Kalker's minimum of complementary energy, step by step. It shares nothing
 with the solver that it checks.
 
 Constant shear on each of n equal elements; the displacement of the indenter relative to the body
@@ -27,9 +27,8 @@ class Mesh:
     def __init__(self, interval: tuple[float, float], n: int, modulus: float) -> None:
         edges = np.linspace(interval[0], interval[1], n + 1)
         self.x, self.h, self.modulus = 0.5 * (edges[:-1] + edges[1:]), edges[1] - edges[0], modulus
-        size = (
-            interval[1] - interval[0]
-        )  # the unit of length in the logarithm: its choice moves δ only
+        # The unit of length in the logarithm: its choice moves δ only
+        size = interval[1] - interval[0]
 
         def primitive(s: Array) -> Any:  # ∫ ln|s| ds
             return s * np.log(np.abs(s) / (4.0 * size)) - s
@@ -61,8 +60,8 @@ class Mesh:
             found = np.linalg.solve(K, right)
             new[free] = q[free] + found[:m]
             slip = found[m] - self.A @ (new - q) - strain * self.x
-            # free elements beyond their bound are held there, held ones whose slip pulls away are
-            # let go
+            # Free elements beyond their bound are held there. Held ones whose slip opposes it are
+            # released.
             out = free & (np.abs(new) > bound * (1.0 + 1e-13))
             back = fixed & (at * slip < -1e-14 * np.abs(slip).max())
             if not out.any() and not back.any():

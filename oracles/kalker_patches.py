@@ -1,7 +1,7 @@
 """Partial slip on the mesh of `kalker`, on several patches of contact or on those of one period.
 
-Elements lie on the patches alone. Those that leave the contact give up their shear, which moves the
-surface under the others.
+Elements lie on the patches alone. The shear of those that leave the contact becomes 0, which moves
+the surface under the others.
 """
 
 import numpy as np

@@ -7,8 +7,9 @@ solves two quadratic programmes,
     q:  minimise ½ q·A q + q·(g + 2τ x/E*)  over |q| <= f p,   with ∫q = Q
 
 where g + 2τ x/E* + A q is constant where the bodies stick: g is frozen there, and elsewhere it is
-what the surfaces had when they touched. The first order of the mesh and of the increments is left:
-compare q and energies on two meshes. Ends of stick zones flicker at steady turning points.
+what the surfaces had when they touched. The errors are of the first order in the elements and
+increments: compare q and energies on two meshes. In a steady cycle the ends of stick zones
+alternate between neighbouring elements.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,7 +26,7 @@ Array = NDArray[np.float64]
 class State(NamedTuple):
     """The state at a turning point: tractions on the elements, slip, energy lost since the start.
 
-    `slip` is since each element came into contact.
+    `slip` is counted from when each element came into contact.
     """
 
     pressure: Array

@@ -1,5 +1,5 @@
-"""Densities whose Cauchy integrals are known exactly, in 40 digits: what solvers of Cauchy
-equations are measured against.
+"""Densities whose Cauchy integrals are known exactly, in 40 digits: the reference for solvers of
+Cauchy equations.
 
     φ(x) = w(s) f(s),   w = (1 - s)^α (1 + s)^β,   α + β = -κ,   x = m + r s
     f a polynomial plus poles r/(s - p) off [-1, 1]

@@ -1,4 +1,4 @@
-"""The normal contact in 40 digits, by quadrature alone: what the solver is measured against.
+"""The normal contact in 40 digits, by quadrature alone: the reference for the solver.
 
 Nothing here comes from the package under test. A profile is the list of its slope's pieces, each an
 analytic function of an mpmath number; the contact is found by Newton's method on the conditions,
@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import mpmath
 
@@ -32,9 +32,8 @@ mp = mpmath.mp.clone()
 mp.dps = 40
 NODES = 32
 LONGEST = 0.6  # of a panel in φ, where only the slope's own analyticity counts
-KINK = (
-    mpmath.mpf(10) ** -14
-)  # panels are halved down to this towards a break where the slope is not analytic from either side
+# Panels are halved down to this towards a break where the slope is not analytic from either side
+KINK = mpmath.mpf(10) ** -14
 
 KNOT = mpmath.mpf(10) ** -38  # the same towards a pole that is a break itself
 
@@ -66,9 +65,8 @@ class Pieces:
 
     breaks: tuple[Number, ...]
     functions: tuple[Callable[[Number], Number], ...]
-    kinks: tuple[
-        Number, ...
-    ] = ()  # breaks where a function itself is not analytic, like |x|^1.5 at 0
+    # Breaks where a function itself is not analytic, like |x|^1.5 at 0
+    kinks: tuple[Number, ...] = ()
 
     def tilted(self, tilt: float) -> "Pieces":
         return Pieces(
@@ -184,9 +182,8 @@ class Contact(Between):
             else nearest + self.r * mp.mpf("1e-30")
         )
         H = self.pieces.functions[e](z)
-        if (
-            abs(z - nearest) > self.r
-        ):  # far away nothing is to be taken out, and a continued polynomial would grow
+        # Far away no pole is to be subtracted, and a continued polynomial would grow.
+        if abs(z - nearest) > self.r:
             H, e = mp.zero, -1
         root = mp.sqrt(z - self.x1) * mp.sqrt(z - self.x2)
         if not self.sharp:
@@ -272,7 +269,7 @@ def sharp_contact(pieces: Pieces, modulus: float, load: float) -> Contact:
 def contact(
     pieces: Pieces, modulus: float, guess: tuple[float, float], *,
     load: float | None = None, half_width: float | None = None,
-    symmetric: bool = False, sharp: tuple[bool, bool] = (False, False), moment: float | None = None,
+    symmetric: bool = False, sharp: tuple[bool, bool] = (False, False),
 ) -> Contact:  # fmt: skip
     """Edges, load and moment from the conditions, to 30 digits: Newton from a guess, with the
     residual verified.
@@ -280,60 +277,73 @@ def contact(
     symmetric    about x = 0: ∫H dφ = 0 holds by itself
     sharp        one end of the indenter is an edge; the other is smooth, P = G r ∫H (1 ± sin φ) dφ
     """
-    G = mp.mpf(modulus) / 2
-    P = None if load is None else mp.mpf(load)
-    r_given = None if half_width is None else mp.mpf(half_width)
-
-    def moments(c: Contact) -> tuple[Number, Number]:
-        I0 = c.integral(lambda t, w, H: H) if not symmetric else mp.zero
-        return I0, c.integral(lambda t, w, H: H * (t - c.m)) / c.r
-
-    def built(x1: Number, x2: Number, value: Number | None = None) -> Contact:
-        return Contact(pieces, G, x1, x2, mp.zero if value is None else value, any(sharp))
-
+    sought = _Sought(
+        pieces,
+        mp.mpf(modulus) / 2,
+        None if load is None else mp.mpf(load),
+        None if half_width is None else mp.mpf(half_width),
+        symmetric,
+    )
     x1, x2 = map(mp.mpf, guess)
     if any(sharp):
-        end = pieces.breaks[0] if sharp[0] else pieces.breaks[-1]
-        sign = 1 if sharp[0] else -1
+        return sought.sharp_on_one_side(sharp[0], x2 if sharp[0] else x1)
+    c = sought.about_axis((x2 - x1) / 2) if symmetric else sought.smooth(x1, x2)
+    return sought.built(c.x1, c.x2, sought.carried(c) if sought.P is None else sought.P)
 
-        def at(edge: Number) -> Contact:
-            return built(end, edge) if sharp[0] else built(edge, end)
 
-        def carried(c: Contact) -> Number:
-            I0, I1 = moments(c)
-            return G * c.r * (I1 + sign * I0)
+class _Sought(NamedTuple):
+    """A contact given by its load or by its half-width, and what it carries."""
 
-        if r_given is not None:
-            c = at(end + 2 * r_given * sign)
-            return built(c.x1, c.x2, carried(c))
-        edge = _root(lambda v: [carried(at(v[0])) / P - 1], [x2 if sharp[0] else x1])[0]
-        c = at(edge)
-        return built(c.x1, c.x2, P)
-    if symmetric:
-        if r_given is None:
-            (r,) = _root(
-                lambda v: [G * v[0] * moments(built(-v[0], v[0]))[1] / P - 1], [(x2 - x1) / 2]
-            )
-        else:
-            r = r_given
-        c = built(-r, r)
-    elif r_given is not None:
-        (m,) = _root(
-            lambda v: [moments(built(v[0] - r_given, v[0] + r_given))[0]],
-            [(x1 + x2) / 2],
-            scale=r_given,
-        )
-        c = built(m - r_given, m + r_given)
-    else:
-        slope = max(abs(pieces(x1)), abs(pieces(x2)))
+    pieces: Pieces
+    G: Number
+    P: Number | None
+    r: Number | None
+    symmetric: bool
+
+    def built(self, x1: Number, x2: Number, load: Number = mp.zero, sharp: bool = False) -> Contact:
+        return Contact(self.pieces, self.G, x1, x2, load, sharp)
+
+    def integrals(self, c: Contact) -> tuple[Number, Number]:
+        """∫H dφ and ∫H sin φ dφ."""
+        I0 = mp.zero if self.symmetric else c.integral(lambda t, w, H: H)
+        return I0, c.integral(lambda t, w, H: H * (t - c.m)) / c.r
+
+    def carried(self, c: Contact, sign: int = 0) -> Number:
+        """G r ∫H (sin φ + sign) dφ, the load of a contact whose edge on that side is smooth."""
+        I0, I1 = self.integrals(c)
+        return self.G * c.r * (I1 + sign * I0)
+
+    def sharp_on_one_side(self, left: bool, start: Number) -> Contact:
+        end, sign = (self.pieces.breaks[0], 1) if left else (self.pieces.breaks[-1], -1)
+
+        def up_to(edge: Number, load: Number = mp.zero) -> Contact:
+            return self.built(*((end, edge) if left else (edge, end)), load, sharp=True)
+
+        if self.r is not None:
+            edge = end + 2 * self.r * sign
+            return up_to(edge, self.carried(up_to(edge), sign))
+        (edge,) = _root(lambda v: [self.carried(up_to(v[0]), sign) / self.P - 1], [start])
+        return up_to(edge, self.P)
+
+    def about_axis(self, start: Number) -> Contact:
+        r = self.r
+        if r is None:
+            (r,) = _root(lambda v: [self.carried(self.built(-v[0], v[0])) / self.P - 1], [start])
+        return self.built(-r, r)
+
+    def smooth(self, x1: Number, x2: Number) -> Contact:
+        if self.r is not None:
+            r = self.r
+            balance = lambda v: [self.integrals(self.built(v[0] - r, v[0] + r))[0]]  # noqa: E731
+            (m,) = _root(balance, [(x1 + x2) / 2], scale=r)
+            return self.built(m - r, m + r)
+        slope = max(abs(self.pieces(x1)), abs(self.pieces(x2)))
 
         def conditions(v: Sequence[Number]) -> list[Number]:
-            c = built(v[0], v[1])
-            I0, I1 = moments(c)
-            return [I0 / slope, G * c.r * I1 / P - 1]
+            I0, I1 = self.integrals(c := self.built(*v))
+            return [I0 / slope, self.G * c.r * I1 / self.P - 1]
 
-        c = built(*_root(conditions, [x1, x2], scale=(x2 - x1) / 2))
-    return built(c.x1, c.x2, G * c.r * moments(c)[1] if P is None else P)
+        return self.built(*_root(conditions, [x1, x2], scale=(x2 - x1) / 2))
 
 
 def _root(
@@ -358,8 +368,7 @@ def _root(
                 J[i, j] = value
         step = mp.lu_solve(J, -mp.matrix(f))
         v = [x + s for x, s in zip(v, step, strict=True)]
-        if (
-            max(abs(s) for s in step) < scale * mp.mpf(10) ** -20
-        ):  # quadratic, slope known to 1e-16: what is left is below 1e-33
+        # The convergence is quadratic, with a slope known to 1e-16: what is left is below 1e-33.
+        if max(abs(s) for s in step) < scale * mp.mpf(10) ** -20:
             return v
     raise AssertionError(f"the reference did not converge from {start}")

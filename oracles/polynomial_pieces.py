@@ -20,9 +20,8 @@ from oracles.ends import Between
 mp = mpmath.mp.clone()
 mp.dps = 100
 Number = Any
-Rows = tuple[
-    tuple[Number, tuple[Number, ...]], ...
-]  # each piece's origin and coefficients, low order first
+# Each piece's origin and coefficients, low order first
+Rows = tuple[tuple[Number, tuple[Number, ...]], ...]
 
 
 @dataclass(frozen=True)
@@ -57,8 +56,8 @@ class Exact(Between):
         return totals
 
     def stiffness(self) -> Number:
-        """The smaller of d(r K2)/dx2 and -d(r K1)/dx1, of ∫H (1 ± s) dφ: by how little an edge is
-        fixed.
+        """The smaller of d(r K2)/dx2 and -d(r K1)/dx1, of ∫H (1 ± s) dφ: how weakly an edge is
+        determined.
         """
         h = self.r * mp.mpf(10) ** -40
         wider = (

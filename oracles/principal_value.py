@@ -1,4 +1,4 @@
-"""Principal values by Gauss-Legendre quadrature in mpmath, to as many digits as the context has;
+"""Principal values by Gauss-Legendre quadrature in mpmath, to as many digits as the context has. It
 shares nothing with the packages.
 
 In the angle t = b sin θ the root of the paper's integrals is gone, ∫ f dt / (sqrt(b² - t²)(t - x))

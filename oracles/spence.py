@@ -1,5 +1,5 @@
 """Dissimilar bodies pressed with friction, on a grid: the printed equations (1) and (12), step by
-step. Shares nothing with the solver that it checks.
+step. It shares nothing with the solver that it checks.
 
 Under a symmetric profile p is even and q odd, so that with constant tractions on cells of x > 0 the
 equations, integrated once from the axis, are for β > 0

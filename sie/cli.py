@@ -26,12 +26,10 @@ import math
 import os
 import pathlib
 import sys
-import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import combinations
 from types import ModuleType
-from typing import Any
 
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
@@ -43,9 +41,10 @@ from .io.answers import wanted
 from .io.mesh_comparison import Comparison, compare, read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
-from .io.stress_grid import SIZE, SUFFIXES, Grid, file_bytes
+from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
+from .problem.request import GRID
 from .solution import Solution, solve
 from .streams import discard_output, print_error, print_text
 
@@ -159,13 +158,10 @@ def _compared(
 ) -> bytes:
     if kind == "json":
         return export.strict_json(comparison.as_dict()).encode()
-    return _drawn(lambda: _overlay(solution, comparison, file), path)
-
-
-def _overlay(solution: Solution, comparison: Comparison, file: SceneFile) -> Any:
     from .plots.comparison_plot import overlay  # noqa: PLC0415
 
-    return overlay(solution, comparison, file.units, file.title)
+    figure = overlay(solution, comparison, file.units, file.title)
+    return _style().picture_bytes(figure, path.suffix[1:].lower())
 
 
 def _plan(arguments: argparse.Namespace) -> int:
@@ -275,7 +271,7 @@ def _refuse_overwriting(
 
 
 def _check_picture(path: pathlib.Path) -> None:
-    known = _pictures().suffixes()
+    known = _style().suffixes()
     if path.suffix[1:].lower() not in known:
         raise ValueError(
             f'--plot {path} has the suffix "{path.suffix}", which Matplotlib does not write: '
@@ -283,7 +279,7 @@ def _check_picture(path: pathlib.Path) -> None:
         )
 
 
-def _pictures() -> ModuleType:
+def _style() -> ModuleType:
     """The module of the pictures' style; its import shows whether Matplotlib is installed."""
     try:
         from .plots import style  # noqa: PLC0415
@@ -302,13 +298,6 @@ def _content(
     file: SceneFile,
     arguments: argparse.Namespace,
 ) -> bytes:
-    if kind == "csv":
-        return export.csv_text(solution, file, arguments.points).encode()
-    if kind == "history":
-        assert isinstance(solution, PathSolution)
-        return export.history_text(solution.history, file, arguments.points).encode()
-    if kind == "json":
-        return export.json_text(solution, file, arguments.points).encode()
     if kind == "field":
         units, (x1, x2) = file.units, solution.edges
         head = (
@@ -317,26 +306,26 @@ def _content(
             f"lengths in {units.length}, stresses in {units.stress}, j2 in its square",
             f"contact from x1 = {x1!r} to x2 = {x2!r}",
         )
-        return file_bytes(Grid(solution, *(arguments.grid or SIZE)), path.suffix[1:].lower(), head)
-    return _drawn(lambda: _figure(solution, file), path)
+        return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
+    if kind == "csv":
+        return export.csv_text(solution, file, arguments.points).encode()
+    if kind == "history":
+        assert isinstance(solution, PathSolution)
+        return export.history_text(solution.history, file, arguments.points).encode()
+    if kind == "json":
+        return export.json_text(solution, file, arguments.points).encode()
+    return _picture(solution, file, path.suffix[1:].lower())
 
 
-def _drawn(make: Callable[[], Any], path: pathlib.Path) -> bytes:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # letters of a title that no font has are drawn as boxes
-        data: bytes = _pictures().picture_bytes(make(), path.suffix[1:].lower())
-    return data
-
-
-def _figure(solution: Solution, file: SceneFile) -> Any:
+def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     """The picture of the contact; contours of the stress if that is wanted."""
     if {"stress", "yield"} & set(file.want):
         from .plots.stress_plot import contours  # noqa: PLC0415
 
-        return contours(solution, file.units, file.title)
+        return _style().picture_bytes(contours(solution, file.units, file.title), suffix)
     from .plots.contact_plot import picture  # noqa: PLC0415
 
-    return picture(solution, file.units, file.title)
+    return _style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:

@@ -8,10 +8,8 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from . import __version__
-from .io.sample_points import POINTS
-from .io.stress_grid import SIZE
 from .messages import nearest
-from .problem.request import UNASKED, WANTS
+from .problem.request import GRID, POINTS, UNASKED, WANTS
 from .streams import print_text
 
 COMMANDS = {
@@ -104,7 +102,7 @@ def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:
     add("--history", "FILE", "write the same at every turning point of a load path")
     add("--json", "FILE", everything, nargs="?", const=STANDARD)
     add("--field", "FILE", "write the stress on a grid: .csv, .npz or .vti (ParaView)")
-    add("--grid", "NXxNY", f"points of that grid ({SIZE[0]}x{SIZE[1]})", type=_grid)
+    add("--grid", "NXxNY", f"points of that grid ({GRID[0]}x{GRID[1]})", type=_grid)
     about = "points in the contact, about (%(default)s)"
     add("--points", "N", about, type=_points, default=POINTS)
     add("--tol", "T", "relative accuracy to certify (%(default)s)", type=float, default=TOL)

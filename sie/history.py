@@ -4,7 +4,7 @@ The first point is answered like a scene: P and the tilt alone, then Q and σ in
 each point to the next all loads change in proportion to time. What is exact, and covered:
 
     constant P and tilt, Q alone       every unloading, reloading and nested loop
-    P and Q at will, σ constant        Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
+    P and Q in any way, σ constant     Mindlin & Deresiewicz (1953) and Jäger (1998): P grows with
                                        |dQ/dP| on either side of f, or falls
     P, Q, σ and tilt together          the same superposition of tilted profiles, where both ends of
                                        the stick zone recede along the step and pass earlier ones
@@ -32,14 +32,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact.inequalities import slope_rises
-from .contact.pressure import Normal
+from .contact.known_contact import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
 from .friction.load_steps import turning_points
 from .friction.path_slip import PathSlip, step_shift
-from .friction.states import NoSlip, OneSignedSlip, Slip
+from .friction.slip_state import NoSlip, Slip
+from .friction.states import OneSignedSlip
 from .friction.turning_point import Loads, TurningPoint
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches
@@ -47,9 +48,9 @@ from .patches.dissipation import PatchDissipation, Untouched
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
 from .problem.load_path import Path
-from .problem.path_scene import refuse_uncovered, unsheared
+from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
-from .problem.scene import Scene, refuse_no_scene
+from .problem.scene import Scene
 from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
@@ -100,10 +101,6 @@ def follow(
     >>> round(loading.stick[0][1], 6), round(unloading.stick[0][1], 6)
     (0.126157, 0.21851)
     """
-    if not isinstance(path, Path):
-        refuse_no_scene(scene)
-        raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
-    refuse_uncovered(scene)
     return History(scene, path, tol, economy)
 
 
@@ -140,8 +137,8 @@ class History(Sequence[Solution]):
         economy: Collection[str],
         steps: Callable[[Scene, Path, Contacts], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
-        self._first = path.first_contact
         self.scene = unsheared(scene, path)
+        self._first = path.first_contact
         solve(self.scene, tol, economy)  # refuses what is not covered
         self.path, self.tol, self.economy = path, tol, frozenset(economy)
         self._plain: dict[Under, Solution] = {}

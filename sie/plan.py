@@ -173,7 +173,7 @@ def _of_both(
 ) -> tuple[Step, ...]:
     """The steps after the edges where pressure and shear are one problem."""
     return (
-        _asked_pressure(stages, pressure),
+        _if_asked("pressure", "pressure" in stages, pressure, "pressure"),
         Step("inequalities", False, inequalities),
         Step("slip", False, "the shear and the slip come with the pressure"),
         *_last(stages, names),
@@ -190,29 +190,28 @@ def _of_full_stick(scene: Scene, names: tuple[str, ...]) -> Plan:
     steps = (
         Step("edges", True, "the ends of the punch", "normal"),
         Step("full stick", True, how, "bonded"),
-        _asked_pressure(stages, "its real part"),
+        _if_asked("pressure", "pressure" in stages, "its real part", "pressure"),
         Step("inequalities", False, "bonded surfaces can pull, and touch all over"),
         Step("slip", False, "infinite friction: nothing slips"),
     )
     return Plan(steps + _last(stages, names))
 
 
-def _asked_pressure(stages: set[str], how: str) -> Step:
-    asked = "pressure" in stages
-    return Step("pressure", asked, how if asked else "not asked for", "pressure")
+def _if_asked(name: str, asked: bool, how: str, stage: str = "") -> Step:
+    return Step(name, asked, how if asked else "not asked for", stage)
 
 
 def _last(stages: set[str], names: tuple[str, ...]) -> tuple[Step, ...]:
-    return _stress(stages), _maxima(names), _certificate(stages)
-
-
-def _certificate(stages: set[str]) -> Step:
-    asked = "certificate" in stages
-    return Step(
-        "certificate",
-        asked,
-        "residual, equilibrium and inequalities on other points" if asked else "not asked for",
-        "certificate",
+    """The steps after the tractions."""
+    stress = "from the potentials of the tractions, each once; no complex arithmetic on the surface"
+    maxima = (("yield", "J2 in the body"), ("tension", "σ_xx on the surface"))
+    found = " and ".join(what for name, what in maxima if name in names)
+    search = f"{found}: scanned, then polished with exact gradients"
+    certificate = "residual, equilibrium and inequalities on other points"
+    return (
+        _if_asked("stress", "tractions" in stages, stress, "tractions"),
+        _if_asked("maxima", bool(found), search),
+        _if_asked("certificate", "certificate" in stages, certificate, "certificate"),
     )
 
 
@@ -375,29 +374,4 @@ def _corrective(scene: Scene, economy: Collection[str]) -> Step:
         name,
         True,
         f"the normal solver once more, under P - |Q|/f{never}; nothing where slip goes both ways",
-    )
-
-
-def _stress(stages: set[str]) -> Step:
-    asked = "tractions" in stages
-    why = (
-        "from the potentials of the tractions, each once; no complex arithmetic on the surface"
-        if asked
-        else "not asked for"
-    )
-    return Step("stress", asked, why, "tractions")
-
-
-def _maxima(names: tuple[str, ...]) -> Step:
-    found = [
-        what
-        for name, what in (("yield", "J2 in the body"), ("tension", "σ_xx on the surface"))
-        if name in names
-    ]
-    return Step(
-        "maxima",
-        bool(found),
-        f"{' and '.join(found)}: scanned, then polished with exact gradients"
-        if found
-        else "not asked for",
     )

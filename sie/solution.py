@@ -22,11 +22,11 @@ from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
-from .contact.edges import Edges
 from .contact.gap import gap
 from .contact.inequalities import slope_rises, verify_inequalities
+from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
-from .contact.pressure import Normal, pressure
+from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
@@ -34,22 +34,22 @@ from .friction.coupled_normal import coupled_contact
 from .friction.coupled_sheared import ShearedContact, sheared_contact
 from .friction.coupled_tangential import TangentialSearch, tangential_search
 from .friction.coupled_traction import OnHalves
-from .friction.coverage import refuse_uncovered
 from .friction.dissipation import dissipated
 from .friction.full_stick import Component, full_stick_contact
 from .friction.goodman import GoodmanSlip, goodman_slip
 from .friction.goodman_departure import departure
 from .friction.partial_slip import slip
-from .friction.states import Slip, Step
+from .friction.slip_state import Slip, Step
 from .kept_stages import changed_scene, kept_stages
 from .numerics.interval import Interval
 from .patches.answer import SeveralPatches, asks_for_patches, several_patches
 from .patches.friction import PatchesUnder, PatchSlip
 from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
+from .problem.coverage import refuse_uncovered
 from .problem.material import Elastic
 from .problem.request import ECONOMY, sheared
-from .problem.scene import Scene, refuse_no_scene
+from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
 from .stress.half_plane import Stress, Tractions
@@ -172,7 +172,9 @@ class Solution:
 
     @cached_property
     def unverified(self) -> Normal:
-        """The contact that carries the load and the moment; bodies may overlap there, or pull."""
+        """The contact that carries the load and the moment; bodies may overlap there, or be in
+        tension.
+        """
         return normal_contact(self.scene, self.tol, self.economy)
 
     @cached_property
@@ -271,18 +273,15 @@ class Solution:
     def tangential(self) -> Slip:
         """Zones of stick and slip, and the shear."""
         if self.scene.goodman:
-            self._refuse_goodman_in_patches()
+            if self._several is not None:
+                raise ContactError(
+                    f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear "
+                    "in it follows from how one patch grew; give a convex profile, or dundurs = 0 "
+                    "to neglect β"
+                )
             growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
             return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)
         return self.first_loading(self._loads, self.patches_under)
-
-    def _refuse_goodman_in_patches(self) -> None:
-        if self._several is not None:
-            raise ContactError(
-                f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear in "
-                "it follows from how one patch grew; give a convex profile, or dundurs = 0 to "
-                "neglect β"
-            )
 
     def first_loading(
         self,
@@ -318,8 +317,7 @@ class Solution:
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        state = self.tangential
-        return state.energy if isinstance(state, (PatchSlip, GoodmanSlip)) else dissipated(state)
+        return dissipated(self.tangential)
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -517,7 +515,7 @@ class Solution:
 
     @property
     def energy_lost(self) -> float:
-        """Energy that friction turned into heat since the normal load was applied.
+        """Energy that friction dissipated since the normal load was applied.
 
         Returns
         -------
@@ -828,11 +826,10 @@ def solve(scene: Scene, tol: float = 1e-13, economy: Collection[str] = ECONOMY) 
     >>> round(sie.solve(scene).half_width, 6)
     0.282095
     """
-    refuse_no_scene(scene)
+    refuse_uncovered(scene)
     tol = arguments.tolerance(tol)
     names = () if economy is ECONOMY else arguments.listed("economy", economy, "a set of names")
     for name in names:
         if not arguments.among(name, ECONOMY):
             raise ValueError(f"economy {name!r} is not known: choose among {sorted(ECONOMY)}")
-    refuse_uncovered(scene)
     return Solution(scene, tol, economy)

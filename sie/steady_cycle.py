@@ -28,7 +28,7 @@ from .errors import ContactError
 from .friction.changing_contact import ChangingContact
 from .friction.load_steps import steady_points
 from .friction.path_slip import step_slip
-from .friction.states import Slip
+from .friction.slip_state import Slip
 from .history import History
 from .problem.load_path import Path
 from .problem.path_scene import refuse_uncovered
@@ -58,8 +58,10 @@ def steady_cycle(
         Profile, bodies, friction and tilt; its loads are replaced by those of A and B.
     A, B : sequence of float
         (P, Q, σ) or (P, Q, σ, tilt) at the two turning points, as in `Path`.
-    tol, economy : float and collection of str, optional
-        As in `solve`.
+    tol : float, optional
+        Relative accuracy, as in `solve`.
+    economy : collection of str, optional
+        What may be skipped, as in `solve`.
 
     Returns
     -------

@@ -9,7 +9,7 @@ or a check is blind.
 from __future__ import annotations
 
 import argparse
-import importlib
+import importlib.util
 import json
 import os
 import sys
@@ -32,65 +32,64 @@ INTERRUPTED = 130  # the exit status of shells for it
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    given = parsed(arguments)
+    names = [name for name in TOPICS if given.only is None or name in given.only]
+    try:
+        sections, seconds = run(names, given.quick)
+    except KeyboardInterrupt:
+        print("\ninterrupted: nothing was written", file=sys.stderr)
+        return INTERRUPTED
+    try:
+        write_files(contents(given, sections, seconds))
+    except OSError as problem:
+        print(problem, file=sys.stderr)
+        return NOT_WRITTEN
+    return summary(sections, seconds, given.out)
+
+
+def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """The options; a request that cannot be met ends the program before anything runs."""
     parser = argparse.ArgumentParser(
         prog="python -m validation",
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--quick", action="store_true", help="less of each topic: under 30 s")
-    parser.add_argument(
-        "--only",
-        choices=TOPICS,
-        metavar="NAME",
-        action="append",
-        help=f"one topic (may be repeated): {', '.join(TOPICS)}",
-    )
-    parser.add_argument(
-        "--out",
-        type=Path,
-        default=Path("build/validation"),
-        metavar="DIR",
-        help="where report.html and report.json go",
-    )
-    parser.add_argument(
-        "--readme", action="store_true", help="write the README's table anew from this run"
-    )
+    add = parser.add_argument
+    topics = f"one topic (may be repeated): {', '.join(TOPICS)}"
+    folder = Path("build/validation")
+    add("--quick", action="store_true", help="less of each topic: under 30 s")
+    add("--only", choices=TOPICS, metavar="NAME", action="append", help=topics)
+    add("--out", type=Path, default=folder, metavar="DIR", help="where the report goes")
+    add("--readme", action="store_true", help="write the README's table anew from this run")
     given = parser.parse_args(arguments)
-    names = [name for name in TOPICS if given.only is None or name in given.only]
-    try:
-        importlib.import_module("matplotlib")
-    except ImportError:
+    if importlib.util.find_spec("matplotlib") is None:
         parser.error("the report's figures need Matplotlib: pip install -e '.[plot]'")
-    if given.readme and not set(readme.TOPICS) <= set(names):
+    if given.readme and given.only and not set(readme.TOPICS) <= set(given.only):
         parser.error(
             f"--readme makes its table of the topics {' and '.join(readme.TOPICS)}: run it without "
             f"--only, or with both"
         )
     if not writable(given.out):
         parser.error(f"--out {given.out} is no folder that can be written to: give another")
-    try:
-        sections, seconds = run(names, given.quick)
-    except KeyboardInterrupt:
-        print("\ninterrupted: nothing was written", file=sys.stderr)
-        return INTERRUPTED
+    return given
+
+
+def contents(
+    given: argparse.Namespace, sections: Sequence[Section], seconds: float
+) -> dict[Path, bytes]:
+    """The page and the numbers, and the README with its numbers where that is asked for."""
     numbers = {
         "machine": machine(),
         "quick": given.quick,
         "seconds": seconds,
         "topics": {s.name: s.found.as_json() for s in sections},
     }
-    report = {
+    text = json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    files = {
         given.out / "report.html": page(sections, seconds, given.quick).encode(),
-        given.out / "report.json": (
-            json.dumps(numbers, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-        ).encode(),
+        given.out / "report.json": text.encode(),
     }
-    try:
-        write_files(report | (readme.files(numbers) if given.readme else {}))
-    except OSError as problem:
-        print(problem, file=sys.stderr)
-        return NOT_WRITTEN
-    return summary(sections, seconds, given.out)
+    return files | (readme.files(numbers) if given.readme else {})
 
 
 def writable(out: Path) -> bool:

@@ -102,9 +102,8 @@ def chain(seed: int, n: int) -> tuple[sie.Piecewise, Pieces]:
 
 
 PUNCH = sie.RoundedFlat(0.5, 1.0)
-CORNERS = sie.Piecewise(
-    (-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0))
-)  # a flat whose corners have radii 2 and 1/2
+# A flat whose corners have radii 2 and 1/2
+CORNERS = sie.Piecewise((-0.5, 1.0), ((0.25, 0.5), (0.0,), (-2.0, 2.0)))
 CORNERS_SLOPE = polynomials((-INF, -0.5, 1.0, INF), ((0.25, 0.5), (0.0,), (-2.0, 2.0)))
 TWO_RADII = sie.Piecewise((0.0,), ((0.0, 1.0), (0.0, 3.0)))
 TWO_RADII_SLOPE = polynomials((-INF, 0.0, INF), ((0.0, 1.0), (0.0, 3.0)))
@@ -112,9 +111,8 @@ BLUNT = sie.Wedge(0.25) + sie.Parabola(2.0)
 BLUNT_SLOPE = polynomials((-INF, 0.0, INF), ((-0.25, 0.5), (0.25, 0.5)))
 SINH = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
 BUMP = sie.FromFunction(lambda x: x * np.exp(-x * x / 2), domain=(-3.0, 3.0))
-CUBIC = sie.Piecewise(
-    (-0.25, 0.5), ((0.0, 1.0), (0.1328125, 1.5, 0.0, 0.5), (0.0, 2.0))
-)  # h' continuous at -1/4, a jump up at 1/2
+# h' is continuous at -1/4 and jumps up at 1/2
+CUBIC = sie.Piecewise((-0.25, 0.5), ((0.0, 1.0), (0.1328125, 1.5, 0.0, 0.5), (0.0, 2.0)))
 CUBIC_SLOPE = polynomials((-INF, -0.25, 0.5, INF), CUBIC.coefficients)
 CUT = sie.FromFunction(np.sinh, domain=(-1.0, 0.5))
 FOUR, SIX, EIGHT = (chain(seed, n) for seed, n in ((4, 4), (6, 6), (8, 8)))

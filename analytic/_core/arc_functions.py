@@ -5,7 +5,7 @@ accuracy.
     B(y) = 1 - (1-y²) artanh(y)/y = sum_k  2 y^(2k)/(4k²-1)  = -A(iy); 0 <= y <= 1, or complex
 
 and atan(y)/y - 1, artanh(y)/y - 1. All are even, so that they are given y². Near y = 1 and near the
-cut y > 1 of artanh what counts is 1 - y², which the caller computes from lengths and hands over.
+cut y > 1 of artanh the values depend on 1 - y², which the caller computes from lengths.
 """
 
 from analytic._core.numbers import Library, Number, bits, fraction
@@ -63,9 +63,8 @@ def _B_series(lib: Library, y2: Number, c: Number) -> Number:
 
 def _B_closed(lib: Library, y2: Number, c: Number) -> Number:
     y = lib.sqrt(y2)
-    return (
-        1 - c * _artanh(lib, y, c + (c == 0)) / y
-    )  # at c = 0 the product is 0 whatever the logarithm
+    # At c = 0 the product is 0 whatever the logarithm.
+    return 1 - c * _artanh(lib, y, c + (c == 0)) / y
 
 
 def _atan_series(lib: Library, y2: Number) -> Number:

@@ -14,8 +14,8 @@ from analytic._core.numbers import Library, Number, bits, everywhere
 
 
 def means(lib: Library, a: Number, b: Number, c: Number) -> Iterator[tuple[Number, Number]]:
-    """(a_n, c_n) for n = 1, 2, ... from a_1 = a, b_1 = b, c_1 = c, which may be more precise than
-    they can tell.
+    """(a_n, c_n) for n = 1, 2, ... from a_1 = a, b_1 = b, c_1 = c, which may have more digits than
+    (a_0 - b_0)/2.
     """
     small = 2.0 ** (-bits(lib) / 2 - 2)  # then the next c is below half a unit of a
     while True:

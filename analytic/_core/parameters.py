@@ -54,13 +54,13 @@ MEANING = {
     "peak_pressure": "the largest pressure of the line contact, a stress > 0",
 }
 
-# Of larger parameters, and of smaller ones, products leave the range of doubles. Loads and moments
+# Products of larger parameters, and of smaller ones, leave the range of doubles. Loads and moments
 # are products themselves, a coefficient is over a power of a length, `inner` enters by a logarithm.
 LARGEST = 1e150
 LARGEST_OF = {name: 1e250 for name in MEANING if name.endswith("_load")}
 LARGEST_OF |= dict.fromkeys(("coefficient", "inner", "moment"), sys.float_info.max)
 OTHER_UNITS = "where products are doubles (choose other units, or an mpmath context as lib)"
-# Positions may be as far away as doubles go.
+# Positions may have any size of a double.
 POSITIONS = ("x", "y", "z")
 
 
@@ -164,9 +164,8 @@ def _float64(value: Number) -> Number:
     if type(value) is float:
         return value
     array = np.asarray(value)
-    if (
-        array.dtype.kind not in "fiu"
-    ):  # strings, complex and other numbers: each must convert by itself
+    # Strings, complex and other numbers: each must convert by itself
+    if array.dtype.kind not in "fiu":
         array = array.astype(object)
     # Python's float, not NumPy's: that one is slow on the left of an array, and most parameters are
     # single numbers.

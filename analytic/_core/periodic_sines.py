@@ -15,9 +15,8 @@ def in_period(lib: Library, x: Number, L: Number) -> Number:
     if lib is not np:
         return x - L * lib.nint(x / L)
     rest: Any = np.fmod(x, L)  # exact
-    return rest - L * np.rint(
-        rest / L
-    )  # -L, 0 or L: exact too, for the rest is at least half of what it is taken from
+    # -L, 0 or L is subtracted: exact too, as the rest is at least half of it
+    return rest - L * np.rint(rest / L)
 
 
 def sine(lib: Library, x: Number, L: Number) -> Number:

@@ -16,9 +16,8 @@ def pick(
 ) -> Number:
     """`yes(lib, *args)` where the condition holds, `no(lib, *args)` elsewhere.
 
-    Each formula sees only the points of its own domain, so that no nan or overflow arises that
-    would have to be hidden. The condition and the arguments, numbers or named tuples of numbers,
-    broadcast.
+    Each formula is evaluated only at the points of its own domain, so that no nan or overflow
+    arises. The condition and the arguments, numbers or named tuples of numbers, broadcast.
     """
     if lib is not np:
         return yes(lib, *args) if where else no(lib, *args)

@@ -81,9 +81,8 @@ def pressure(lib: Library, x: Number, contact: Contact) -> Number:
     other_end = (tau2 * T2, (x + a) / far * contact.scale)
     B_this, B_other = together(lib, B, this_end, other_end)
     sines = 2 * lib.sqrt(tau2) / (1 + tau2) * lib.sqrt(T2) / (1 + T2)
-    return sines * (
-        2 * A(lib, tau2) + B_other + abs(2 * (x > a) - B_this)
-    )  # B under the flat, 2 - B on the rim
+    # The last term is B under the flat, 2 - B on the rim.
+    return sines * (2 * A(lib, tau2) + B_other + abs(2 * (x > a) - B_this))
 
 
 def load_angle(lib: Library, contact: Contact) -> Number:

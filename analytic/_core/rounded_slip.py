@@ -63,8 +63,8 @@ def _slip_of_rest(lib: Library, P: Number, contact: Contact, used: Traction) -> 
 
 
 def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
-    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c:
-    it climbs to the root.
+    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c,
+    so that the steps rise to the root.
     """
     a, rim = contact.a, contact.rim
     target = P * used.used / contact.E * contact.R
@@ -73,9 +73,8 @@ def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> 
         lost = load_between(lib, a, rim - width, width)
         step = (target - lost) / ((a + rim - width) * _theta(lib, a, rim - width))
         width = width + step
-        if everywhere(
-            abs(step) <= 2.0 ** (-bits(lib) / 2) * width
-        ):  # what is left is of the order of step²
+        # The error that is left is of the order of step².
+        if everywhere(abs(step) <= 2.0 ** (-bits(lib) / 2) * width):
             break
     return width
 

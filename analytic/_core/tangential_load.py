@@ -1,6 +1,4 @@
-"""What partial slip needs whatever the profile: how far the loads are from sliding, and integrals
-over a slip zone.
-"""
+"""Partial slip of any profile: distance of the loads from sliding, integrals over slip zones."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -16,13 +14,13 @@ SPLITTER = 2.0**27 + 1
 STEP_TIMES_BITS = 3.3
 
 
-# Of the loads of a cycle, in the order of time.
+# The loads of a cycle, in the order of time.
 NAMES = ("largest_load", "least_load", "tangential_load")
 
 
 class Traction(NamedTuple):
-    """How much of the friction a tangential load takes: used = Q/(fP), and left = 1 - Q/(fP), each
-    to all its digits.
+    """The part of the friction that a tangential load uses: used = Q/(fP), and left = 1 - Q/(fP),
+    each to all its digits.
     """
 
     used: Number

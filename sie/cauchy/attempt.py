@@ -1,4 +1,4 @@
-"""The density from so many nodes, and how good it is: decay, residual, rounding."""
+"""The density from so many nodes, and its errors: decay, residual, rounding."""
 
 from __future__ import annotations
 

@@ -233,8 +233,8 @@ class CauchyEquation:
         free = f" and {len(self.free)} free function(s)" if self.free else ""
         raise ValueError(
             f"index {self.index}{free} needs {max(needed, 0)} side condition(s), but {given} "
-            "given: give as many of total and "
-            "moment, or make other ends bounded or singular, or free a constant of g"
+            "given: give as many of total and moment, or make other ends bounded or singular, or "
+            "free a constant of g"
         )
 
     @cached_property

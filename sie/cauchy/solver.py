@@ -161,8 +161,8 @@ def consistent(found: Attempt) -> JacobiDensity:
     if found.defect > INCONSISTENT:
         raise ContactError(
             "the right-hand side is not consistent: bounded ends ask for an integral of g that "
-            "vanishes, and it misses a constant of "
-            f"{found.defect:.1e} times g; free a constant, or let an end be singular",
+            f"vanishes, and it misses a constant of {found.defect:.1e} times g; free a constant, "
+            "or let an end be singular",
             density=found.answer(),
         )
     return found.answer()

@@ -6,8 +6,8 @@ alone.
 
 γ' is the same under a lighter load under which x already stuck (0 under a flat punch): in stick
 the slip gradient stays. The integrals are Gauss rules on panels that shrink towards every place
-where a traction is not smooth, with the value at x subtracted; nothing of how p and q were found
-is used.
+where a traction is not smooth, with the value at x subtracted; they use the values of p and q
+alone.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ NODES = 14
 NEAREST = 1e-12  # the first panel next to a mark, in parts of the way to the next mark
 RATIO = 4.0  # growth of the panels away from a mark
 EDGE_LEVELS, LAST = 8, 28  # at the edge: panels towards it, and nodes of the last
-LOOKS = 5  # points of each of the middle panels at which the equations are looked at
+LOOKS = 5  # points of each of the middle panels at which the equations are measured
 THIN = 1e-8  # half-widths: a zone so narrow is left out, where no edge is sharp
 P_ROUNDING = 16.0 * EPS  # of p, which q is balanced with in (12)
 LIGHTER = 0.9  # of the growth beyond the flat base
 BESIDE = 0.02  # of the half-width: no point of the residual is nearer to a sharp edge
-OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is looked at
+OUTSIDE = (1.0 + 1e-6, 1.001, 1.1, 2.0, 10.0)  # half-widths at which the gap is tested
 
 
 class Values(NamedTuple):
@@ -120,7 +120,7 @@ def gradient_of_slip(state: CoupledContact, y: Array, beta: float) -> Array:
 
 
 def _values(state: CoupledContact) -> Values:
-    """Values on panels between the marks; next to the edge the distance from it is what counts."""
+    """Values on panels between the marks; next to the edge by the distance from it."""
     marks = _marks(state)
     widths = np.diff((0.0, *marks))
     if len(marks) > 1 and not state.growth:
@@ -140,8 +140,7 @@ def _values(state: CoupledContact) -> Values:
 
 
 def _marks(state: CoupledContact) -> tuple[float, ...]:
-    """Those of the tractions; without edges of zones of stick or slip that are too narrow to be
-    seen."""
+    """The marks of the tractions, without edges of zones of stick or slip that are too narrow."""
     flat = state.flat
     if min(flat.rest, flat.c) > THIN or not state.growth:
         return state.marks
@@ -151,7 +150,8 @@ def _marks(state: CoupledContact) -> tuple[float, ...]:
 
 def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
     """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end
-    with a power."""
+    with a power.
+    """
     half, at_edge = 0.5 * width, power != 0.0
     levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))
     near = half * np.append(0.0, RATIO ** -np.arange(levels, -0.5, -1.0))

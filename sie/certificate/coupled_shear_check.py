@@ -32,7 +32,7 @@ PROMISED, OF_SHEAR = 1e-10, 1e-9  # of the largest pressure, and of the largest 
 NODES, RATIO = 14, 4.0
 NEAREST = 1e-10  # panels next to a mark: the first, in parts of the way to the next
 NARROW = 1e-12  # half-widths: marks that are nearer are one
-LOOKS = 5  # points between two marks at which the equations are looked at
+LOOKS = 5  # points between two marks at which the equations are measured
 FEW = 24  # points at most
 
 
@@ -63,22 +63,9 @@ def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Cert
     stuck = (x > lo) & (x < hi)
     before = gradient_of_slip(normal, np.abs(x[stuck] - state.axis), beta)
     drift = float(np.abs((Hq + beta * at_p)[stuck] - before).max(initial=0.0)) / of_shear
-    P, whole = normal.load, float(weight @ np.abs(values.q))
+    P = normal.load
     r, rounding = state.contact.r, EPS * state.contact.r / float(np.diff(marks).min())
-    excess = float((np.abs(values.q) - scene.friction * values.p).max()) / (scene.friction * peak)
     gaps = _gaps(state, scene)
-    shear = ShearCertificate(
-        residual=drift,
-        equilibrium=abs(float(weight @ values.q) - scene.tangential_load) / whole,
-        excess=max(excess, 0.0),
-        opposing=min(state.least_gain, 0.0),
-        abscissae=EPS + 16.0 * EPS * peak / of_shear,
-        condition=1.0,
-        advancing=True,
-        kind=f"towards {'+' if scene.tangential_load > 0.0 else '-'}x beside the stick zone; "
-        "β couples p and q",
-        tol=max(tol, OF_SHEAR),
-    )
     return Certificate(
         residual=missed,
         implied=missed,
@@ -88,13 +75,32 @@ def sheared_certificate(state: ShearedContact, scene: Scene, tol: float) -> Cert
         lowest_gap=float(gaps.min(initial=0.0)) / float(np.abs(gaps).max(initial=EPS)),
         abscissae=min(rounding, EPS / NARROW),
         tol=max(tol, PROMISED),
-        shear=shear,
+        shear=_of_shear(state, scene, values, drift, tol),
         notes=notes(H, peak / scene.Estar),
     )
 
 
+def _of_shear(
+    state: ShearedContact, scene: Scene, values: Values, drift: float, tol: float
+) -> ShearCertificate:
+    """What is measured on q; `drift` is the change of the slip gradient in the stick zone."""
+    Q, peak, size = scene.tangential_load, float(values.p.max()), np.abs(values.q)
+    excess = float((size - scene.friction * values.p).max()) / (scene.friction * peak)
+    return ShearCertificate(
+        residual=drift,
+        equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
+        excess=max(excess, 0.0),
+        opposing=min(state.least_gain, 0.0),
+        abscissae=EPS + 16.0 * EPS * peak / float(size.max()),
+        condition=1.0,
+        advancing=True,
+        kind=f"towards {'+' if Q > 0.0 else '-'}x beside the stick zone; β couples p and q",
+        tol=max(tol, OF_SHEAR),
+    )
+
+
 def _marks(state: ShearedContact) -> tuple[float, ...]:
-    """Those of the tractions that are apart."""
+    """The marks of the tractions that are apart."""
     apart = NARROW * state.contact.r
     kept = [state.marks[0]]
     for x in state.marks[1:-1]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from sie.cauchy.density import JacobiDensity
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.contact.small_strains import BESIDE, notes
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene

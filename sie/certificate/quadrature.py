@@ -31,8 +31,8 @@ TOWARDS_EDGE = np.array([0.0625, 0.125, 0.1875])
 # corner of the profile, and with fewer levels for the root at the end of a stick zone, and for the
 # x ln|x| under a corner of the slope.
 LEVELS, ROOT_LEVELS, KINK_LEVELS = 22, 14, 9
-# Of its distance from the next break: a resolution halves its pieces towards a break, and where
-# they are shorter more happens.
+# Part of the distance from the next break: a resolution halves its pieces towards a break, and
+# shorter pieces resolve another feature.
 CLOSING_IN = 0.1
 COMPARABLE = 0.05  # smaller panels close in on a corner, where rounding of x hides all
 LONGEST = np.pi / 32  # of a panel where there are many

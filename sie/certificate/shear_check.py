@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.friction.states import GrownSlip, Slip
+from sie.friction.slip_state import GrownSlip, Slip
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined
@@ -35,7 +35,7 @@ POINTS = 24  # in the stick zone
 # Terms of a shear that are integrated one by one: a rule for all grows with their number, and so
 # does the cost of a value.
 MANY = 12
-# Of the contact, to which the end of a zone is known: there |q| falls from f p like a square root.
+# The end of a zone is known to this part of the contact: there |q| falls from f p like a root.
 ENDS = 32.0 * EPS
 
 
@@ -105,7 +105,7 @@ def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]
     """∫q dx, 1/π PV∫q/(x - t) at points, by subtracting q there; and rounding of both.
 
     Rounding is what one ulp of the nodes, which are counted from the edges, does. In a narrow stick
-    zone next to a sharp edge, where q is infinite, it is the nodes there that the equation feels.
+    zone next to a sharp edge, where q is infinite, the nodes there dominate.
     """
     force, of_force, equation, of_equation = 0.0, 0.0, np.zeros(len(at)), np.zeros(len(at))
     for factor, density, contact, (x, _, weight, *_) in terms:

@@ -36,7 +36,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.numerics.interval import EPS, Interval
 from sie.patches.noise import Answer, PatchErrors, changes
 from sie.problem.scene import Scene
@@ -50,7 +50,7 @@ from sie.traction.of_slope import SlopeDensity
 Array = NDArray[np.float64]
 
 SPREAD = 2.5  # standard deviations: of some dozens of independent points few contacts have a larger
-PLACES = 64  # at which the error of the pressure is looked at
+PLACES = 64  # at which the error of the pressure is computed
 FEWEST_NODES, MOST_NODES = 128, 1024  # of the slope's error; beyond, roughness is sampled only
 NODES_PER_POINT = 2.0
 INNER = 0.9  # of the contact
@@ -63,29 +63,42 @@ NAMED = 3  # outliers or gaps that a row names
 class TraceReport:
     """A trace, its smoothing and repair, and the errors that its noise causes.
 
-    Lengths in the scene's units, places in the scene's x.
+    Lengths are in the units of the scene, places are its x.
 
-    points              how many
-    smoothing           λ of the spline in use, length³; 0 if it interpolates
-    averaged            over how many points it averages, (λ/Δ³)^(1/4), Δ their mean distance;
-                        below about 1 it follows the noise too
-    separated           whether cross validation averages over more than a point; where it does not,
-                        noise that is correlated from point to point is not in the errors below
-    misfit              what the spline leaves of the heights, root of the mean square
-    outliers            (x, height over the reference) of points that stand out of the noise;
-                        they were not removed
-    gaps                (lo, hi, missing points) of intervals without points, which the spline
-                        bridges
-    mended              points left out without a value, points averaged at equal x, x sorted or not
-    tilt                slope of the line through the trace and of the scene: levelling left to do
-    aside               whether the contact lies off the middle of the trace, where that line is low
-    pressure_error      largest error of the pressure over its peak, estimated from the misfit;
-                        it is no part of the certificate
-    inner_error         the same over the inner 90 % of the contact; next to an edge that moves by e
-                        the pressure changes as sqrt(e)
-    edge_errors         of x1 and x2, from the same; 0 for a corner of the indenter
-    unsure_patches      of several patches, those of which an edge moves by more than half of their
-                        width
+    Parameters
+    ----------
+    points : int
+        The number of points.
+    smoothing : float
+        λ of the spline in use, length³; 0 if it interpolates.
+    averaged : float
+        The number of points over which it averages, (λ/Δ³)^(1/4), Δ their mean distance. Below
+        about 1 the spline follows the noise too.
+    separated : bool
+        Whether cross validation averages over more than a point. Where it does not, noise that is
+        correlated from point to point is not in the errors below.
+    misfit : float
+        Root of the mean square of the heights less the spline, length.
+    outliers : tuple of (float, float)
+        (x, height over the reference) of points that stand out of the noise; none is removed.
+    gaps : tuple of Gap
+        (lo, hi, missing points) of intervals without points, which the spline bridges.
+    mended : Mended
+        Points left out without a value, points averaged at equal x, and whether x was sorted.
+    tilt : float
+        Slope of the line through the trace and of the scene: the levelling that is left to do.
+    aside : bool
+        Whether the contact lies off the middle of the trace, where that line is low.
+    pressure_error : float
+        Largest error of the pressure over its peak, estimated from the misfit. It is no part of the
+        certificate.
+    inner_error : float
+        The same over the inner 90 % of the contact: next to an edge that moves by e the pressure
+        changes as sqrt(e).
+    edge_errors : (float, float)
+        Errors of x1 and x2, lengths, from the same; 0 for a corner of the indenter.
+    unsure_patches : int
+        The number of patches, of several, of which an edge moves by more than half of their width.
     """
 
     points: int
@@ -104,6 +117,7 @@ class TraceReport:
     unsure_patches: int = 0
 
     def as_dict(self) -> dict[str, Any]:
+        """The report as numbers, lists and strings by name, for JSON."""
         pairs = {"outliers": list(map(list, self.outliers)), "edge_errors": list(self.edge_errors)}
         named = {"gaps": [gap._asdict() for gap in self.gaps], "mended": self.mended._asdict()}
         return asdict(self) | pairs | named
@@ -235,7 +249,7 @@ def _errors(
     angle = _angles(placed, contact)
     regular, moved = _operator(angle, place, contact, kappa, scene)
 
-    # Of the singular terms C ± c_0' the one of the nearer edge is taken apart
+    # The singular term C ± c_0' of the nearer edge is taken apart
     turned = np.stack((0.5 * np.tan(0.5 * place), 0.5 / np.tan(0.5 * place)), axis=1)
     nearer = (place < 0.5 * np.pi).astype(int)
     own = turned[np.arange(PLACES), nearer]

@@ -12,9 +12,9 @@ evaluation bounds one edge of the contact sought:
     I0 < 0, F1 < 0: x2 is too far left       I0 < 0, F1 > 0: x1 is too far left
 
 (Were x2 not too far right in the first, then x1 would be by I0 > 0; this contact would lie in the
-one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, and give way to their
-middle where two of them have not halved the residual. So every second step halves the residual or a
-bracket, and MAX_POLISHING steps are enough.
+one sought, and carry less: F2 < 0.) Newton's steps stay between these bounds, and are replaced by
+their middle where two of them have not halved the residual. So every second step halves the
+residual or a bracket, and MAX_POLISHING steps are enough.
 
 Newton's method alone converges slowly, or oscillates, where an edge is next to a break at which H
 or H' jumps: at a distance d behind the break, to leading order,
@@ -25,7 +25,6 @@ There a step leads to the root of this model, on whichever side of the break tha
 
 The search ends where each residual is within the rounding of its terms: ROUNDINGS times the sum of
 their sizes (`size1` and `size2` of the edge integrals), and the rounding of a function's values.
-`uncertainty` is the error of the edges that remains.
 """
 
 from __future__ import annotations
@@ -58,16 +57,6 @@ STEPS_TO_A_BREAK = 20  # of Newton, for the root of a cubic: no edge integrals a
 MAX_POLISHING = 2 * (53 + 2 * 106)
 MAX_BALANCING = 80  # where a moment is given: Newton's steps, halved until they come nearer
 LEFT, RIGHT = 0, 1
-
-
-def uncertainty(contact: Interval, k: EdgeIntegrals, target: float) -> tuple[float, float]:
-    """The shift of either edge for an ulp of the load and the rounding of its own equation.
-
-    Times the relative change of the load, target/(r J) is the first of these two; target = P/G.
-    """
-    r = contact.r
-    off = [EPS * target + ROUNDINGS * (r * size + target) for size in (k.size1, k.size2)]
-    return off[0] / (r * k.JL), off[1] / (r * k.JR)
 
 
 @dataclass

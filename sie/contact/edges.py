@@ -42,6 +42,7 @@ from sie.profiles.slope import Slope
 from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, Polish
 from .first_guess import first_guess, of_linear_rise
+from .known_contact import Edges
 
 MISSED = 1e-6  # of the load: a search that ends with more has not found a contact
 # Newton from a neighbouring contact is given up unless its first step is below this fraction of the
@@ -49,25 +50,7 @@ MISSED = 1e-6  # of the load: a search that ends with more has not found a conta
 NEAR, NEAR_STEPS = 0.25, 5
 HUGE = 1e300
 PLACES = 64.0  # fewer places in a half-width do not show the pressure
-UNEVEN = 1e-30  # the left side is not looked for nearer than this fraction of the right one
-
-
-@dataclass(frozen=True)
-class Edges:
-    """The contact, load, moment about x = 0 and tilt; which edges are sharp, and their k1, k2.
-
-    k1 and k2 are stresses.
-    """
-
-    contact: Interval
-    normal_load: float
-    moment: float
-    tilt: float
-    sharp: tuple[bool, bool]
-    k1: float
-    k2: float
-    I0: float
-    evaluations: int
+UNEVEN = 1e-30  # the left side is not sought nearer than this fraction of the right one
 
 
 class Found(NamedTuple):
@@ -270,10 +253,8 @@ class Search:
         # Broken where it changes sign, the slope's positive and negative parts are integrated apart
         split = replace(self, slope=self.slope.split_at(z1).split_at(z2), evaluations=0)
         guess = first_guess(self.slope, z2, target)
-        last = [
-            guess,
-            guess,
-        ]  # distances of the right edge from z2 and of the left edge from z1 that belonged together
+        # Distances of the right edge from z2 and of the left edge from z1 that belong together
+        last = [guess, guess]
 
         def contact_at(distance: float) -> tuple[Interval, EdgeIntegrals]:
             contact, k, left = split._left_edge(

@@ -18,7 +18,6 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.base import zero_or_nan
 from sie.traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
@@ -28,10 +27,10 @@ NODES = 20
 # ... and so few of them on a panel this short, relative to its θ (all singularities have
 # Re θ = 0) and to 1
 SHORT, SHORT_NODES = 0.125, 6
-# Half-widths from an edge, as far as a gap is looked at: between them a function needs few pieces.
+# Half-widths from an edge, as far as a gap is tested: between them a function needs few pieces.
 DOUBLED: Array = np.geomspace(1.0, 1024.0, 11)
-# Of a panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a graded
-# break)
+# The longest panel in θ: NODES then reach rounding (the nearest singularity is at θ = iπ or a
+# graded break)
 LONGEST = 0.5
 
 
@@ -41,7 +40,7 @@ def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Arr
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
-    out: Array = zero_or_nan(x)
+    out = np.where(np.isnan(x), np.nan, 0.0)
     lo, hi = slope.domain
     # The surface sinks like a logarithm of the distance.
     out[(x < lo) | (x > hi) | np.isinf(x)] = np.inf

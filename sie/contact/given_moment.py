@@ -17,11 +17,12 @@ from sie.numerics.root_finding import Bracket, Place, logarithmic_root
 
 from .edge_integrals import EdgeIntegrals, edge_integrals
 from .edge_refinement import MAX_POLISHING, ROUNDINGS
-from .edges import PLACES, Edges, Found, Search
+from .edges import PLACES, Found, Search
 from .first_guess import first_guess
+from .known_contact import Edges
 
 NEAR_CENTRE = 4.0  # half-widths from a centre an origin loses no digits
-# Where a centre is looked for: the first step over the half-width, and what the next are longer by.
+# The search for a centre: the first step over the half-width, and what the next are longer by.
 FIRST_STEP, GROWTH = 2.0**-6, 1.5
 
 
@@ -130,8 +131,8 @@ def _first_change(
     bounds: tuple[float, float],
     r: float,
 ) -> Bracket | None:
-    """Two places, as near to the centre as growing steps to both sides tell, between which the
-    excess changes its sign under load.
+    """Two places, found by growing steps to both sides, between which the excess changes its sign
+    under load.
     """
     last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
     step = FIRST_STEP * r

@@ -23,7 +23,7 @@ Intervals = tuple[tuple[float, float], ...]
 
 # Tension or overlap below this fraction of the peak is rounding.
 TOLERATED = 1e-11
-FAR = 1e3  # half-widths, how far out the gap is looked at
+FAR = 1e3  # half-widths, how far out the gap is tested
 STEEP = 1e6  # times the slopes in the contact
 SCAN = 40
 # Distances from an edge, in half-widths.
@@ -31,12 +31,12 @@ AHEAD = np.concatenate((np.geomspace(1e-6, 1.0, SCAN), np.geomspace(1.0, FAR, 2 
 NAMED = 3  # intervals that a message names
 # Part of the slopes in the contact by which a rising slope may fall between two points.
 ROUNDING = 8.0 * EPS
-# points in contact at which the pressure's sign is looked at, at least 3 on every piece
+# points in contact at which the sign of the pressure is tested, at least 3 on every piece
 SCANNED = 600
 
 
 def slope_rises(density: SlopeDensity, slope: Slope) -> bool:
-    """Whether h' rises at all points of `verify_inequalities`, and no edge pulls.
+    """Whether h' rises at all points of `verify_inequalities`, and no edge is in tension.
 
     Then p > 0 and gap > 0 follow.
     """
@@ -99,8 +99,7 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     x = _beside(contact, slope)
     if _opens_everywhere(x, density, slope):
         return x, np.zeros(len(x))
-    # A function may overflow out there; from where it opens that steeply on, the gap is not looked
-    # at
+    # A function may overflow out there; from where it opens that steeply on, the gap is not tested
     outward = np.sign(x - contact.m)
     opens = ~(
         outward * slope(x)
@@ -186,7 +185,7 @@ def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
     """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need
     not be integrated.
 
-    Between its breaks a polynomial slope or a power does nothing unseen there; a function might.
+    Between its breaks a polynomial slope or a power has no feature that x misses; a function may.
     """
     if slope.functions and density.resolves:
         return False

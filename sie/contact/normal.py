@@ -27,8 +27,9 @@ from sie.profiles.slope import Slope
 from sie.profiles.unresolved import Pieces, between_pieces, between_points, expanded
 
 from . import given_moment
-from .edges import PLACES, Edges, Found, Search
-from .pressure import Normal, resolution, slope_series, upright_law, with_breaks
+from .edges import PLACES, Found, Search
+from .known_contact import Edges, Normal, with_breaks
+from .pressure import resolution, slope_series, upright_law
 from .smooth_slope import smooth_contact
 from .tilt_of_moment import refuse_outside, tilt_of_moment
 from .widest_contact import widest_contact
@@ -42,7 +43,7 @@ MOMENT = 1e304  # bounds a moment
 NEARER = (
     "choose other units, or lessen what moves the contact away from x = 0, tilt, moment or shift"
 )
-# Looks at a function between the points that resolved it, each with the breaks that the last added.
+# Tests of a function between the points that resolved it, each with the breaks that the last added.
 LOOKS = 4
 
 
@@ -244,7 +245,7 @@ def _refuse_infinite_ends(slope: Slope) -> None:
 
 
 def _unseen_by_series(found: Normal, profile: Profile, tol: float) -> bool:
-    """Whether the slope does what the series of the contact does not show."""
+    """Whether the slope has features that the series of the contact does not show."""
     assert found.series is not None
     contact = found.edges.contact
     series = Pieces(np.array([contact.x1]), np.array([contact.x2]), found.series[None])

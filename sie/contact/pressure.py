@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection
-from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,6 @@ from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.problem.request import ECONOMY
 from sie.problem.scene import Scene
-from sie.profiles.base import Profile
 from sie.profiles.power_law import PowerLaw
 from sie.profiles.resolution import NOISE, ROUGHEST, refined, rounding_noise
 from sie.profiles.slope import Slope
@@ -26,30 +24,13 @@ from sie.traction.on_panels import PanelDensity, PowerDensity, SlidingDensity
 from sie.traction.panels import CHOP, Panels
 from sie.traction.piece_quadrature import Geometry, SlidingGeometry
 
-from .edges import Edges
+from .known_contact import Normal
 
 Array = NDArray[np.float64]
 
 # One Chebyshev series for the whole contact is tried up to this many points before the slope is cut
 # into pieces.
 LARGEST_TRANSFORM = 257
-
-
-@dataclass(frozen=True)
-class Normal:
-    """The contact, and whether its symmetry halved the search.
-
-    `series` are Chebyshev coefficients of a slope that is smooth there, and rises where seen.
-    """
-
-    edges: Edges
-    symmetric: bool
-    series: Array | None = field(default=None, compare=False, repr=False)
-    seen: tuple[float, ...] = ()  # breaks that a function's slope needs beside the declared ones
-
-    def slope(self, profile: Profile) -> Slope:
-        """H of the profile as it is pressed: with these breaks, and tilted."""
-        return with_breaks(profile.pieces, self.seen).tilted(self.edges.tilt)
 
 
 def pressure(
@@ -117,12 +98,6 @@ def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | No
             return c[: max(chebyshev.chopped_length(c, max(CHOP * scale, 0.5 * noise)), 2)]
         n = 2 * n - 1
     return None
-
-
-def with_breaks(slope: Slope, places: tuple[float, ...]) -> Slope:
-    for x in places:
-        slope = slope.split_at(x)
-    return slope
 
 
 def resolution(tol: float) -> float:

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 STEEPEST = 0.2  # slope in the contact
 HIGHEST = 0.25  # peak pressure over E*
-BESIDE = 1e-3  # of the half-width: nearer to where it is infinite the pressure is not looked at
+BESIDE = 1e-3  # of the half-width: nearer to where it is infinite the pressure is not tested
 
 
 def notes(slopes: Array, pressure: float) -> tuple[str, ...]:

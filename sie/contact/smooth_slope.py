@@ -43,7 +43,7 @@ SCANNED = -np.cos(np.pi * np.sort(np.arange(1, 600) * 0.6180339887498949 % 1.0))
 BESIDE = np.concatenate((np.geomspace(1e-6, 1.0, 40), np.geomspace(1.0, 1e3, 80)[1:]))
 MISSED = 64.0  # times what the tail may be
 FALLS = 8.0 * EPS  # of the largest slope: by less it may fall from point to point
-GUESSES = np.geomspace(1e-140, 1e140, 281)  # sizes at which a contact is looked for first
+GUESSES = np.geomspace(1e-140, 1e140, 281)  # sizes at which a contact is sought first
 SIDES = np.array([[1.0], [-1.0]])
 
 

@@ -10,7 +10,8 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
 from sie.numerics.root_finding import Bracket
 
-from .edges import Edges, Search
+from .edges import Search
+from .known_contact import Edges
 
 MAX_TILTS = 100  # tried, whether or not the profile can be tilted by so much
 HUGE = 1e300  # stands for an open end of the bracket

@@ -28,7 +28,7 @@ TRIED = (0.95, *(NARROWER**k for k in range(1, 31)))
 LEAST = 1e-6  # of the load: what carries less counts as this much in logarithms
 CLOSE = 1e-4  # of the load: from there Newton's steps for both edges
 MAX_STEPS = 60
-MANY, FEWER = 4000, 1001  # pieces: where there are more, the half-width is looked for on fewer
+MANY, FEWER = 4000, 1001  # pieces: where there are more, the half-width is sought on fewer
 ASTRAY = 0.02  # by which it may be wrong then
 
 
@@ -38,7 +38,7 @@ def widest_contact(search: Search, load: float) -> Found | None:
     coarse = search if few else replace(search, slope=_coarser(search.slope))
     try:
         r = _half_width(coarse, load, _bracket(coarse, load))
-    except (LoadError, OverflowError):  # the latter of steps that run away
+    except (LoadError, OverflowError):  # the latter of steps that diverge
         return None
     found = _polished(search, load, r)
     if found is None and not few:

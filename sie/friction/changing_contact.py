@@ -32,7 +32,7 @@ from sie.problem.scene import Scene
 from .contact_growth import near_contact
 from .known_zones import KnownZones
 from .memory import SlippedLayer
-from .states import Slip
+from .slip_state import Slip
 from .turning_point import Loads, TurningPoint
 
 Array = NDArray[np.float64]

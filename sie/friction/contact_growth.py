@@ -16,7 +16,7 @@ import numpy as np
 
 from sie.contact.edge_integrals import EdgeIntegrals
 from sie.contact.edges import Search
-from sie.contact.pressure import Normal
+from sie.contact.known_contact import Normal
 from sie.numerics.interval import EPS, Interval, two_sum
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined

@@ -28,12 +28,7 @@ from .coupled_traction import CoupledTraction, Panels, resolved_panels
 Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
-TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
-LOOKS, EVEN = (
-    64,
-    1e-10,
-)  # where the symmetry of a profile is measured, and to what part of its slope
 ENERGY_NODES = 24
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9
@@ -226,7 +221,8 @@ class CoupledContact:
 
     def raised(self, y: Array) -> Array:
         """2/E* times the integral of that from b to each y >= b: how far the surfaces part less
-        than the profile rises."""
+        than the profile rises.
+        """
         ahead = y - self.b
         none = np.full(len(y), np.inf)
         owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)

@@ -42,10 +42,10 @@ NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is deriv
 SPARE = 4
 # Nodes of the double exponential rule for the logarithm in ε: its step, and where it is cut.
 STEP, LAST = 0.09, 42
-# Where 1 - c is less than this the punch sticks all over, as far as doubles can tell.
+# Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
-# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
-# tell
+# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess does not
+# decide
 NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.3
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
 WIDEST_RATIO = 250.0
@@ -58,7 +58,6 @@ class FlatPunch:
 
     beta, friction      β > 0 and f, such that 1 - c >= FULL_STICK
     modulus             k = c, the half-width of the stick zone
-    rest                1 - c
     square, remainder   sn² and cn² at the nodes
     weight              of the rule for 2 cn^2θ dn^(2-2θ) du
     pressure            p(c sn u) at the nodes
@@ -79,12 +78,8 @@ class FlatPunch:
         return math.atan(self.beta * self.friction) / math.pi
 
     @property
-    def c(self) -> float:
-        return self.modulus.k
-
-    @property
     def exponent(self) -> float:
-        """h: p ~ (1 - x)^-h."""
+        """h = 1/2 - θ, θ = arctan(βf)/π: p ~ (1 - x)^-h."""
         return 0.5 - self.theta
 
     @cached_property
@@ -96,7 +91,8 @@ class FlatPunch:
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
     """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i
-    ratio."""
+    ratio.
+    """
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 

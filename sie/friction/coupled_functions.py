@@ -1,7 +1,7 @@
 """Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t =
 x/b.
 
-Two functions say all (notation of `coupled_flat`; S is derived in
+Two functions give all of them (notation of `coupled_flat`; S is derived in
 docs/derivations/coupled_slip.md):
 
     stick, t < c        p = A                  q = f A - χ S/β
@@ -48,7 +48,7 @@ class FlatFunctions:
     def __init__(self, punch: FlatPunch) -> None:
         self.punch = punch
         self.beta, self.friction, self.theta = punch.beta, punch.friction, punch.theta
-        self.c, self.rest, self.h = punch.c, punch.modulus.rest, punch.exponent
+        self.c, self.rest, self.h = punch.modulus.k, punch.modulus.rest, punch.exponent
         # sin πh = cos πθ and cos πh = sin πθ, κ = cot πh
         self.sine, self.cosine = math.cos(math.pi * self.theta), math.sin(math.pi * self.theta)
         root = math.sqrt(self.c)  # as far from c as from 1 in the elliptic coordinate
@@ -260,7 +260,8 @@ class FlatFunctions:
     @cached_property
     def _difference(self) -> Function:
         """S as N - A n, whose error is rounding of numbers of order one: it serves where p needs
-        S."""
+        S.
+        """
         punch, theta = self.punch, self.theta
         aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one
         slip = self._slip_points(2.0 - 2.0 * theta, 2.0 * theta)

@@ -1,7 +1,7 @@
 """How the load of a symmetric convex profile grows with its contact, where pressure and shear are
 coupled.
 
-Beside the contact of half-width x, at its edge, equation (1) says for P'(s) = dP/ds
+Beside the contact of half-width x, at its edge, equation (1) reads, with P'(s) = dP/ds,
 
     ∫_a^x P'(s) D(x/s) ds/s = E*/2 h'(x),        D = χ Ψ of the flat outside (`coupled_functions`),
 
@@ -37,9 +37,8 @@ Array = NDArray[np.float64]
 
 DEGREE = 20
 DECAYED = 2e-13  # of a series, its last coefficients
-NEGLIGIBLE = (
-    256.0 * EPS
-)  # of the load: rounding of the integrals that a short panel has to make up for
+# Part of the load: rounding of the integrals, which a short panel has to compensate
+NEGLIGIBLE = 256.0 * EPS
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut
@@ -48,7 +47,8 @@ NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink
 
 class Piece(NamedTuple):
     """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth
-    there."""
+    there.
+    """
 
     lo: float
     hi: float
@@ -87,7 +87,7 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
             panel = _collocated(flat, solved, piece, panel)
             more, missed = panel.load(math.inf), _missed(panel)
             negligible = missed <= NEGLIGIBLE * abs(load + more)
-            # Of rounding a shorter panel misses as much
+            # A shorter panel misses as much, by rounding
             if negligible or missed > NO_LESS * before or len(solved) > MOST:
                 solved.append(panel)
                 load += more
@@ -99,7 +99,8 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
 
 def _missed(panel: GrowthPanel) -> float:
     """The load that the last coefficients of a series carry, 0 where they are small beside the
-    others."""
+    others.
+    """
     size, length = np.abs(panel.series), panel.hi - panel.lo
     tail = float(size[-3:].max())
     return tail * length ** (1.0 + panel.power) if tail > DECAYED * float(size.max()) else 0.0
@@ -114,7 +115,8 @@ def _first_power(h: float, piece: Piece, first: bool) -> float:
 
 def _panels(origin: float, lo: float, hi: float) -> list[tuple[float, float]]:
     """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the
-    origin."""
+    origin.
+    """
     n = 1 if lo == 0.0 else max(1, math.ceil(math.log2(hi / lo)))
     ends = [lo - origin, *(lo * (hi / lo) ** (k / n) - origin for k in range(1, n)), hi - origin]
     return list(itertools.pairwise(ends))
@@ -170,7 +172,8 @@ def load_slope(
     flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
 ) -> Array:
     """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the
-    contact."""
+    contact.
+    """
     total = np.zeros(len(x))
     for panel in growth:
         length = min(panel.hi, ahead) - panel.lo

@@ -24,7 +24,7 @@ GAINED, RENEWED = 0.1, 0.3  # of the error: what a step has to gain, and above w
 
 
 class Missing(Protocol):
-    """What given edges give: the conditions that they miss, and the largest of these."""
+    """The defects of the conditions at given edges, and the largest of these."""
 
     @property
     def edges(self) -> Array: ...
@@ -42,7 +42,7 @@ T = TypeVar("T", bound=Missing)
 def iterated(trial: Callable[[Array], T], edges: Array, room: Callable[[Array], Array]) -> T | None:
     """The trial that meets the conditions, None where none is reached.
 
-    `room` tells how far each edge may move; it is not positive where edges are not allowed.
+    `room` is how far each edge may move; it is not positive where edges are not allowed.
     """
     if not (room(edges) > 0.0).all():
         return None

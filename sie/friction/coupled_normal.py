@@ -16,8 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.contact.edges import Edges
-from sie.contact.pressure import Normal
+from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, interval_about
 from sie.problem.scene import Scene
@@ -25,7 +24,7 @@ from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
 
 from .coupled_contact import FALLING, CoupledContact
-from .coupled_functions import flat_functions
+from .coupled_functions import FlatFunctions, flat_functions
 from .coupled_growth import Piece, power_law_growth, solved_growth
 from .coupled_profile import GrowthPanel
 
@@ -33,10 +32,8 @@ Array = NDArray[np.float64]
 
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 TINIEST = 1e-30  # of the frictionless contact: no load is so light beside it
-LOOKS, EVEN = (
-    64,
-    1e-10,
-)  # where the symmetry of a profile is measured, and to what part of its slope
+# Points where the symmetry of a profile is measured, and to what part of its largest slope.
+LOOKS, EVEN = 64, 1e-10
 
 
 def _axis(scene: Scene, bound: Edges) -> float:
@@ -46,17 +43,28 @@ def _axis(scene: Scene, bound: Edges) -> float:
         return profile.axis
     y = contact.r * (np.arange(LOOKS) + 0.5) / LOOKS
     right, left = profile.slope(contact.m + y), profile.slope(contact.m - y)
-    uneven = float(np.abs(right + left).max() / np.abs(right).max())
-    if uneven > EVEN:
+    uneven, largest = float(np.abs(right + left).max()), float(np.abs(right).max())
+    if uneven > EVEN * largest:
         raise ContactError(
             f"the profile is not symmetric: about x = {contact.m:.6g} its slopes differ by "
-            f"{uneven:.2g} of the "
-            "largest; for dissimilar bodies with friction only symmetric profiles are solved, as "
-            "others tilt "
-            "the stick zone while the load grows; set friction = 0, or give dundurs = 0 to "
-            "neglect β"
+            f"{uneven / largest:.2g} of the largest; for dissimilar bodies with friction only "
+            "symmetric profiles are solved, as others tilt the stick zone while the load grows; "
+            "set friction = 0, or give dundurs = 0 to neglect β"
         )
     return contact.m
+
+
+def _growth(
+    flat: FlatFunctions, scene: Scene, widest: float, axis: float
+) -> tuple[tuple[GrowthPanel, ...], tuple[float, ...]]:
+    """dP/db as far as the widest contact, and the kinks of the slope."""
+    law, half_modulus = scene.profile.power_law, 0.5 * scene.Estar
+    if law is not None:
+        slope = half_modulus * law.exponent * law.coefficient * widest ** (law.exponent - 1.0)
+        return (power_law_growth(flat, law.exponent, slope, widest * WIDER),), ()
+    pieces = _pieces(scene.profile.pieces, axis, widest, half_modulus)
+    kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
+    return solved_growth(flat, pieces) if pieces else (), kinks
 
 
 def coupled_contact(
@@ -66,12 +74,12 @@ def coupled_contact(
 
     `frictionless` solves the normal problem of a scene; its contact bounds the search.
     """
-    beta, profile = scene.beta, scene.profile
+    beta = scene.beta
     flat = flat_functions(abs(beta), scene.friction)
     half_modulus = 0.5 * scene.Estar
     bound = frictionless(
         Scene(
-            profile=profile,
+            profile=scene.profile,
             modulus=scene.Estar,
             normal_load=scene.normal_load,
             half_width=scene.half_width,
@@ -79,17 +87,7 @@ def coupled_contact(
     )
     widest, sharp = bound.edges.contact.r, bound.edges.sharp[0]
     axis = _axis(scene, bound.edges)
-    law = profile.power_law
-    kinks: tuple[float, ...] = ()
-    if law is not None:
-        slope = half_modulus * law.exponent * law.coefficient * widest ** (law.exponent - 1.0)
-        growth: tuple[GrowthPanel, ...] = (
-            power_law_growth(flat, law.exponent, slope, widest * WIDER),
-        )
-    else:
-        pieces = _pieces(profile.pieces, axis, widest, half_modulus)
-        kinks = tuple(piece.lo for piece in pieces[1:] if piece.kinked)
-        growth = solved_growth(flat, pieces) if pieces else ()
+    growth, kinks = _growth(flat, scene, widest, axis)
     ahead, load, corner = _width(growth, widest, sharp, scene)
     _refuse_falling(growth, ahead, axis)
     b = (growth[0].origin if growth else 0.0) + ahead
@@ -113,7 +111,7 @@ def coupled_contact(
 
 def _pieces(slope: Slope, axis: float, widest: float, half_modulus: float) -> list[Piece]:
     """E*/2 h' on the right of the axis, piece by piece, without a flat base."""
-    _lo, hi = slope.domain
+    hi = slope.domain[1]
     end = min(axis + widest * WIDER, hi)
     resolved = refined(slope, axis, end, EPS)
     inner = resolved.breaks[(resolved.breaks > axis) & (resolved.breaks < end)]
@@ -179,7 +177,8 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
     """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
-    there."""
+    there.
+    """
     for panel in growth:
         s, mass = panel.places
         near = s < ahead

@@ -69,7 +69,8 @@ class GrowthPanel:
 
     def load(self, ahead: float) -> float:
         """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
-        beyond."""
+        beyond.
+        """
         return self._whole if ahead >= self.hi else self._load(max(ahead - self.lo, 0.0))
 
     @cached_property
@@ -198,7 +199,8 @@ class Superposition:
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
         """The intervals of s - origin that lie on the panel and below b, by what they begin and
-        end at."""
+        end at.
+        """
         begin = (x - panel.origin) + x * kernel.above
         end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
         top = np.minimum(b, panel.hi)
@@ -223,7 +225,8 @@ class Superposition:
         own: tuple[bool, bool],
     ) -> Part:
         """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the
-        panel's."""
+        panel's.
+        """
         (x, lo, hi), (own_start, own_end) = at, own
         c, origin = self.flat.c, panel.origin
         from_lo, nearest = lo - panel.lo, NEAREST * (origin + hi)

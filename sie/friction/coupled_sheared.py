@@ -22,7 +22,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
@@ -39,7 +39,7 @@ from .coupled_two_sided import TwoSidedTraction
 
 Array = NDArray[np.float64]
 
-BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are looked at
+BESIDE = 1e-9  # half-widths from a corner of the profile, where values infinite there are evaluated
 EDGE_DEGREE = 24  # of S on the outer half of a slip zone
 # Panels of the gap: the first, in half-widths, where H has a power of the distance; growth
 NEAR_EDGE, FARTHER = 1e-9, 4.0
@@ -221,7 +221,8 @@ class ShearedContact:
     @property
     def least_gain(self) -> float:
         """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
-        law."""
+        law.
+        """
         left, right = self._gained
         gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
         return float(gained.min()) / float(np.abs(gained).max())

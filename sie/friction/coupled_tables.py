@@ -37,7 +37,8 @@ def joined(*parts: Points) -> Points:
 
 class Table:
     """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both
-    ends."""
+    ends.
+    """
 
     def __init__(
         self, cuts: list[tuple[float, float]], function: Callable[[Array, Array], Array]
@@ -77,7 +78,8 @@ def chopped(c: Array) -> Array:
 
 def summed(c: Array, y: Array) -> Array:
     """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the
-    time."""
+    time.
+    """
     twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
     spare = np.empty_like(y)
     for a in c[-2:0:-1].tolist():
@@ -105,7 +107,8 @@ def panel_cuts(
     longest: Callable[[float, float], float],
 ) -> list[tuple[float, float]]:
     """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest`
-    at their start."""
+    at their start.
+    """
     cuts = [start]
     while cuts[-1] != end:
         t, e = cuts[-1]

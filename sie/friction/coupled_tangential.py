@@ -28,9 +28,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.contact.edge_integrals import edge_integrals
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
+from sie.problem.coverage import refuse_corners
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -41,7 +42,6 @@ from sie.traction.piece_quadrature import SlidingGeometry
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
 from .coupled_iteration import iterated
-from .coupled_refusals import refuse_corners
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
 Array = NDArray[np.float64]
@@ -215,7 +215,8 @@ class TangentialSearch:
     @cached_property
     def _bounds(self) -> tuple[float, float]:
         """What the stick zone may reach: the contact under P alone on the left, its stick zone on
-        the right."""
+        the right.
+        """
         return -self.normal.b, self.normal.c
 
     @cached_property

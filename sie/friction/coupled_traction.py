@@ -40,7 +40,8 @@ TOGETHER = 2**18  # entries of a matrix that are computed at once
 
 class Panels(NamedTuple):
     """Panels of 0 <= y <= b, ascending: ends, series (n, DEGREE), and the exponent at b of the
-    last."""
+    last.
+    """
 
     lo: Array
     hi: Array
@@ -264,7 +265,8 @@ def _edge_panel(
     c: Array, power: float, z: Complex, lo: float, hi: float
 ) -> tuple[Complex, Complex]:
     """The same for ((hi - t)/(hi - lo))^power Σ c_n T_n; with u = (hi - t)/(hi - lo), ζ that of
-    z."""
+    z.
+    """
     length = hi - lo
     zeta = (hi - z) / length
     K = _lerch_integral(power, zeta, (z - lo) / length)
@@ -280,7 +282,8 @@ def _recurred(
     c: Array, s: Complex, start: tuple[Complex, Complex], moments: Array
 ) -> tuple[Complex, Complex]:
     """Σ c_n K_n and Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 -
-    moments_0/2."""
+    moments_0/2.
+    """
     K, dK = before, dbefore = start
     now, dnow = s * K - 0.5 * moments[0], K + s * dK
     value, slope = c[0] * before + c[1] * now, c[0] * dbefore + c[1] * dnow

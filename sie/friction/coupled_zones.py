@@ -65,7 +65,8 @@ class Zones(NamedTuple):
 
 class Rule(NamedTuple):
     """Places in the stick zone, their distances from its ends, and weights of (x - e1)^-a1 (e2 -
-    x)^-a2 dx."""
+    x)^-a2 dx.
+    """
 
     x: Array
     left: Array
@@ -186,7 +187,7 @@ class Map:
 
 
 class Answer(NamedTuple):
-    """What given zones miss: each is 0 in the state that is sought.
+    """The defects of the conditions with given zones: each is 0 in the state that is sought.
 
     load            a measure of ∫p_d, a stress
     left, right     p times the distance from the edge, to the powers a1 and a2, over β
@@ -244,7 +245,8 @@ class StickProblem:
 
     def _stuck(self, cos: float) -> float:
         """∫(f p - q) dx = cos πθ ∫ (β (1 + f²) A - (1 + κ²) γ_d)/(1 - β²) x dx/R, R = (x - e1)^a1
-        (e2 - x)^a2."""
+        (e2 - x)^a2.
+        """
         m, beta, f = self.map, self.beta, self.friction
         place = m.place(m.below, m.above)
         of_A = 2.0 * m.alpha ** m.exponents[1] * float((self.A * place) @ m.plain)
@@ -327,7 +329,7 @@ class StickProblem:
         close = np.abs(apart) < np.repeat(CLOSE * np.ptp(panels, axis=1), NODES)
         quotients = (self.of_rule[1] - g[:, None]) / np.where(close, 1.0, apart)
         for i, j in zip(*np.nonzero(close), strict=True):
-            # So close, rounding counts: the others of the panel tell it
+            # So close, rounding counts: the value is interpolated from the others of the panel
             panel = slice(j - j % NODES, j - j % NODES + NODES)
             quotients[i, j] = quotients[i, panel] @ _from_others(self.rule.x[panel], j % NODES)
         values: Array = quotients @ self.rule.weight

@@ -14,10 +14,9 @@ for every profile, symmetric or not: only its half-width counts. With P linear i
 quadratic polynomial between the levels L, Y, P(L) and P(Y), and not negative: nothing cancels. At
 constant P, from Y = P down, v = (P - η)(η - L).
 
-d ln r/d ln y is a Chebyshev series in ln y on panels, which begin where an edge passes a break of
-the profile: from there on it goes with the root of the distance. A wide front that crosses the many
-breaks of a trace costs too many panels. There v is integrated by parts, which leaves S = ∫ln r dy
-and T = ∫S dy at the four levels, and these are known from the contact under one load
+d ln r/d ln y is a series on panels (`growth_panels`). A wide front that crosses the many breaks of
+a trace costs too many of them. There v is integrated by parts, which leaves S = ∫ln r dy and T =
+∫S dy at the four levels, and these are known from the contact under one load
 (`Dissipation._potentials`).
 """
 
@@ -26,7 +25,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -34,7 +32,8 @@ from numpy.typing import NDArray
 
 from sie.contact.edges import Found
 from sie.contact.inequalities import slope_rises
-from sie.contact.pressure import Normal, pressure
+from sie.contact.known_contact import Normal
+from sie.contact.pressure import pressure
 from sie.errors import LoadError
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS
@@ -42,40 +41,25 @@ from sie.problem.scene import Scene
 from sie.traction.piece_quadrature import Geometry
 
 from .contact_growth import ContactGrowth
+from .growth_panels import FEW, LOWEST, GrowthPanels
 from .memory import SlippedLayer
-from .states import Slip, Slipping
+from .slip_state import Slip, Slipping
 
 Array = NDArray[np.float64]
 
-SIZES = (9, 17, 33)  # points that a panel is tried with before it is cut
-TAIL = 3
-FINE, COARSE = (
-    1024.0 * EPS,
-    1e-11,
-)  # what the last coefficients may miss of d ln r/d ln y; across many breaks, of a trace
-LONG = 1e-5  # in ln y: on a longer panel ln r itself is expanded where d ln r/d ln y is rough
-# ... or this, where twice as many points do not make them smaller: the slope of a function is known
-# by its series
-NOISE = 1e-10
-NOISELESS = 1.0 / 64.0  # of sqrt(largest load/load): so much rounding of the slope FINE allows for
-NEAREST = EPS * EPS  # to the beginning of a panel, as a part of its length
-SHORTEST = 1e-10  # a panel whose ends are so near to each other, as a ratio, is not cut
-FEW = 8  # so many breaks are cut at without trial
 MANY = 24  # a profile of so many breaks is a trace
 SAME = 16.0 * EPS  # loads that differ by more than rounding
 WIDE = 0.03  # of the load: in a thinner front its potentials would cancel
 HEIGHTS = 16  # nodes in the angle for the mean of a height over each piece
-LOWEST = 1e-18  # of the largest load: below, nothing adds to an energy
 THIN = 8.0 * EPS  # of the load: panels reach at least so far below it, however thin a front is
-NODES = 16  # on each part of a panel whose ends are not further apart than ...
-RATIO = 4.0
+NODES = 16  # on each part of a panel
 ROWS = 20_000  # parts of panels at a time
 
 
 def dissipated(state: Slip) -> float:
-    """∫|q| |slip| dx, the energy that a first loading dissipated, per unit length."""
+    """The energy that a first loading dissipated, ∫|q| |slip| dx at constant P."""
     if not isinstance(state, Slipping):
-        return 0.0
+        return state.energy
     step = state.step
     if step.tau or not (step.scene.profile.convex or slope_rises(step.pressure, step.slope)):
         return state.work  # a smaller load need not touch in one patch
@@ -84,24 +68,8 @@ def dissipated(state: Slip) -> float:
     return float(heat.of_fronts([step.normal_load], fronts, state.friction)[0])
 
 
-@dataclass(frozen=True, eq=False)
-class Panel:
-    """d ln r/d ln y for lo <= y <= hi, with t = ln(y/lo)/ln(hi/lo), as a series in 2 t - 1.
-
-    If an edge passes a break at lo (`kinked`), of sqrt(t) d ln r/d ln y in 2 sqrt(t) - 1.
-    """
-
-    lo: float
-    hi: float
-    kinked: bool
-    series: Array
-
-
 class Dissipation:
-    """The energy dissipated by slip fronts in the contacts of a profile at one tilt, ∫v d ln r.
-
-    The class is longer than 200 lines: two ways of taking one integral, on the same panels.
-    """
+    """The energy dissipated by slip fronts in the contacts of a profile at one tilt, ∫v d ln r."""
 
     def __init__(self, scene: Scene, normal: Normal, tol: float, economy: Collection[str]) -> None:
         self.contacts = ContactGrowth(scene, normal, economy)
@@ -109,7 +77,7 @@ class Dissipation:
         self._tilt, self._unit = normal.edges.tilt, normal.edges.contact.r
         self.top = normal.edges.normal_load
         self._of_load: dict[float, tuple[float, float]] = {}
-        self._panels: list[Panel] = []
+        self._growth = GrowthPanels(self.contacts)
 
     @property
     def evaluations(self) -> int:
@@ -154,8 +122,8 @@ class Dissipation:
         ends: list[tuple[float, float, int]] = []
         spans = [(min(P + L, P * (1.0 - THIN)), P + max(surface)) for P, L, _, *surface in rows]
         for together in _merged(spans):
-            self._cover(*together)
-        cuts = self._cuts()
+            self._growth.cover(*together)
+        cuts = self._growth.cuts()
         for k, (P, L, Y, at_L, at_Y) in enumerate(rows):
             highest = max(at_L, at_Y)
             marks = {L, highest, *(m for m in (Y, at_L, at_Y) if L < m < highest)}
@@ -179,12 +147,7 @@ class Dissipation:
         """2/E* ∫v d ln r from lo to hi, counted from P."""
         P, L, Y, at_L, at_Y = given
         g, w = chebyshev.gauss_legendre(NODES)
-        panels = self._panels
-        k = np.clip(
-            np.searchsorted([p.lo for p in panels], P[:, 0] + 0.5 * (lo + hi), side="right") - 1,
-            0,
-            len(panels) - 1,
-        )
+        panels, k = self._growth.panels, self._growth.at(P[:, 0] + 0.5 * (lo + hi))
         # In the root of the distance from a break's level, by ratios alone: a front may be thinner
         # than y is known
         base, kinked = (
@@ -198,9 +161,8 @@ class Dissipation:
         )
         y = lo[:, None] + (hi - lo)[:, None] * share
         rise = (at_L - at_Y) / np.where(Y > L, Y - L, np.inf)  # of P for the front's way down
-        passed = Y + (at_Y - y) / np.where(
-            rise == 0.0, np.nan, rise
-        )  # where the front is when P = y
+        # The place of the front when P = y
+        passed = Y + (at_Y - y) / np.where(rise == 0.0, np.nan, rise)
         upper = np.minimum(np.minimum(y, Y), np.where(rise > 0.0, passed, np.inf))
         lower = np.maximum(L, np.where(rise < 0.0, passed, -np.inf))
         middle = 0.5 * (upper + lower)
@@ -208,35 +170,8 @@ class Dissipation:
         # v in its two factors: loads of 1e160 have no square
         first = np.maximum(upper - lower, 0.0) / level
         second = (at_Y + rise * (Y - middle) - y) / self.contacts.search.half_modulus
-        out: Array = (hi - lo) * (weight * first * second * self._growth(k, level)).sum(axis=1)
+        out: Array = (hi - lo) * (weight * first * second * self._growth.rate(k, level)).sum(axis=1)
         return out
-
-    def _growth(self, k: NDArray[np.int64], y: Array) -> Array:
-        """d ln r/d ln y at y (K, n) on the panels k."""
-        panels = self._panels
-        lo, hi, kinked = (
-            np.array([getattr(p, name) for p in panels])[k][:, None]
-            for name in ("lo", "hi", "kinked")
-        )
-        t = np.clip(np.log1p((y - lo) / lo) / np.log1p((hi - lo) / lo), NEAREST, 1.0)
-        s = 2.0 * np.where(kinked, np.sqrt(t), t) - 1.0
-        width = max(len(p.series) for p in panels)
-        series = np.zeros((len(panels), width))
-        for row, p in zip(series, panels, strict=True):
-            row[: len(p.series)] = p.series
-        after = values = np.zeros(y.shape)  # Clenshaw (1955)
-        for c in series.T[:0:-1]:
-            values, after = c[k][:, None] + 2.0 * s * values - after, values
-        total: Array = (series[k, :1] + s * values - after) / np.where(kinked, np.sqrt(t), 1.0)
-        return total
-
-    def _cuts(self) -> list[float]:
-        """The cuts of an integral over y: the ends of panels, and more where a part is long."""
-        low = self._panels[0].lo if self._panels else self.top
-        geometric = self.top / RATIO ** np.arange(
-            1, int(math.log(self.top / low) / math.log(RATIO)) + 1
-        )
-        return sorted({*(end for p in self._panels for end in (p.lo, p.hi)), *geometric.tolist()})
 
     # -- across many breaks ------------------------------------------------------------------------
 
@@ -292,115 +227,6 @@ class Dissipation:
         work = float((weight * h * p(x) * r * np.sin(angle)).sum())
         S = y * math.log(r / self._unit) - math.pi * G * mean
         return S, 0.5 * (y * S - math.pi * G * work)
-
-    # -- panels ------------------------------------------------------------------------------------
-
-    def _cover(self, lo: float, hi: float) -> None:
-        """Panels for every load from lo to hi, where there are none yet."""
-        lo, hi = max(lo, LOWEST * self.top), min(hi, self.top)
-        panels, gaps = self._panels, []
-        k = bisect_right(panels, lo, key=lambda p: p.hi)
-        below = panels[k - 1].hi if k else 0.0
-        while lo < hi:
-            until = panels[k].lo if k < len(panels) else hi
-            if lo < until:
-                gaps.append((lo, min(until, hi), below))
-            if until >= hi:
-                break
-            lo = below = panels[k].hi
-            k += 1
-        for start, end, limit in gaps:
-            at_break = self._break_below(start, end, limit)
-            k = bisect_right(panels, end, key=lambda p: p.hi)
-            panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
-
-    def _break_below(self, level: float, top: float, limit: float) -> float:
-        """The level at which an edge passed the nearest break, where that is not far below, nor
-        below `limit`; otherwise 0.
-        """
-        here, there = self.contacts.contact(level).interval, self.contacts.contact(top).interval
-        found = [0.0]
-        for right in (False, True):
-            passed = [
-                b
-                for b in self.contacts.breaks
-                if (
-                    self.contacts.touch[1] < b < here.x2
-                    if right
-                    else here.x1 < b < self.contacts.touch[0]
-                )
-            ]
-            if passed:
-                b = max(passed) if right else min(passed)
-                moved, since = (
-                    (there.x2 - here.x2, here.x2 - b)
-                    if right
-                    else (here.x1 - there.x1, b - here.x1)
-                )
-                if since <= moved:
-                    found.append(self.contacts.level_at(b, right, here))
-        return max(y if max(limit, LOWEST * self.top) < y < level else 0.0 for y in found)
-
-    def _resolved(
-        self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
-    ) -> list[Panel]:
-        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short
-        one may miss more.
-
-        An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
-        """
-        whole = whole or hi - lo
-        inside = self.contacts.passed(lo, hi)
-        cut = (
-            self.contacts.level_at(
-                *inside[len(inside) // 2],
-                self.contacts.contact(math.sqrt(lo) * math.sqrt(hi)).interval,
-            )
-            if inside
-            else 0.0
-        )
-        at_break = lo * (1.0 + SHORTEST) < cut < hi * (1.0 - SHORTEST)
-        if not (at_break and len(inside) <= FEW):
-            before = math.inf
-            for n in SIZES:
-                series, missed = self._series(lo, hi, kinked, n)
-                if hi - lo <= SHORTEST * lo:
-                    return [Panel(lo, hi, kinked, series)]
-                # Beside what a front of such a load turns into heat
-                enough = (COARSE if at_break else FINE) * min(whole, hi) / (hi - lo)
-                if missed <= enough or 0.25 * before <= missed <= NOISE:
-                    return [Panel(lo, hi, kinked, series)]
-                if missed * (missed / before) ** 2 > enough:
-                    break  # twice as many points would not do either
-                before = missed
-        if not at_break:
-            cut = lo * (hi / lo) ** (0.25 if kinked else 0.75 if below else 0.5)
-        upper = self._resolved(cut, hi, at_break, whole, below)
-        return self._resolved(lo, cut, kinked, whole, at_break) + upper
-
-    def _series(self, lo: float, hi: float, kinked: bool, n: int) -> tuple[Array, float]:
-        """The series of a panel, and how large its last coefficients are."""
-        s = chebyshev.points(n)
-        t = 0.5 * (1.0 + s)
-        y = lo * (hi / lo) ** (t * t if kinked else t)
-        length = math.log1p((hi - lo) / lo)
-        # The slope near where it is 0 is known to rounding of its larger values
-        scale = max(NOISELESS * math.sqrt(self.top / hi), 1.0)
-        if length > LONG and (
-            self.contacts.search.slope.functions or len(self.contacts.breaks) > FEW
-        ):
-            contacts = [self.contacts.contact(level).interval for level in y.tolist()]
-            series = chebyshev.transform(np.log([[c.r / contacts[-1].r for c in contacts]]))[0]
-            missed = float(np.abs(series[-TAIL:]).max()) / scale / length
-            return np.polynomial.chebyshev.chebder(series) * (
-                (1.0 if kinked else 2.0) / length
-            ), missed
-        values = np.array([self.contacts.rate(level) for level in y.tolist()])
-        if kinked:
-            values = values * t
-        series = chebyshev.transform(values[None, :])[0]
-        scale *= float(np.abs(values).max())
-        return series, float(np.abs(series[-TAIL:]).max()) / scale if scale else 0.0
 
 
 def _merged(ranges: list[tuple[float, float]]) -> list[tuple[float, float]]:

@@ -12,7 +12,6 @@ the width, p changes sign: bonded surfaces can pull.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -23,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.cauchy.density import JacobiDensity
 from sie.cauchy.equation import CauchyEquation
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.contact.normal import refuse_out_of_scale
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
@@ -131,8 +130,7 @@ def full_stick_contact(scene: Scene, tol: float) -> tuple[Edges, JacobiDensity]:
 def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
     """The ends of the punch, and its load."""
     pieces = scene.profile.pieces
-    ends = pieces.domain
-    if not (pieces.is_zero.all() and math.isfinite(ends[0]) and math.isfinite(ends[1])):
+    if not pieces.is_flat_punch:
         raise ContactError(
             f"friction = inf (full stick) is covered for a flat punch, not for {scene.profile!r}: "
             "contact that grows under load locks in strain; give a flat punch, or a finite friction"
@@ -142,4 +140,4 @@ def _flat(scene: Scene) -> tuple[tuple[float, float], float]:
             "a bonded punch carries any load on its whole width: give normal_load instead of "
             "half_width"
         )
-    return ends, scene.normal_load
+    return pieces.domain, scene.normal_load

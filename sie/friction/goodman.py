@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import Interval
+from sie.problem.load_limit import refuse_corner, refuse_sliding
 from sie.traction.base import on_line
 from sie.traction.combination import Combination
 
@@ -35,15 +36,14 @@ from .goodman_frame import DeficitFrame
 from .goodman_functions import GoodmanFlat, goodman_flat
 from .goodman_growth import ContactTable, Search
 from .goodman_shear import GoodmanGrowth
-from .load_limit import refuse_corner, refuse_sliding
 from .shear_density import PotentialsOfParts
+from .slip_state import GrownSlip, Step
 from .slip_zones import Drive, SlipZones, edge_frame, slip_zones
-from .states import GrownSlip, Step
 
 Array = NDArray[np.float64]
 
 ENERGY_NODES = 24
-LIGHTER = 0.8  # of the load: under it, what stuck then is looked at again
+LIGHTER = 0.8  # of the load: under it the zone that sticks is examined again
 SMALL = 1e-13  # of the half-width: marks nearer to each other are one
 FIRST_ZONE = 0.25  # of the half-width: where the search for the zones under Q begins
 KIND = "outwards on both sides while the normal load grew, β q neglected (Goodman)"
@@ -277,7 +277,7 @@ class GoodmanSlip(GrownSlip):
         return np.maximum(d, 0.0)
 
     def _tabulated_shear(self, x: Array) -> Array:
-        """`normal_shear` from the series of its parts: the zones are looked for in many steps."""
+        """`normal_shear` from the series of its parts: the zones are sought in many steps."""
         y = x - self.contact.m
         total = np.zeros(x.shape)
         for factor, part in self.shear.parts.terms:

@@ -1,8 +1,8 @@
 """What each step of a load path does to the memory of a contact, and the steps that are refused.
 
 Along a step P, Q, σ and the tilt change in proportion to time. `memory` says what slip of one sign
-at both edges leaves, if the stick zone only recedes. With dΛ, dS the changes of level and shear, of
-which an edge feels Re ∓ (ρ/r₀) Im (right, left; ρ the half-width of a zone), that is:
+at both edges leaves, if the stick zone only recedes. With dΛ, dS the changes of level and shear,
+whose effect at an edge is Re ∓ (ρ/r₀) Im (right, left; ρ the half-width of a zone), that is:
 
     both ends of the stick zone recede        s dS - dΛ >= 0 at both ends
     slip keeps its direction out to the edge  Re arccosh v ∓ (ρ/r₀) Im sqrt(v² - 1) >= 0 of
@@ -30,7 +30,7 @@ from sie.errors import ContactError
 from sie.numerics.interval import Interval
 
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
-from .states import OneSignedSlip, Slip
+from .slip_state import Slip
 from .turning_point import Loads, TurningPoint
 
 # Parts of a step at which its conditions are tested.
@@ -240,7 +240,7 @@ class Step:
         ]
         for share, earlier, state in zip(TESTED, states, states[1:], strict=False):
             contact = self.contacts.contact(self._at(share))
-            if not (_inside(_zone_of(state), contact) and _grown(earlier, state)):
+            if not (_inside(state.stick_zone, contact) and _grown(earlier, state)):
                 raise ContactError(
                     "zones of slip in opposite directions would retreat at one end on the way: "
                     + MARCH
@@ -250,7 +250,9 @@ class Step:
     # -- conditions --------------------------------------------------------------------------------
 
     def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
-        """What the left and the right end of a zone of half-width r feel of a change of Λ or S."""
+        """The effect of a change of Λ or S at the left and the right end of a zone of half-width
+        r.
+        """
         turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
         return change.real + turn, change.real - turn
 
@@ -285,9 +287,8 @@ class Step:
     def _within(self, first: complex, second: complex) -> bool:
         """Whether the contact at one depth lies within that at another."""
         normal = self.before.loads.normal
-        one, other = (
-            _zone_of(self.contacts.first_loading(normal, depth, False)) for depth in (first, second)
-        )
+        loaded = self.contacts.first_loading
+        one, other = (loaded(normal, depth, False).stick_zone for depth in (first, second))
         if _inside(one, other):
             return True
         if _inside(other, one):
@@ -327,7 +328,7 @@ class Step:
         """The stick zone below the uppermost layer."""
         assert memory.top is not None
         normal = self._at(share).normal
-        return _zone_of(self.contacts.first_loading(normal, memory.top.thickness, False))
+        return self.contacts.first_loading(normal, memory.top.thickness, False).stick_zone
 
     def _state(self, share: float, depth: complex) -> Slip:
         """The state after first loading to a depth, with slip in both directions."""
@@ -357,13 +358,6 @@ UNSTEADY = (
 )
 
 
-def _zone_of(state: Slip) -> Interval:
-    """The stick zone, which of a corner may reach beyond the contact."""
-    if isinstance(state, OneSignedSlip):
-        return state.found.edges.contact
-    return Interval(*state.stick[0]) if state.stick else Interval(state.contact.m, state.contact.m)
-
-
 def _inside(one: Interval, other: Interval) -> bool:
     slack = SLACK * (other.r + abs(other.m))
     return one.x1 >= other.x1 - slack and one.x2 <= other.x2 + slack
@@ -375,7 +369,7 @@ def _shown(zone: Interval) -> str:
 
 def _grown(earlier: Slip, later: Slip) -> bool:
     """Whether the zones of slip have grown, and slip in them."""
-    if not _inside(_zone_of(later), _zone_of(earlier)):
+    if not _inside(later.stick_zone, earlier.stick_zone):
         return False
     contact = later.contact
     x = contact.m + contact.r * np.cos(np.pi * (np.arange(64) + 0.5) / 64)

@@ -10,10 +10,10 @@ from typing import TypeVar
 
 from sie.errors import ContactError
 from sie.numerics.interval import EPS
+from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 
-from .load_limit import refuse_sliding
 from .load_step import Contacts, Step
 from .memory import Layer, LoadMemory, in_proportion, simple
 from .turning_point import Loads, TurningPoint

@@ -30,7 +30,7 @@ from typing import NamedTuple
 
 from sie.numerics.interval import EPS
 
-# A layer below this fraction of all that slipped is what rounding left of one that was wiped out.
+# A layer below this fraction of all that slipped is the rounding of one that was overwritten.
 NOTHING = 8.0 * EPS
 # of κ: layers go without slip where Q falls with P as they carried it, but for rounding
 BALANCED = 1e-12

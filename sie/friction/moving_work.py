@@ -6,7 +6,8 @@ With g the slip beside a stick zone that is a state of the loads, and p the pres
     dp/dt = [dP/dt - π (x - m) E*/2 dθ/dt]/(π w)
 
 for edges that move or not: p vanishes where they move. Both integrals over x are those of a state
-(`states.Slipping`), and the one over time has a smooth integrand between two corners of the memory.
+(`slip_state.Slipping`), and the one over time has a smooth integrand between two corners of the
+memory.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from collections.abc import Callable
 from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 
-from .states import Slip, Slipping
+from .slip_state import Slip, Slipping
 
 
 def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval], float]) -> float:

@@ -41,9 +41,8 @@ def narrow_stick_zone(
     """The slip zones beside a narrow stick zone; None if the stick zone is not narrow."""
     strain, width = abs(drive.strain), 2.0 * contact.r
     near, depth = _balanced(frames, contact, drive)
-    load = (drive.left, drive.right)[
-        1 - near
-    ] * drive.load  # what the far side carries more than the near one
+    # The load of the far side less that of the near one
+    load = (drive.left, drive.right)[1 - near] * drive.load
 
     def cut(rho: float, depth: float) -> tuple[SlipZone, SlipZone]:
         return slip_zone(frames[near], depth - rho), slip_zone(

@@ -38,21 +38,22 @@ import numpy as np
 from sie.contact.edge_integrals import edge_integrals
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS
+from sie.problem.load_limit import refuse_sliding, remaining
 from sie.profiles.resolution import refined
 from sie.traction.on_panels import PanelDensity
 from sie.traction.panels import Panels
 from sie.traction.piece_quadrature import Geometry
 
-from .load_limit import refuse_sliding, remaining
 from .narrow_stick_zone import narrow_stick_zone
+from .slip_state import NoSlip, Slip, Step, edge_frames
 from .slip_zones import Drive, slip_zones
-from .states import NoSlip, OneSignedSlip, Sliding, Slip, Step, TwoSignedSlip, edge_frames
+from .states import OneSignedSlip, Sliding, TwoSignedSlip
 
 # Violations of |q| <= f p below this fraction of f p are rounding.
 TOLERATED = 1e-10
 SCANNED = 400
-# Of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that it
-# lies between two doubles.
+# Part of the contact: a slope is resolved so far beyond a stick zone, which may be so narrow that
+# it lies between two doubles.
 BESIDE = 16.0 * EPS
 # Forces over a zone are its length to the power of 3/2 and more: below this fraction of f P they
 # would underflow.

@@ -17,7 +17,7 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
-from .states import Slip
+from .slip_state import Slip
 from .turning_point import Loads
 
 Array = NDArray[np.float64]
@@ -68,8 +68,8 @@ class PathSlip(Slip):
             Q, sigma = depth.real, depth.imag / self.history.shear(Loads(0.0, 0.0, 1.0)).imag
             raise ContactError(
                 f"step {self.index} of the path: under the largest loads, Q = {Q:.6g} with σ = "
-                f"{sigma:.6g}, zones of slip have "
-                "retreated on the way, and what they left depends on that way; lower Q or σ",
+                f"{sigma:.6g}, zones of slip have retreated on the way, and what they left "
+                "depends on that way; lower Q or σ",
                 step=self.index,
             )
 

@@ -1,17 +1,15 @@
-"""The states of a contact under tangential load: stick zones, slip zones, and the shear.
+"""The states of slip of a contact under tangential load: stick zones, slip zones, and the shear.
 
-`partial_slip.slip` decides which of them a contact is in. The file is longer than 400 lines because
-the four states are one family, and are read side by side.
+`partial_slip.slip` decides which of them a contact is in. What they have in common with a contact
+that does not slip, and what a step of the load is, stands in `slip_state`.
 """
 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,24 +17,22 @@ from numpy.typing import NDArray
 from sie.contact.edge_integrals import edge_integrals
 from sie.contact.gap import gap
 from sie.contact.inequalities import verify_inequalities
-from sie.contact.pressure import Normal
+from sie.contact.known_contact import Normal
 from sie.numerics.interval import EPS, Interval, two_sum
-from sie.problem.scene import Scene
 from sie.profiles.lowest_points import lowest_points, raised
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
-from sie.traction.base import ZERO, Density
+from sie.traction.base import Density
 from sie.traction.combination import Combination
 from sie.traction.of_slope import SlopeDensity
 
 from .shear_density import OneSignedShear, TwoSignedShear
+from .slip_state import Slipping, Step
 from .slip_zones import (
     Drive,
     EdgeFrame,
     SlipZone,
     SlipZones,
-    edge_frame,
-    slip_zone,
     slip_zones,
 )
 
@@ -45,249 +41,6 @@ Array = NDArray[np.float64]
 # Below this fraction of sliding the shear is not taken as a difference of two pressures, which are
 # then nearly the same.
 SHORT = 1e-2
-
-
-@dataclass(frozen=True)
-class Step:
-    """A contact's pressure and slope, and the loads Q and τ that are applied to it at constant P.
-
-    Friction needs the normal problem only as two functions, whoever solves it:
-
-    contact_under    the contact of the same profile under a load and a tilt
-    pressure_on      the pressure on such a contact
-    """
-
-    scene: Scene
-    normal: Normal
-    pressure: SlopeDensity
-    Q: float
-    tau: float
-    tol: float
-    economy: Collection[str]
-    contact_under: Callable[[float, float], Normal]
-    pressure_on: Callable[[Normal], SlopeDensity]
-
-    @property
-    def slope(self) -> Slope:
-        return self.normal.slope(self.scene.profile)
-
-    @property
-    def normal_load(self) -> float:
-        return self.normal.edges.normal_load
-
-
-class Slip(ABC):
-    """A state of stick and slip.
-
-    kind         name of the state
-    contact      the contact
-    friction     f
-    stick        stick zones (lo, hi)
-    shear        shear traction q
-    slip(x)      relative slip
-    advancing    whether the slip zones grow along the whole step
-    condition    relative error of the load on the stick zone over one of P or Q
-    """
-
-    kind: str
-    contact: Interval
-    friction: float
-    stick: tuple[tuple[float, float], ...]
-    advancing: bool = True  # whether the zones of slip grow along the whole step
-    # how much larger a relative error of the load on the stick zone is than one of P or Q
-    condition: float = 1.0
-
-    @property
-    @abstractmethod
-    def shear(self) -> Density: ...
-
-    @property
-    def parts(self) -> tuple[float, tuple[tuple[float, Density], ...]]:
-        """q as a multiple of the pressure and the other densities, each times a factor."""
-        return 0.0, ((1.0, self.shear),)
-
-    @property
-    def contacts(self) -> tuple[Any, ...]:
-        """The contacts in several patches, beside that of the pressure, that the shear is made
-        of.
-        """
-        return ()
-
-    @abstractmethod
-    def slip(self, x: Array) -> Array:
-        """Displacement of the indenter relative to the body at x (1-d).
-
-        It is 0 in stick zones and outside the contact.
-        """
-
-    @property
-    @abstractmethod
-    def shift(self) -> float:
-        """The shift of the indenter beyond that of a contact that does not slip.
-
-        It is ∫ slip / (π sqrt((x - x1)(x2 - x))) dx.
-        """
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order
-        of time; |q| = f p in those in contact.
-
-        Where slip turned while P fell, the zones of the first direction lie beside the contact,
-        which has left them.
-        """
-        return ()
-
-    @property
-    def untouched(self) -> tuple[float, float]:
-        """The zone that never slipped."""
-        return self.stick[0] if self.stick else (0.0, 0.0)
-
-    @property
-    def levels(self) -> tuple[float, ...]:
-        """Further kinks of q: the ends of earlier stick zones."""
-        return ()
-
-    def slip_now(self, x: Array) -> Array:
-        """The slip since the last turning point."""
-        return self.slip(x)
-
-
-class GrownSlip(Slip):
-    """A state whose bodies slip while the normal load grows.
-
-    step        the contact and its loads
-    zones       the zones under Q, None before
-    marks       places where q is not smooth, with the edges
-    lighter     the state under a lighter normal load, None where the contact does not grow
-    """
-
-    step: Step
-    zones: SlipZones | None
-    marks: tuple[float, ...]
-    lighter: GrownSlip | None
-
-
-@dataclass(frozen=True, eq=False)
-class NoSlip(Slip):
-    """Nothing slips and nothing is sheared."""
-
-    contact: Interval
-    friction: float
-    kind = "stick"
-
-    @property
-    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
-        return ((self.contact.x1, self.contact.x2),) if self.friction else ()
-
-    @property
-    def shear(self) -> Density:
-        return ZERO
-
-    def slip(self, x: Array) -> Array:
-        return np.zeros(x.shape)
-
-    @property
-    def shift(self) -> float:
-        return 0.0
-
-
-@dataclass(frozen=True, eq=False)
-class Slipping(Slip):
-    """The common part of the states with slip: slip is sign f opening(x) on each side.
-
-    It is integrated over the zones in the frames of the edges.
-    """
-
-    pressure: SlopeDensity
-    slope: Slope
-    friction: float
-    step: Step
-
-    @property
-    def contact(self) -> Interval:  # type: ignore[override]
-        return self.pressure.contact
-
-    @property
-    @abstractmethod
-    def signs(self) -> tuple[float, float]:
-        """Signs of slip at the left and the right edge."""
-
-    @property
-    @abstractmethod
-    def lengths(self) -> tuple[float, float]: ...
-
-    @abstractmethod
-    def _opening(self, distance: Array, frame: EdgeFrame) -> Array:
-        """|slip|/f at these distances from the edge."""
-
-    @cached_property
-    def frames(self) -> tuple[EdgeFrame, EdgeFrame]:
-        return edge_frames(self.pressure, self.slope)
-
-    def slip(self, x: Array) -> Array:
-        out = np.zeros(x.shape)
-        if not x.size:
-            return out
-        from_edge = self.contact.from_left(x), self.contact.from_right(x)
-        nearer_left = from_edge[0] - self.lengths[0] < from_edge[1] - self.lengths[1]
-        for r, distance, sign, side in zip(
-            self.frames, from_edge, self.signs, (nearer_left, ~nearer_left), strict=True
-        ):
-            at = side & (distance >= 0.0)
-            if at.any():
-                out[at] = sign * self.friction * self._opening(distance[at], r)
-        return out
-
-    @property
-    def zones(self) -> tuple[SlipZone, SlipZone]:
-        left, right = (
-            slip_zone(r, length) for r, length in zip(self.frames, self.lengths, strict=True)
-        )
-        return left, right
-
-    @cached_property
-    def _integrals(self) -> tuple[float, float, float, float]:
-        """∫f p |slip| dx, ∫slip dμ, f ∫|slip| dμ and f ∫|slip| (x - m) dμ, dμ = dx/(π w)."""
-        f, half = self.friction, self.contact.r
-        energy = shift = spread = lever = 0.0
-        for r, z, sign in zip(self.frames, self.zones, self.signs, strict=True):
-            if z.length > 0.0:
-                opening = f * self._opening(z.from_edge, r)
-                energy += f * float(z.force @ opening)
-                from_other_edge = (2.0 * half - z.length) + z.from_stick
-                moved = z.weight * opening / np.sqrt(z.from_edge * from_other_edge) / math.pi
-                shift += sign * float(moved.sum())
-                spread += f * float(moved.sum())
-                lever += f * r.side * float(moved @ (half - z.from_edge))
-        return energy, shift, spread, lever
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
-        _, _, spread, lever = self._integrals
-        return dP * spread - math.pi * strain * lever
-
-    @property
-    def work(self) -> float:
-        """∫|q| |slip| dx over the slip zones."""
-        return self._integrals[0]
-
-    @property
-    def shift(self) -> float:
-        return self._integrals[1]
-
-    @property
-    def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        (x1, x2), (left, right) = self.pressure.interval, self.signs
-        if not self.stick:
-            return ((x1, x2, left),)
-        (c1, c2), (lengths) = self.stick[0], self.lengths
-        both = ((x1, c1, left), (c2, x2, right))
-        return tuple(z for z, length in zip(both, lengths, strict=True) if length > 0.0)
-
-
-def edge_frames(density: SlopeDensity, slope: Slope) -> tuple[EdgeFrame, EdgeFrame]:
-    return edge_frame(density, slope, -1.0), edge_frame(density, slope, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -316,8 +69,8 @@ class Sliding(Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may pull the lowest point of the whole profile out of it,
-        and the last to let go is an edge.
+        """On the contact alone: a strain may move the lowest point of the whole profile out of it;
+        then an edge slips last.
         """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
@@ -355,6 +108,10 @@ class OneSignedSlip(Slipping):
     def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
         inner, outer = self.found.edges.contact, self.contact
         return ((max(inner.x1, outer.x1), min(inner.x2, outer.x2)),)
+
+    @property
+    def stick_zone(self) -> Interval:
+        return self.found.edges.contact
 
     @cached_property
     def short(self) -> SlipZones | None:
@@ -512,9 +269,8 @@ def in_frame(
 ) -> tuple[SlopeDensity, Slope]:
     """A density on the stick zone and its slope in the frame of an edge."""
     near = lengths[frame.side > 0.0]
-    far, rest = two_sum(
-        -near, -2.0 * density.contact.r
-    )  # from the width of the stick zone, which the other length may not resolve
+    # From the width of the stick zone, which the other length may not resolve
+    far, rest = two_sum(-near, -2.0 * density.contact.r)
     ends = Interval(far, -near, rest, 0.0) if frame.side > 0.0 else Interval(near, -far, 0.0, -rest)
     dx, tail = frame.origin
     return density.moved(ends, dx, tail), slope.shifted(dx).shifted(tail)

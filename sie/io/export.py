@@ -50,11 +50,12 @@ from numpy.typing import NDArray
 
 from sie import __version__
 from sie.history import History, PathSolution
+from sie.problem.request import POINTS
 from sie.problem.scene import Scene
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
-from .sample_points import POINTS, abscissae, beside, inside, peak
+from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
 Array = NDArray[np.float64]

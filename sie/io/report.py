@@ -92,8 +92,8 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
         *[biggest] * (len(patches) > 1),
         (
             "gap volume",
-            f"{_number(solution.gap_volume)} {units.length}²"
-            f" {'in each period' if repeats else 'between them'}",
+            f"{_number(solution.gap_volume)} {units.length}² "
+            f"{'in each period' if repeats else 'between them'}",
         ),
     )
 
@@ -169,7 +169,7 @@ def _path_table(solution: PathSolution, units: Units) -> str:
     rows = solution.history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
     head = ("P", "Q", "σ", *turned, "stick from", "to")
-    lines = [f"{_cells(head)}   energy lost / ({units.moment})"]
+    lines = [f"{_cells(head)}   energy lost ({units.moment})"]
     for point in rows:
         loads = [point[name] for name in ("normal_load", "tangential_load", "bulk_stress", *turned)]
         zones = point["stick"] or [("-", "-")]

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.interval import EPS
+from sie.problem.request import POINTS
 from sie.solution import Solution
 
 Array = NDArray[np.float64]
 
-POINTS = 401  # in the contact, by default
 # Points beside the contact, on each side, as a fraction of those in it, and how far out they reach,
 # in half-widths.
 BESIDE = 0.25

@@ -90,7 +90,7 @@ class Units:
 UNITS = Units()
 EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
-# A trace of 1e4 points has 0.4 MB as x and h; longer ones are better off in a file of their own.
+# A trace of 1e4 points has 0.4 MB as x and h; longer ones belong in a file of their own.
 MOST_BYTES = 10**6
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
 # needs three.
@@ -160,7 +160,7 @@ def read(path: str | pathlib.Path) -> SceneFile:
 def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -> SceneFile:
     """The scene in a TOML text. Raises SceneFileError.
 
-    `name` stands for the text in messages; files that it names are looked for in `folder`.
+    `name` stands for the text in messages; files that it names are read from `folder`.
     """
     if len(text) > MOST_BYTES:
         raise SceneFileError(

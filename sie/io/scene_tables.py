@@ -95,9 +95,13 @@ MODIFIERS: dict[str, Reader] = {
     "shifted": number,
     "raised": number,
 }
-
-
-# Of a trace, applied in this order before the others.
+# Keys of [profile] itself that none of its kinds has.
+ELSEWHERE = {
+    "plus": "terms are not nested, write one [[profile.plus]] after the other",
+    "of": 'it belongs to kind "row"',
+    "period": "it belongs in [profile], and repeats the whole of it",
+}
+# Modifiers of a trace, applied in this order before the others.
 TREATMENTS: dict[str, Reader] = {"without_outliers": flag, "levelled": flag_or_pair}
 
 
@@ -152,8 +156,7 @@ def _elsewhere(key: str) -> str:
         return "it stands at the top of the file, before the first [table]"
     if key in TOP:
         return f"it is a table of its own, write the header [{key}] and its keys below it"
-    terms = "terms are not nested, write one [[profile.plus]] after the other"
-    return terms if key == "plus" else ""
+    return ELSEWHERE.get(key, "")
 
 
 def _readers_of(kind: str) -> Mapping[str, Reader]:

@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.problem.request import GRID
 from sie.solution import Solution
 from sie.stress.half_plane import Stress
 
@@ -28,7 +29,6 @@ Array = NDArray[np.float64]
 
 SUFFIXES = ("csv", "npz", "vti")
 COMPONENTS = ("xx", "yy", "xy", "zz", "j2")
-SIZE = (201, 101)
 # The window: beside the contact and in depth, in half-widths.
 BESIDE, DEPTH = 1.0, 2.0
 # Characters that no XML text may contain, in whatever form (XML 1.0, production 2).
@@ -40,8 +40,8 @@ class Grid:
     """The stress of a solution at nx × ny points around the contact, in arrays (ny, nx)."""
 
     solution: Solution
-    nx: int = SIZE[0]
-    ny: int = SIZE[1]
+    nx: int = GRID[0]
+    ny: int = GRID[1]
 
     @cached_property
     def x(self) -> Array:

@@ -1,4 +1,4 @@
-"""Chebyshev series: points, transforms, evaluation, chopping. No physics.
+"""Chebyshev series: points, transforms, evaluation, chopping.
 
 A series c stands for Σ c_n T_n(s), s in [-1, 1]; arrays of series have the degree along the last
 axis. The points are those of the first kind, s_k = cos((k + 1/2) π / N), which avoid the ends: a

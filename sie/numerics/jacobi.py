@@ -34,7 +34,7 @@ Array = NDArray[Any]
 GROWTH = 30.0
 POLISHED = 8.0 * EPS
 MAX_SWEEPS = 40
-# Of the continued fraction: it is asked only where a series of that many terms would grow
+# Terms of the continued fraction, which serves only where a series of that many would grow
 MOST_STEPS = 20_000
 
 

@@ -132,8 +132,7 @@ def increasing_root(function: Callable[[float], float], guess: float, limit: flo
 ROUGH = 1e-2
 # This step is not worth another evaluation: Newton's next one from u reaches rounding.
 SHORT_STEP = 1e-9
-# Steps are capped at a factor e^20, so that one bad derivative cannot throw the search out of
-# range.
+# Steps are at most a factor e^20, so that one bad derivative cannot move the search out of range.
 MAX_LOG_STEP = 20.0
 SMALLEST = 1e-300
 LEAP = 1e12  # where a value underflows, or falls before it was ever large enough

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
@@ -16,12 +16,12 @@ from sie.profiles.base import Derived, Profile
 from sie.profiles.row import Row
 from sie.profiles.slope import Slope
 
-from .admissible import Found, gap, gap_volume
 from .certificate import certificate
 from .density import PatchPressure
 from .full import FullContact, full_contact
+from .gap import gap, gap_volume
 from .of_scene import Problem, problem_of
-from .operator import Operator
+from .operator import Found, Operator
 from .result import PatchCertificate
 from .solver import contact
 
@@ -50,7 +50,7 @@ class SeveralPatches:
         return self.pressure.patches
 
     def gap(self, x: Array) -> Array:
-        """The gap at x (1-d), also beyond the window in which contact was looked for."""
+        """The gap at x (1-d), also beyond the window in which contact was sought."""
         o, (lo, hi), domain = self.found.operator, self.window, self.problem.domain
         inside = x[np.isfinite(x) & (x >= domain[0]) & (x <= domain[1])]
         first, last = float(inside.min(initial=lo)), float(inside.max(initial=hi))
@@ -71,7 +71,7 @@ class SeveralPatches:
 
 
 def asks_for_patches(profile: Profile) -> bool:
-    """Whether a profile is a row or periodic, or made of rows: one patch is then not looked for."""
+    """Whether a profile is a row or periodic, or made of rows: one patch is then not sought."""
     parts = profile.placed if isinstance(profile, Derived) else ()
     return (
         profile.period < np.inf

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .admissible import Found
 from .density import PatchPressure
 from .newton import conditions
-from .operator import Operator
+from .operator import Found, Operator
 from .panels import PatchPanels
 from .result import GRADING, LEAST, PatchCertificate
 from .state import Given, State
@@ -91,8 +90,7 @@ def _notes(condition: float) -> tuple[str, ...]:
         return ()
     sentence = (
         "note: a patch of contact is about to appear, or two to merge: a change of the load by "
-        "1e-9 "
-        f"changes the narrowest patch by {1e-9 * condition:.0e} of its width"
+        f"1e-9 changes the narrowest patch by {1e-9 * condition:.0e} of its width"
     )
     return (sentence,)
 

@@ -25,9 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
-from sie.friction.load_limit import remaining
-from sie.friction.states import Slip
+from sie.friction.slip_state import Slip
 from sie.numerics.zones import Zones, left_over, within
+from sie.problem.load_limit import remaining
 from sie.problem.scene import Scene
 from sie.traction.base import Density
 from sie.traction.combination import superposed
@@ -78,8 +78,8 @@ class PatchSlip(Slip):
         if self.tau != 0.0 and math.isfinite(self.period):
             raise ContactError(
                 f"bulk_stress = {self.scene.bulk_stress:g} in one of two bodies that meet "
-                "periodically has no periodic "
-                "answer: leave it out, or give it to both bodies as a stress afterwards"
+                "periodically has no periodic answer: leave it out, or give it to both bodies as a "
+                "stress afterwards"
             )
         if self.Q == 0.0 != self.tau:
             raise ContactError(

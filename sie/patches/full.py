@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
-from sie.contact.edges import Edges
+from sie.contact.known_contact import Edges
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.traction.base import Density, on_surface, reflected, refuse_side, zero_or_nan
 
-from .admissible import CLOSED, DEEPEST, NODES, TENSION, lower_bound
+from .bounds import CLOSED, DEEPEST, NODES, TENSION, halves, lower_bound
 from .density import AROUND, NARROW
 from .measure import NEAR
 from .pieces import Pieces
@@ -229,8 +229,7 @@ class FullPressure(Density):
             lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
             if enough.all():
                 break
-            middle = 0.5 * (lo + hi)[~enough]
-            lo, hi = np.concatenate((lo[~enough], middle)), np.concatenate((middle, hi[~enough]))
+            lo, hi = halves(lo[~enough], hi[~enough])
         return lowest / mean
 
 

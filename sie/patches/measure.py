@@ -17,7 +17,7 @@ as what (H_k(x) - H(x))/d(t, x) leaves in Gauss' rule is known.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .chord import Points
-from .panels import GapPanels, Patches, PatchPanels, gap_panels, patch_panels
+from .panels import Patches, PatchPanels, patch_panels
 from .pieces import Pieces
 from .sums import Groups, far_sums, multiply, parts, steps
 from .tree import Level, Separation, Tree
@@ -33,32 +33,16 @@ from .tree import Level, Separation, Tree
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-# half-lengths of a panel, in its angle, from its middle: Gauss' rule sees no pole beyond
+# half-lengths of a panel, in its angle, from its middle: Gauss' rule resolves poles beyond
 NEAR = 2.5
 
 
 @dataclass(frozen=True, eq=False)
 class Measure:
-    """The slope H on patches; `charge` (2N,) are the point charges of sharp edges, a_1, b_1, a_2
-    ..., in units of slope.
-    """
+    """The slope H on patches, and what the integrals over them have in common."""
 
     patches: Patches
     pieces: Pieces
-    charge: Array = field(default_factory=lambda: np.zeros(0))
-
-    @cached_property
-    def panels(self) -> PatchPanels:
-        return patch_panels(self.patches, self.pieces)
-
-    @cached_property
-    def Y(self) -> Array:
-        """The point charges, also where there are none."""
-        return self.charge if self.charge.size else np.zeros(2 * self.patches.number)
-
-    @cached_property
-    def gaps(self) -> GapPanels:
-        return gap_panels(self.patches, self.pieces)
 
     # -- the root ----------------------------------------------------------------------------------
 
@@ -121,6 +105,10 @@ class Measure:
         return np.sqrt(ratio if np.iscomplexobj(ratio) else np.abs(ratio))
 
     # -- the measure on the patches ----------------------------------------------------------------
+
+    @cached_property
+    def panels(self) -> PatchPanels:
+        return patch_panels(self.patches, self.pieces)
 
     @cached_property
     def weight(self) -> Array:

@@ -29,10 +29,8 @@ from .sums import add, parts
 
 Array = NDArray[np.float64]
 
-OUTWARD, INTO_GAP = (
-    2.0,
-    0.4,
-)  # most that an edge moves out: half-widths of its patch, widths of its gap
+# The most that an edge moves out: half-widths of its patch, widths of its gap
+OUTWARD, INTO_GAP = 2.0, 0.4
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
@@ -245,8 +243,8 @@ def _settled(sizes: list[float], enough: float) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """Patches whose edges ask to pass each other, and gaps that ask to close, several times in a
-    row; or what a single edge insists on.
+    """Patches whose edges are asked to pass each other, and gaps that are asked to close, several
+    times in a row; or the same of a single edge.
     """
     P, out = state.patches, asked * state.outward > 0.0
     single = insists >= INSISTS

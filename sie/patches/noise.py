@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 
 from sie.profiles.base import Profile
 
-from .admissible import Found
 from .density import PatchPressure
 from .newton import conditions
-from .operator import Operator
+from .operator import Found, Operator
 from .profile_pieces import of_profile
 from .state import Given, State
 

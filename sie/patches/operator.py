@@ -16,6 +16,7 @@ panels act through the charges of a `tree`.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,8 @@ from numpy.typing import NDArray
 
 from .chord import Points
 from .measure import Measure, Targets, close, edge_ratio, integrals
-from .panels import GapPanels
+from .panels import GapPanels, gap_panels
+from .state import Findings, State
 from .sums import Groups, add, far_sums, parts, ranges, steps
 from .tree import Level, Separation
 
@@ -37,7 +39,12 @@ SHARED = 16  # blocks of a patch that share their far sums
 
 @dataclass(frozen=True, eq=False)
 class Operator(Measure):
-    """D_i at blocks of places."""
+    """D_i at blocks of places.
+
+    Y    the point charges of sharp edges (2N,), a_1, b_1, a_2 ..., in units of slope
+    """
+
+    Y: Array
 
     def D(self, t: Targets) -> Any:
         """D_i at targets, (B, n)."""
@@ -49,6 +56,11 @@ class Operator(Measure):
             far = far_sums(self.patches.chord, groups, near, t.x, self._charges_at, odd=True)
             total += far[..., 0] - t.reference * far[..., 1]
         return total - self._charged(t)
+
+    @cached_property
+    def gaps(self) -> GapPanels:
+        """The panels beside the patches."""
+        return gap_panels(self.patches, self.pieces)
 
     def _blocks(self, groups: Groups, near: Separation) -> tuple[Index, Index]:
         block, pair = groups.blocks(near.group)
@@ -200,3 +212,13 @@ def gap_values(o: Operator, panels: GapPanels | None = None) -> tuple[Array, Arr
         S,
     )
     return reference, T, np.asarray(o.D(targets))
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """An answer: a state that its findings certify."""
+
+    state: State
+    operator: Operator
+    findings: Findings
+    steps: int

@@ -41,7 +41,7 @@ LONG, SHORT = Rule(16, 1.5, 4.0), Rule(8, 0.5, 2.0)
 FINE = Rule(16, 0.5, 2.0)  # where values between the nodes are asked for as well
 SLACK = 1.3  # the last panel of a graded row is longer than the others by no more
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
-# half-widths of the whole contact: how far out the gap is looked at where the indenter does not end
+# half-widths of the whole contact: how far out the gap is tested where the indenter does not end
 FARTHEST = 1e4
 
 

@@ -18,12 +18,11 @@ from sie.friction.changing_contact import ChangingContact
 from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
-from sie.friction.states import Slip
+from sie.friction.slip_state import Slip
 from sie.friction.turning_point import TurningPoint
 from sie.numerics.interval import Interval
 
 from .dissipation import PatchDissipation
-from .friction import PatchSlip
 
 
 class Followed(changing_contact.Followed, Protocol):
@@ -101,4 +100,4 @@ class PathEnergy:
         if not depth:
             return 0.0
         found = self.path.first_loading(state.loads.normal, depth, state.turned)
-        return found.energy if isinstance(found, PatchSlip) else dissipated(found)
+        return dissipated(found)

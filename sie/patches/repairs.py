@@ -45,7 +45,7 @@ def after(event: Event, state: State, pieces: Pieces) -> State:
 
 
 def mended(state: State, found: Findings, pieces: Pieces) -> State:
-    """The patches cut where they pull, born and merged where the bodies overlap."""
+    """The patches cut where they are in tension, added and merged where the bodies overlap."""
     P = state.patches
     ends = list(zip(P.a.tolist(), P.b.tolist(), strict=True))
     cut: list[tuple[float, float]] = []

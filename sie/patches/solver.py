@@ -1,8 +1,8 @@
 """The patches of a load, their number included.
 
 A grid gives a first guess; Newton's method finds the edges; bounds verify the inequalities. Where
-they fail, a patch is cut where it pulls, added where the bodies overlap, or merged with the next
-where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
+they fail, a patch is cut where it is in tension, added where the bodies overlap, or merged with the
+next where a whole gap overlaps, and Newton's method starts again. Nothing is returned uncertified.
 
 At fixed tilt the patches only grow, appear and merge with the load: dp/dP is the pressure of the
 flat punch on the patches, and positive. So the patches of a smaller load are a start for a larger
@@ -20,21 +20,22 @@ from numpy.typing import NDArray
 from sie.errors import ContactError, LoadError
 
 from . import newton
-from .admissible import Found, findings, gap, tensions
+from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
-from .operator import Operator
+from .operator import Found, Operator
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, State
+from .tension import tensions
 
 Array = NDArray[np.float64]
 
 SAME = 1e-9  # half-widths: by which starts differ that do not lead to the same
 ROUNDS, STALLS = 30, 1  # the most rounds, and those that end without edges or an event
-SEVERAL = 12  # patches: of more than these, cuts are looked for ...
+SEVERAL = 12  # patches: of more than these, cuts are sought ...
 EARLY, EARLY_STEPS, ROUGHLY = 4, 5, 0.1  # ... in so many rounds of so many steps, or of such a size
 # of the largest D: tension that is accepted beside a merger, where no arithmetic tells more
 NEARLY = 1e-7
@@ -49,13 +50,11 @@ FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
 NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
-COARSE = 512  # cells of a grid that looks for the window
+COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
-FAR, LOOKED_AT = (
-    1e3,
-    4000,
-)  # windows beyond a window, and places there, at which the bodies must not overlap
+# Windows beyond a window, and places there, at which the bodies must not overlap
+FAR, LOOKED_AT = 1e3, 4000
 
 
 def contact(problem: Problem) -> Found:
@@ -200,7 +199,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
             early = early if pulled or event is not None else 0
             state = mended(state, Findings(pulled, (), lowest), pieces) if pulled else state
             continue
-        found = Found(state, o, findings(o), round_ + 1, steps)
+        found = Found(state, o, findings(o), steps)
         if found.findings.ok:
             return found
         if not found.findings.overlap and found.findings.lowest > -NEARLY:
@@ -214,6 +213,12 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         "two of them are about to merge, or one to appear; change the load a little",
         patches=state.patches.number,
     )
+
+
+def findings(o: Operator) -> Findings:
+    """What the bounds of pressure and gap find."""
+    tension, lowest = tensions(o)
+    return Findings(tension, overlaps(o), lowest)
 
 
 def _rounded(state: State) -> tuple[object, ...]:

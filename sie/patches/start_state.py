@@ -51,7 +51,7 @@ class Rivals(NamedTuple):
 
 
 def _small(n: int, patch: Patch, all_: Rivals, pieces: Pieces) -> tuple[float, float] | None:
-    """The edges of patch n of a few cells; None if the grid tells them better."""
+    """The edges of patch n of a few cells; None if the grid resolves them better."""
     if patch.cells >= FEW:
         return None
     x, half = patch.centre, 0.5 * all_.dx * patch.cells

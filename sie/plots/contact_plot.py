@@ -11,9 +11,8 @@
                     with a dot on each turning point
 
 Dotted lines through the panels are the edges x1 and x2, and those of the patches between them where
-these are few. Matplotlib is imported by the modules of
-this folder, and they are imported when a picture is asked for; `pyplot` is not used, and no global
-setting is changed.
+these are few. Matplotlib is imported by the modules of this folder, and they are imported when a
+picture is asked for; `pyplot` is not used, and no global setting is changed.
 """
 
 from __future__ import annotations
@@ -301,7 +300,7 @@ def _label_peak(axes: Axes, view: _View) -> None:
     """The value of the peak above it, towards the middle of the panel, or beside an arrow."""
     largest, where = peak(view.solution)
     text = (
-        rf"$p_{{\max}}$ = {style.quantity(largest, largest, view.units.stress)}"
+        rf"$p_{{\mathrm{{max}}}}$ = {style.quantity(largest, largest, view.units.stress)}"
         if math.isfinite(largest)
         else r"$p \to \infty$"
     )

@@ -22,7 +22,8 @@ from . import style
 
 LEVELS = np.arange(1, 11) / 10.0
 NX, NY = 321, 161
-HEIGHT, LINE = 2.25, 0.2  # inches; of a line of the title
+# Inches: width of the panel, height of its labels, and of a line of the title.
+PANEL, LABELS, LINE = 2.38, 0.6, 0.2
 BAR, STICK_BAR = 2.2, 4.5  # points
 ABOVE = 0.14  # of the depth: room above the surface for the bars
 COLOURS = "YlGnBu"
@@ -38,10 +39,11 @@ def contours(solution: Solution, units: Units = UNITS, title: str = "") -> Figur
         else float(np.quantile(root[np.isfinite(root)], 0.999))
     )
     factor, length = style.scaled(solution.half_width, units.length)
-    height = HEIGHT + LINE * len(textwrap.wrap(title, style.TITLE_COLUMNS))
+    x, y = grid.x * factor, grid.y * factor
+    height = PANEL * float((1.0 + ABOVE) * y[-1] / (x[-1] - x[0])) + LABELS
+    height += LINE * len(textwrap.wrap(title, style.TITLE_COLUMNS))
     figure = Figure(figsize=(style.WIDTH, height), dpi=style.DPI, layout="constrained")
     axes = figure.subplots()
-    x, y = grid.x * factor, grid.y * factor
     filled = axes.contourf(x, y, np.minimum(root, top) / top, levels=[0.0, *LEVELS], cmap=COLOURS)
     axes.contour(
         x, y, np.minimum(root, top) / top, levels=LEVELS[:-1], colors=style.INK, linewidths=0.35

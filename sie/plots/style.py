@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import textwrap
+import warnings
 from typing import Any
 
 import matplotlib
@@ -57,7 +58,9 @@ def suffixes() -> tuple[str, ...]:
 def picture_bytes(figure: Figure, suffix: str) -> bytes:
     """The figure as a file of that suffix, without a date: the same picture is the same file."""
     stream = io.BytesIO()
-    with matplotlib.rc_context(FILES):  # for this file only
+    # For this file only; letters of a title that no font has are drawn as boxes
+    with matplotlib.rc_context(FILES), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
         figure.savefig(stream, format=suffix, dpi=DPI, metadata=UNDATED.get(suffix))
     return stream.getvalue()
 

@@ -30,8 +30,12 @@ def refuse_uncovered(scene: Scene) -> None:
 def unsheared(scene: Scene, path: Path) -> Scene:
     """The scene under the first normal load of a path alone.
 
-    Raises ValueError where one of them turns the indenter by tilt and the other by moment.
+    Raises ValueError or ContactError where a scene has no load paths, or the path is none, or one
+    of them turns the indenter by tilt and the other by moment.
     """
+    refuse_uncovered(scene)
+    if not isinstance(path, Path):
+        raise ValueError(f"{path!r} is not a path: give sie.Path([(P, Q, σ), ...])")
     for turned, held, name in (
         (path.tilt, scene.moment is not None, "moment"),
         (path.moment, scene.tilt != 0.0, "tilt"),

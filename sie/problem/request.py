@@ -21,6 +21,9 @@ ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
 # The answer where nothing is asked for: the contact. The stress is asked for by name, as it may
 # need Poisson's ratio.
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
+# Points of a table in the contact, and of a grid in the body, where no number is asked for.
+POINTS = 401
+GRID = (201, 101)
 # Quantities that depend on the shear traction.
 NEED_SHEAR = frozenset({"shear", "stress", "yield", "tension", "check"})
 # Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.

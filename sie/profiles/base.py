@@ -252,7 +252,28 @@ class Profile(ABC):
         return self if self.parity == "even" else Mirrored(self)
 
     def raised(self, dz: float) -> Profile:
-        """h(x) + dz: the height counts only among the indenters of a row."""
+        """The profile h(x) + dz. The height matters only among the indenters of a row.
+
+        Parameters
+        ----------
+        dz : float
+            The rise away from the surface, a length.
+
+        Returns
+        -------
+        Profile
+
+        Raises
+        ------
+        ValueError
+            If dz is no finite number, or larger than 1e150.
+
+        Examples
+        --------
+        >>> import sie
+        >>> sie.Parabola(1.0).raised(0.5).height([0.0, 1.0])
+        array([0.5, 1. ])
+        """
         dz = arguments.measure("raised", dz)
         return self if dz == 0.0 else Raised(self, dz)
 

@@ -219,6 +219,7 @@ class Periodic(Profile):
 
     @property
     def period(self) -> float:
+        """The distance after which the profile repeats itself, a length."""
         return self.repeats
 
     @cached_property

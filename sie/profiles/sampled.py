@@ -115,8 +115,10 @@ class Sampled(Profile):
         skip : int, default 0
             Lines at the top that are no part of the table. Comments (#, %) and headers are passed
             over without it. For text only.
-        smoothing, mend
-            As in `Sampled`; `mend` also leaves out lines that lack a value.
+        smoothing : float or "gcv", default 0
+            As in `Sampled`.
+        mend : bool, default False
+            As in `Sampled`; lines that lack a value are left out too.
 
         Returns
         -------

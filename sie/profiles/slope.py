@@ -141,6 +141,11 @@ class Slope:
             return np.zeros(len(self.origins), dtype=bool)
         return np.logical_not(self.coefficients.any(axis=1))
 
+    @property
+    def is_flat_punch(self) -> bool:
+        """Whether all pieces are flat and the domain ends on both sides."""
+        return bool(self.is_zero.all() and np.isfinite(self.domain).all())
+
     @cached_property
     def has_zero(self) -> bool:
         return bool(self.is_zero.any())

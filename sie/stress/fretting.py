@@ -160,8 +160,8 @@ class Cycle:
 
         Parameters
         ----------
-        x, y
-            As of `history`.
+        x, y : array_like of float
+            Positions and depths, length, broadcast against each other.
 
         Returns
         -------
@@ -203,8 +203,8 @@ class Cycle:
 
         Parameters
         ----------
-        x
-            As of `slip_range`.
+        x : array_like of float
+            Positions, length.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, as of `slip_range`.
+            Positions, length.
 
         Returns
         -------

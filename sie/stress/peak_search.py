@@ -1,67 +1,40 @@
 """The largest value of a measure of stress in the body: scanned at every scale, polished by Newton.
 
-Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it.
-What is not smooth are the edges and breaks of the tractions, the marks. On a disc that keeps away
-from these by its own radius the stress is a fast convergent power series, so that a scan whose
-cells are as large as a fraction of
-
-    s(x) = min_j (|x - m_j| + g_j),      m_j the marks, g_j a fraction of the gap to the next one
-
-resolves it equally well at every scale: a rounded edge of 1e-6 b has as many cells as the whole
-contact. Where the slope of a traction is infinite the stress goes like r ln r, or like the root of
-r, with the distance r. Beside a falling term k r that has a maximum at a distance of exp(-k),
-however small: there g_j is FINEST. The scan goes from the depth up to the surface. It leaves out
-windows where the values, at one scale and on the surface, are too small for a maximum at a finer
-scale. Every local maximum of the scan is a start, and so are its neighbours on both sides, because
-two maxima may lie on either side of a saddle under the centre. Points beneath a maximum of the
-surface from which the measure grows inwards are starts too.
+Scan.  Fp and Fq are analytic in the body and, through every smooth part of the surface, beyond it:
+cells as large as a fraction of the distance from what is not smooth resolve them (`scan_columns`).
+The scan goes from the depth up to the surface. It leaves out windows where the values, at one scale
+and on the surface, are too small for a maximum at a finer scale. Every local maximum of the scan is
+a start, and so are its neighbours on both sides, because two maxima may lie on either side of a
+saddle under the centre. Points beneath a maximum of the surface (`surface_peaks`) from which the
+measure grows inwards are starts too.
 
 Polishing.  Derivatives up to the third come from Cauchy's formula on a circle inside the body, with
 ρ = y/400 exact to 400^-N,
 
     F^(n)(z) = n!/(N ρ^n) Σ_j F(z + ρ ω^j) ω^(-nj),      ω = exp(2πi/N)
 
-so that gradient and Hessian are those of the stress itself, without finite differences. On the
-surface the derivative is Fp' there, and its sign changes are bracketed between neighbouring
-columns, of which every edge and break is one.
+so that gradient and Hessian are those of the stress itself, without finite differences.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics.root_finding import false_positions
-
-from .half_plane import Tractions, hilbert_of_shear, potentials
+from .half_plane import Tractions, potentials
+from .scan_columns import RATIO, Mesh, mesh_of, thinned
+from .surface_peaks import WORTH, Maximum, Measure, on_surface, slope, surface_values
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# g of a mark is this fraction of the smaller gap beside it.
-NEAR = 0.05
-# The same where there are many marks.
-NEAR_OF_MANY = 1.0
-# g where the slope of a traction is infinite, in half-widths: beyond it a gain of r ln r is
-# rounding.
-FINEST = 1e-12
-# Many marks that are nearer to each other, in half-widths, are merged.
-RESOLVED = 1e-8
-MANY_MARKS = 40
-# Of the singular marks so many are kept at most, those with the highest pressure.
-MOST_SINGULAR = 24
 # A column begins at this part of the scale s of its place.
 SHALLOW = 0.06
-# The scan reaches so many half-widths beside the contact in the body, and on the surface.
-OUTSIDE = 1.8
-FAR = 1e3
-# The largest depth of the scan in half-widths, and the ratio of its depths.
+# The largest depth of the scan in half-widths.
 DEEPEST = 4.0
-RATIO = 1.45
 # Depths between two decisions on which columns to leave out.
 LEVELS = 6
 # Columns nearer to a mark, in depths, are left out, and columns nearer to each other.
@@ -72,9 +45,6 @@ ALONE = 8.0
 # Columns whose values are below HOPELESS times the largest one within WINDOW depths are left out.
 HOPELESS = 0.8
 WINDOW = 4.0
-# Maxima of the scan below this part of the largest known value are not polished; a maximum of the
-# scan is off by its curvature over a cell.
-WORTH = 0.85
 MOST_STARTS = 48
 # Points on a circle, and the depth over its radius: seven digits of the third derivative are good.
 CIRCLE = 6
@@ -97,8 +67,6 @@ TOGETHER = 1e-3
 LEFT = 0.25
 # Depths of starts beneath a maximum of the surface, in units of the scale s there.
 INWARDS = 0.3 ** np.arange(1.0, 14.0)
-# The part of a cell that is left out at a mark, where the slope may be infinite.
-AT_MARK = 1e-9
 # Half-widths beneath a place where p is infinite at which all other terms vanish.
 BENEATH = 1e-100
 # Maxima whose values are this close are tied, and at places this close, in half-widths, the same.
@@ -120,23 +88,6 @@ class Local(NamedTuple):
     xx: Array
     xy: Array
     yy: Array
-
-
-class Measure(NamedTuple):
-    """A measure of the stress as a function of v = (s, D_r, D_i), arrays (3, ...).
-
-    It has a value, a gradient (3, ...) and a Hessian (3, 3, ...).
-    """
-
-    value: Callable[[Array], Array]
-    gradient: Callable[[Array], Array]
-    hessian: Callable[[Array], Array]
-
-
-class Maximum(NamedTuple):
-    value: float
-    x: float
-    y: float
 
 
 def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
@@ -165,67 +116,6 @@ def largest(tractions: Tractions, measure: Measure) -> tuple[Maximum, ...]:
         ):
             ties.append(Maximum(best, m.x, m.y))
     return tuple(sorted(ties, key=lambda m: m.x))
-
-
-# -- the columns of the scan -----------------------------------------------------------------------
-
-
-class Mesh(NamedTuple):
-    """Marks with their g, and columns of the scan with their distances from the next mark.
-
-    The marks are among the columns; all are ascending.
-    """
-
-    marks: Array
-    g: Array
-    x: Array
-    distance: Array
-
-    def scale(self, x: Array) -> Array:
-        """s(x) of the module."""
-        left, right, k = _from_marks(self.marks, x)
-        return np.minimum(left + self.g[k - 1], right + self.g[k])
-
-
-def _from_marks(marks: Array, x: Array) -> tuple[Array, Array, NDArray[np.intp]]:
-    """Distances of x from two marks k - 1 and k, one of which is the nearest."""
-    k = np.clip(np.searchsorted(marks, x), 1, len(marks) - 1)
-    return np.abs(x - marks[k - 1]), np.abs(x - marks[k]), k
-
-
-def mesh_of(tractions: Tractions) -> Mesh:
-    marks, singular = tractions.marks, tractions.singular
-    r = 0.5 * float(marks[-1] - marks[0])
-    if len(marks) > MANY_MARKS:  # those that resolve a cusp approach it over hundreds of octaves
-        marks = np.unique(np.concatenate((_thinned(marks, RESOLVED * r), singular, marks[-1:])))
-    gaps = np.diff(marks)
-    smaller = np.minimum(np.append(gaps, np.inf), np.insert(gaps, 0, np.inf))
-    g = (NEAR if len(marks) <= MANY_MARKS else NEAR_OF_MANY) * smaller
-    highest = singular[np.argsort(-tractions.pressure(singular), kind="stable")[:MOST_SINGULAR]]
-    finest = FINEST * r + 8.0 * np.spacing(np.abs(marks).max())
-    g[np.isin(marks, highest)] = finest
-    # Next to a fine mark others are as fine as their distance from it
-    from_left = np.minimum.accumulate(g - marks) + marks
-    from_right = np.minimum.accumulate((g + marks)[::-1])[::-1] - marks
-    g = np.minimum(g, np.maximum(np.minimum(from_left, from_right), g.min()))
-    half = 0.5 * gaps
-    # The extent of columns on both sides of a mark.
-    left, right = np.append(half, OUTSIDE * r), np.insert(half, 0, OUTSIDE * r)
-    (k, d), (j, e) = _graded(g, left), _graded(g, right)
-    x = np.unique(np.concatenate((tractions.marks, marks[k] + d, marks[j] - e)))
-    return Mesh(marks, g, x, np.minimum(*_from_marks(marks, x)[:2]))
-
-
-def _graded(g: Array, until: Array) -> tuple[NDArray[np.intp], Array]:
-    """(marks, distances) of the columns beside them; cells grow like the distance plus g."""
-    # At every depth the columns beside a mark then lie in the same directions from it.
-    step = 0.5 * np.log(RATIO)
-    count = np.ceil(np.log1p(until / g) / step).astype(np.intp)
-    k = np.repeat(np.arange(len(g)), count)
-    i = np.arange(len(k)) - np.repeat(np.cumsum(count) - count, count)
-    d = g[k] * np.expm1((i + 0.47) * step)
-    inside = d < until[k]  # none of two columns midway between marks
-    return k[inside], d[inside]
 
 
 # -- inside ----------------------------------------------------------------------------------------
@@ -293,7 +183,7 @@ def _rows(
         xs = []
         for level in levels.tolist():
             apart = (distance == 0.0) | (distance >= SPACING * level)
-            xs.append(_thinned(columns[(shallow <= level) & apart], CELL * level))
+            xs.append(thinned(columns[(shallow <= level) & apart], CELL * level))
         z = np.concatenate([x + 1j * level for x, level in zip(xs, levels, strict=True)])
         value = measure.value(_values(tractions, z))
         ends = np.cumsum([0, *map(len, xs)])
@@ -346,7 +236,7 @@ def _beneath(tractions: Tractions, measure: Measure, mesh: Mesh, places: list[fl
     x = np.array(places)
     x = x[~np.isin(x, tractions.marks)]
     if x.size:
-        x = x[_slope(tractions, measure, x, inwards=True) > 0.0]
+        x = x[slope(tractions, measure, x, inwards=True) > 0.0]
     if not x.size:
         return np.zeros(0, dtype=complex)
     z = x[:, None] + 1j * mesh.scale(x)[:, None] * INWARDS
@@ -454,49 +344,6 @@ def _local(tractions: Tractions, z: Complex) -> Local:
     return Local(*rows)
 
 
-# -- on the surface --------------------------------------------------------------------------------
-
-
-def on_surface(tractions: Tractions, measure: Measure, mesh: Mesh, above: Array) -> list[Maximum]:
-    """Local maxima along the surface that may be the largest, edges and breaks included."""
-    far = 0.5 * float(mesh.marks[-1] - mesh.marks[0]) * np.geomspace(OUTSIDE, FAR, 12)
-    far_left, far_right = mesh.marks[0] - far[::-1], mesh.marks[-1] + far
-    x = np.concatenate((far_left, mesh.x, far_right))
-    values = (surface_values(tractions, far_left), above, surface_values(tractions, far_right))
-    value = measure.value(np.concatenate(values, axis=1))
-    padded = np.concatenate(([-np.inf], value, [-np.inf]))
-    best = value.max()
-    if np.isinf(best):
-        return [
-            Maximum(float(v), float(at), 0.0) for v, at in zip(value, x, strict=True) if np.isinf(v)
-        ]
-    floor = best - (1.0 - WORTH) * max(abs(best), abs(value).max())
-    top = np.flatnonzero((value >= padded[:-2]) & (value >= padded[2:]) & (value >= floor))
-    columns = top
-    # Between columns a concave top exceeds the middle value by no more than the fall to a neighbour
-    fall = value[top] - np.minimum(padded[top], padded[top + 2])
-    top = top[(fall > 0.0) & (value[top] + np.where(np.isfinite(fall), fall, np.inf) >= best)]
-    left = np.unique(np.concatenate((top - 1, top)))
-    left = left[(left >= 0) & (left < len(x) - 1)]
-    lo, hi = x[left], x[left + 1]
-    inset = np.maximum(AT_MARK * (hi - lo), np.spacing(np.maximum(np.abs(lo), np.abs(hi))))
-    lo, hi = (
-        lo + np.where(np.isin(lo, tractions.marks), inset, 0.0),
-        hi - np.where(np.isin(hi, tractions.marks), inset, 0.0),
-    )
-    roots = false_positions(lambda t: _slope(tractions, measure, t), lo, hi)
-    at_root = measure.value(surface_values(tractions, roots))
-    highest = np.full(len(x) + 1, -np.inf)  # of the roots between neighbouring columns
-    np.maximum.at(highest, np.searchsorted(x, roots), at_root)
-    tops = columns[value[columns] >= np.maximum(highest[columns], highest[columns + 1])]
-    places = ((value[tops], x[tops]), (at_root, roots))
-    return [
-        Maximum(float(v), float(t), 0.0)
-        for values, at in places
-        for v, t in zip(values, at, strict=True)
-    ]
-
-
 def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Maximum]:
     """The limit of a measure of D alone (an incompressible body) where p is infinite.
 
@@ -524,53 +371,6 @@ def beneath_infinite_pressure(tractions: Tractions, measure: Measure) -> list[Ma
     largest_D = np.where((x == x1) | (x == x2), np.inf, np.abs(Fq + 0.5j * C) + 0.5 * np.abs(C))
     value = measure.value(np.stack((on[0], largest_D, np.zeros(len(x)))))
     return [Maximum(float(v), float(t), 0.0) for v, t in zip(value, x, strict=True)]
-
-
-def surface_values(tractions: Tractions, x: Array) -> Array:
-    """(s, D_r, D_i) on the surface, (3, n); at the edges their limits from inside the contact."""
-    p, q = tractions.pressure(x), tractions.shear(x)
-    hilbert = hilbert_of_shear(tractions, x, p)
-    if tractions.shear.interval == tractions.pressure.interval:
-        for x_edge, limit in zip(
-            tractions.shear.interval, tractions.shear.hilbert_at_edges, strict=True
-        ):
-            edge = (x == x_edge) & np.isfinite(p)
-            p, q, hilbert = (
-                np.where(edge, 0.0, p),
-                np.where(edge, 0.0, q),
-                np.where(edge, limit, hilbert),
-            )
-    half = 0.5 * tractions.bulk_stress
-    return np.stack((half - p - hilbert, hilbert - half, -q))
-
-
-def _slope(tractions: Tractions, measure: Measure, x: Array, inwards: bool = False) -> Array:
-    """d/dx, or d/dy, of the measure on the surface, in units of the half-width.
-
-    It is taken beside edges and breaks, by the limit of the potentials, y Φ' = 0.
-    """
-    x1, x2 = tractions.pressure.interval
-    Phi, dPhi, Fq, dFq = (np.zeros(x.shape, dtype=complex) for _ in range(4))
-    for density, p, q in tractions.combined:
-        F, dF = density.potentials(x + 1j * tractions.depth_of_surface)
-        Phi += (p - 1j * q) * F
-        dPhi += (p - 1j * q) * dF
-        Fq += q * F
-        dFq += q * dF
-    half = 0.5 * tractions.bulk_stress
-    value: Array = np.stack((Phi.imag + half, Fq.real - half, Fq.imag))
-    ds, dD = (dPhi.real, 1j * dFq - dPhi) if inwards else (dPhi.imag, dFq)
-    derivative = 0.5 * (x2 - x1) * np.stack((ds, dD.real, dD.imag))
-    return (measure.gradient(value) * derivative).sum(axis=0)
-
-
-def _thinned(x: Array, spacing: float) -> Array:
-    """A subset of x (ascending) with one of every cell of that width.
-
-    The number of columns then depends on the depth.
-    """
-    cell = np.floor((x - x[:1]) / spacing)
-    return x[np.append(np.ones(min(len(x), 1), dtype=bool), cell[1:] != cell[:-1])]
 
 
 def _nearest(x: Array, to: Array) -> NDArray[np.intp]:

@@ -21,7 +21,9 @@ from numpy.typing import NDArray
 from sie import arguments
 
 from .half_plane import Stress, Tractions
-from .peak_search import Maximum, Measure, largest, mesh_of, on_surface, surface_values
+from .peak_search import largest
+from .scan_columns import mesh_of
+from .surface_peaks import Maximum, Measure, on_surface, surface_values
 
 Array = NDArray[np.float64]
 Criterion = Literal["mises", "tresca"]

@@ -187,7 +187,9 @@ class Density(ABC):
 
         Parameters
         ----------
-        z, side
+        z : array_like
+            Places x + i y, lengths of any shape.
+        side : {1, -1, 0}
             As of `cauchy`.
 
         Returns
@@ -208,8 +210,8 @@ class Density(ABC):
 
         Parameters
         ----------
-        x
-            As of the traction itself.
+        x : array_like
+            Places on the surface, lengths of any shape.
 
         Returns
         -------
@@ -292,7 +294,7 @@ class Density(ABC):
         ----------
         z : array_like
             Places x + i y, lengths of any shape.
-        side
+        side : {1, -1, 0}
             As of `cauchy`.
 
         Returns

@@ -22,7 +22,7 @@ from .base import ZERO, Density
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# How far beside a place where infinite terms cancel their finite sum is looked at: the difference
+# How far beside a place where infinite terms cancel their finite sum is evaluated: the difference
 # of both sides is the square of this.
 BESIDE = 1e-7
 CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rounding
@@ -87,7 +87,7 @@ class Combination(Density):
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         flat = x.ravel()
-        with np.errstate(invalid="ignore"):  # infinities that cancel are looked at below
+        with np.errstate(invalid="ignore"):  # infinities that cancel are treated below
             total: Array = self._total([density(flat) for _, density in self.terms])
         for k in np.flatnonzero(~np.isfinite(total) & ~np.isnan(flat)):
             total[k] = self._at_infinity(float(flat[k]))

@@ -38,7 +38,7 @@ BreakFunction = Callable[[Any, Any, Any, Any], Any]
 
 
 class Points(NamedTuple):
-    """Points of the upper half-plane, and what V and V' need of the edges there."""
+    """Points of the upper half-plane, and the functions of the edges there for V and V'."""
 
     z: Complex
     left: Complex  # z - x1

@@ -58,7 +58,7 @@ class SlopeDensity(Density):
         return 0.0
 
     def moved(self, contact: Interval, dx: float, tail: float) -> Self:
-        """The same on `contact`, its own moved by dx + tail, with its knowledge of the slope."""
+        """The same on `contact`, its own moved by dx + tail, with the same data of the slope."""
         return replace(self, contact=contact)
 
     @property

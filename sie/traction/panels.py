@@ -206,8 +206,8 @@ class Panels:
             return []
         rise: dict[float, float] = {}
         least = SEEN_JUMP if g.slope.functions else JUMP
-        # Of coefficients given about x = 0, rounding grows with the distance from there.  The
-        # pieces beside a break decide: others may be as steep as a cusp.
+        # Rounding of coefficients that are given about x = 0 grows with the distance from there.
+        # The pieces beside a break decide: others may be as steep as a cusp.
         steepness = np.abs(self.series[:, 1:]).sum(axis=1) / self.half_length
         rounding: dict[float, float] = {}
         for k, (lo, hi) in enumerate(g.ends.T.tolist()):

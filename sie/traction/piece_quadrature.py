@@ -183,7 +183,8 @@ class Geometry:
 class SlidingGeometry(Geometry):
     """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that
     ends at an edge, Gauss-Legendre in ln τ on others. The slope is broken at the middle of the
-    contact, so that no piece comes near both edges."""
+    contact, so that no piece comes near both edges.
+    """
 
     def __init__(
         self, slope: Slope, contact: Interval, epsilon: float, keep_zero: bool = False

@@ -347,7 +347,7 @@ def test_on_several_intervals_a_smooth_kernel_is_called_once(intervals):
 
 @pytest.mark.parametrize("height", [0.3, 0.1])
 def test_a_narrow_kernel_is_called_twice(height):
-    """The first grid's coefficients tell how fine the second must be."""
+    """The first grid's coefficients determine how fine the second must be."""
     count, density = counted(lambda x, t: height / ((t - x) ** 2 + height**2) / np.pi)
     assert count == 2
     assert density.n[0] < 25 / height
@@ -387,7 +387,9 @@ def test_the_series_is_the_kernel_to_the_tolerance(k, tol):
 
 
 def test_a_series_that_agrees_on_its_grid_only_is_refused():
-    """T_384 is T_0 at the 65 rows (aliases differ by multiples of 128): seen between them."""
+    """T_384 is T_0 at the 65 rows (aliases differ by multiples of 128), and differs between
+    them.
+    """
     problem = sie.CauchyEquation(
         (-1.0, 1.0), 1.0, k=lambda x, t: np.cos(384.0 * np.arccos(x)) + 0.0 * t, total=0.0
     ).problem
@@ -629,9 +631,8 @@ def test_infinite_and_vanishing_ends_are_told_apart():
 
 def test_the_sign_of_a_density_s_potential_is_the_half_plane_s():
     density = sie.CauchyEquation((-1.0, 1.0), g=1.0, total=0.0).solve()
-    assert density.hilbert(0.3) == pytest.approx(
-        -1.0, abs=1e-14
-    )  # the equation's 1/(t - x) gives g = +1
+    # The equation's 1/(t - x) gives g = +1.
+    assert density.hilbert(0.3) == pytest.approx(-1.0, abs=1e-14)
     assert density.cauchy(0.3, 0) == pytest.approx(-1.0, abs=1e-14)
     assert density.cauchy(0.3, 1) == pytest.approx(-1.0 - 1j * float(density(0.3)), abs=1e-14)
 

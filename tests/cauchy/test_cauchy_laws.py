@@ -1,7 +1,7 @@
 """What every solution of a Cauchy equation obeys, and manufactured ones: exponents, kernels,
 intervals and poles drawn at random.
 
-The reference (`oracles.manufactured`) is in 40 digits and knows nothing of orthogonal polynomials.
+The reference (`oracles.manufactured`) is in 40 digits and uses no orthogonal polynomials.
 """
 
 from typing import NamedTuple
@@ -76,9 +76,8 @@ def test_the_manufactured_integrals_agree_with_quadrature(a, ends):
             lambda s, kernel=kernel: d.value(d.m + d.r * s) * kernel(d.m + d.r * s) * d.r,
             [-1, 0, 1],
         )
-        assert (
-            abs(integral - closed) < mp.mpf(10) ** -14
-        )  # of tanh-sinh towards an end with an exponent of -0.6
+        # The error is that of tanh-sinh towards an end with an exponent of -0.6.
+        assert abs(integral - closed) < mp.mpf(10) ** -14
 
 
 # -- manufactured solutions -----------------------------------------------------------------------
@@ -315,8 +314,8 @@ def test_the_coefficients_at_a_gap_have_the_error_of_rounding_of_g_and_state_it(
 def test_next_to_a_gap_the_error_is_no_less_than_a_third_of_the_true_one_and_no_absurd_one(
     a, ends, gap, at
 ):
-    """Of φ over its peak, singular ends divided out; where g varies across a gap, doubles x are
-    what limits it.
+    """The error is that of φ over its peak, singular ends divided out; where g varies across a gap,
+    doubles x limit it.
     """
     intervals, both = ((at - 1.0, at), (at + gap, at + 1.5)), (ends, ends[::-1])
     manufactured = [
@@ -461,9 +460,8 @@ def test_the_potential_next_to_a_gap_is_that_of_40_digits(gap):
         1.0 - 5.0j,
         1e4 + 1e4j,
     ]
-    size = (
-        10 * PROMISE * max(1.0, 1e-3 / gap)
-    )  # the densities themselves are known so well next to the gap
+    # The densities themselves are known so well next to the gap.
+    size = 10 * PROMISE * max(1.0, 1e-3 / gap)
     for where, found in zip(z, density.cauchy(z), strict=True):
         expected = complex(sum(d.cauchy(where) for d in manufactured))
         assert abs(found - expected) <= size * abs(expected), where

@@ -180,9 +180,7 @@ def test_the_stick_zone_of_such_a_function_is_right_too(name):
 
 @pytest.mark.parametrize("name", ["jump", "narrow bump", "faint bump"])
 def test_the_certificate_detects_a_feature_that_the_solver_missed(name, monkeypatch):
-    """The solver without its look between the points: the certificate looks at points of its
-    own.
-    """
+    """The solver does not test between its points: the certificate does, at points of its own."""
     slope, breaks = UNDECLARED[name]
     right = pressed(slope, breaks=breaks)
     monkeypatch.setattr(normal, "LOOKS", 0)
@@ -284,8 +282,8 @@ def test_a_slope_that_returns_a_list_of_the_right_shape_is_a_function_all_the_sa
 
 @pytest.mark.parametrize(("exponent", "tilt"), [(1.0424, -0.0519), (1.006, 0.03), (1.02, 0.002)])
 def test_a_tilted_power_next_to_a_wedge_is_certified(exponent, tilt):
-    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which no pressure beside it
-    feels.
+    """Its slope |x|^0.006 is steep on the axis to 1e-97 of the contact, which changes no pressure
+    beside it.
     """
     profile = sie.Power(exponent, 0.75)
     assert sie.solve(sie.Scene(profile=profile, modulus=1.0, normal_load=0.3, tilt=tilt)).check().ok
@@ -364,8 +362,8 @@ def test_the_certificate_of_a_power_resolves_no_function(exponent, monkeypatch):
 @pytest.mark.parametrize("exponent", [1.3, 2.5, 60.5])
 @pytest.mark.parametrize("size", [1e-6, 1e-9])
 def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
-    """Of the right load and the law's own shape: the equation and the conditions of the edges
-    tell.
+    """Its load is right and its shape that of the law: the equation and the conditions of the edges
+    show it.
     """
     scene = sie.Scene(profile=sie.Power(exponent, 0.75), modulus=1.0, normal_load=0.3)
     right, wide = (sie.solve(scene) for _ in range(2))
@@ -381,7 +379,9 @@ def test_a_power_s_contact_that_is_too_wide_is_detected(exponent, size):
 
 @pytest.mark.parametrize("tol", [1e-3, 1e-6, 1e-9])
 def test_a_function_resolved_to_a_coarse_tolerance_is_answered_to_it(tol):
-    """What a coarse resolution misses everywhere is no feature that it has not seen."""
+    """An error that a coarse resolution has everywhere is not taken for a feature that it
+    missed.
+    """
     wave = sie.FromFunction(
         lambda x: np.sin(2.0 * np.arctan(x)) / (1.0 + x * x), domain=(-2.0, 2.0), parity="even"
     )

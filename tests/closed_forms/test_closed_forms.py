@@ -29,9 +29,8 @@ INDENTERS = (rounded_flat, hertz, wedge, power, flat)
 
 mp = mpmath.MPContext()  # references
 mp.dps = 50
-deep = (
-    mpmath.MPContext()
-)  # references from formulas that cancel to the third power of a rim of 1e-12
+# References from formulas that cancel to the third power of a rim of 1e-12
+deep = mpmath.MPContext()
 deep.dps = 120
 coarse = mpmath.MPContext()  # quadrature, where doubles are what is checked
 coarse.dps = 20
@@ -149,7 +148,7 @@ def test_rounded_load_is_the_papers_formula_to_the_last_digits(contact: Rounded)
 def test_rim_inverts_the_load_to_the_last_digits(contact: Rounded) -> None:
     P = rounded_flat.load(**contact.given, **UNIT)
     rim = rounded_flat.rim(normal_load=P, half_flat=contact.given["half_flat"], **UNIT)
-    # One step of Newton's method at high precision tells how far the rim is from the exact answer
+    # A step of Newton's method at high precision gives the distance of the rim from the exact one
     # for this very load.
     b = contact.a + deep.mpf(float(rim))
     step = (formula_35(contact.a, b) - deep.mpf(float(P))) / (b * deep.acos(contact.a / b))
@@ -266,9 +265,8 @@ def test_chebyshev_series_sums_to_the_pressure(ratio: float) -> None:
     phi = np.linspace(0.02, 1.5, 7)
     b_n = rounded_flat.chebyshev_coefficients(3000, **given)
     n = np.arange(3000)
-    total = (b_n * (-1.0) ** n * np.cos((2 * n + 1) * phi[:, None])).sum(
-        axis=1
-    )  # sqrt(1-x²) U_2n(x) at x = sin(phi)
+    # sqrt(1-x²) U_2n(x) at x = sin(phi)
+    total = (b_n * (-1.0) ** n * np.cos((2 * n + 1) * phi[:, None])).sum(axis=1)
     # b_n = O(n^-2) leaves O(N^-2) away from the kink, O(N^-1) next to it
     np.testing.assert_allclose(
         total, rounded_flat.pressure(2 * np.sin(phi), **given), atol=2e-6, rtol=0
@@ -801,9 +799,8 @@ def test_arrays_broadcast(function: Callable[..., Any], given: dict[str, Any]) -
 
 @pytest.mark.parametrize("length", [1e-100, 1e100])
 @pytest.mark.parametrize("stress", [1e-100, 1e100])
-@over_calls(
-    [call for call in CALLS if call[1].get("exponent", 1) <= 3]
-)  # beyond, C itself is out of a double's range
+# Beyond these exponents C itself is out of a double's range.
+@over_calls([call for call in CALLS if call[1].get("exponent", 1) <= 3])
 def test_results_scale_with_lengths_and_moduli(
     function: Callable[..., Any], given: dict[str, Any], length: float, stress: float
 ) -> None:

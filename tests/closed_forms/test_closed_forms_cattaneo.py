@@ -12,13 +12,14 @@ from analytic import cattaneo, cattaneo_rounded, hertz, rounded_flat
 
 HERTZ = {"half_width": 1.0, "normal_load": 2.0, "friction": 0.3}
 ROUNDED = {"normal_load": 0.3, "half_flat": 0.5, "radius": 2.0, "modulus": 3.0, "friction": 0.3}
+# The contact is [-1, 1].
 PARABOLA = {
     "normal_load": np.pi / 2,
     "half_flat": 0.0,
     "radius": 1.0,
     "modulus": 2.0,
     "friction": 0.3,
-}  # contact [-1, 1]
+}
 PARTS = [1e-14, 1e-5, 0.3, 0.5, 0.9, 1 - 1e-9, 1 - 1e-14]
 deep = mp.clone()  # references that cancel
 deep.dps = 90
@@ -147,9 +148,8 @@ def test_stick_zone_of_the_rounded_flat_solves_the_papers_equation_20(
     )
     left = deep.mpf(load) * (1 - exact_part(given))
     for value, s in ((stick, a + stick), (slip, a + rim - slip)):
-        error = (plain_load(a, s) - left) / (
-            s * deep.acos(a / s)
-        )  # of s, by a step of Newton's method
+        # The error of s, by a step of Newton's method
+        error = (plain_load(a, s) - left) / (s * deep.acos(a / s))
         assert abs(error / value) < 8 * EPS
 
 
@@ -220,9 +220,8 @@ def test_slip_of_the_rounded_flat_follows_from_its_shear(part: float) -> None:
     for share in ("0.2", "1"):
         x = start + (rim - stick) * short.mpf(share)
         exact = short.mpf(0.3) * short.quad(steepness, [start, x])
-        assert (
-            abs(cattaneo_rounded.slip(float(x) * (1 - 2 * EPS), **given) / exact - 1) < 1e-12
-        )  # x is a rounded edge
+        # x lies in a rounded edge.
+        assert abs(cattaneo_rounded.slip(float(x) * (1 - 2 * EPS), **given) / exact - 1) < 1e-12
         assert (
             abs(cattaneo_rounded.slip(x * (1 - short.mpf("1e-24")), **given, lib=short) / exact - 1)
             < 1e-20

@@ -55,9 +55,8 @@ def test_sliding_flat_solves_its_equation(k: float, moment: float | None) -> Non
 
     integral, x = principal_value(p, 0.3, (-1, 1))
     tilt = sliding_flat.tilt(**given, modulus=3, lib=mp) if moment is not None else 0
-    assert (
-        abs(integral - k * p(x) - mp.mpf(3) / 2 * tilt) < 1e-16
-    )  # 1e-30 from a corner sums to 1e-30^(1 - 2|eps|)
+    # 1e-30 from a corner sums to 1e-30^(1 - 2|eps|).
+    assert abs(integral - k * p(x) - mp.mpf(3) / 2 * tilt) < 1e-16
 
 
 @pytest.mark.parametrize(("beta", "x"), [(0.5, -0.7), (-0.3, 0.3)])
@@ -97,9 +96,8 @@ def test_sliding_rounded_flat_solves_its_equation(k: float) -> None:
             t, weight = t[(t != x) & (abs(t - x) > 1e-12)], weight[(t != x) & (abs(t - x) > 1e-12)]
             total += ((sliding_rounded_flat.pressure(t, **given) - px) / (x - t) * weight).sum()
         slope = rounded_flat.slope(x, half_flat=0.5, radius=2.0)
-        assert (
-            abs(total / np.pi - k * px - 1.5 * slope) < 3e-12
-        )  # of points 1e-12 from the pole, where rounding is 1e-4
+        # The error is that of points 1e-12 from the pole, where rounding is 1e-4.
+        assert abs(total / np.pi - k * px - 1.5 * slope) < 3e-12
 
 
 @pytest.mark.parametrize(("k", "a"), [(0.49, 0.5), (-0.3, 20.0), (0.49, 0.0)])

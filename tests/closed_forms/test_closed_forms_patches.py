@@ -73,8 +73,8 @@ def test_wave_and_rows_solve_their_equations(x: float) -> None:
 
 
 def test_two_flats_keep_their_difference_of_height() -> None:
-    """Of the potential between the flats, less that of the tilt, the integral vanishes; the tilt's
-    sign is that of -M.
+    """The integral of the potential between the flats, less that of the tilt, vanishes; the sign of
+    the tilt is that of -M.
     """
     given = {**FLATS, "moment": -2.0}
     tilt = two_flats.tilt(**given, modulus=2, lib=mp)

@@ -12,7 +12,7 @@ import sie
 from sie import solution
 from sie.certificate import quadrature
 from sie.contact import edges, normal, pressure, widest_contact
-from sie.friction import dissipation
+from sie.friction import growth_panels
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.profiles import lowest_points, resolution
@@ -173,7 +173,7 @@ def test_small_steps_of_an_oblique_path_share_their_panels():
     loads = np.stack((0.4 * steps, 0.05 * steps * (-1.0) ** np.arange(200)), axis=1)
     path = sie.Path(loads.tolist())
     history = sie.follow(scene(PUNCH, friction=0.5), path)
-    with counted(dissipation.Dissipation, "_resolved") as panels:
+    with counted(growth_panels.GrowthPanels, "_resolved") as panels:
         assert history[-1].energy_lost > 0.0
     assert len(panels) <= 20
 

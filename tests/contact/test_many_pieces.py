@@ -143,9 +143,8 @@ def test_pairs_of_a_rough_spline_are_exact_to_rounding():
     slope = spline_slope(200, 1e-3)
     exact = ExactSpline(slope, CONTACT.x1, CONTACT.x2)
     x = np.random.default_rng(2).uniform(-1.01, 0.97, 8)
-    found = potential.on_contact(
-        panels.Panels(Geometry(slope, CONTACT)), x
-    )  # π p/G of smooth edges
+    # π p/G of smooth edges
+    found = potential.on_contact(panels.Panels(Geometry(slope, CONTACT)), x)
     assert found == pytest.approx(
         [float(exact.pressure(at, mp.pi)) for at in x], abs=1e-14 * np.abs(found).max()
     )

@@ -342,7 +342,7 @@ def test_many_narrow_patches_are_summed_as_by_one_product_over_all():
     a = np.cumsum(np.random.default_rng(3).uniform(0.05, 1.0, 300))[::2]
     b = a + np.diff(np.append(a, a[-1] + 1.0)) * 0.6
     pieces = problem_of(sie.Scene(modulus=1.0, profile=TWO, normal_load=0.4)).pieces((-1.0, 200.0))
-    measure = Operator(Patches(a, b, Chord()), pieces)
+    measure = Operator(Patches(a, b, Chord()), pieces, np.zeros(2 * len(a)))
     middle = 0.5 * (b[:-1] + a[1:])
     i = np.arange(len(middle))
     product = measure.others(i, Points(middle[:, None], np.zeros((len(middle), 1))))[:, 0]

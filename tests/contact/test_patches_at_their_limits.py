@@ -15,9 +15,8 @@ HEIGHTS = (
     (0.23, 4.1, 2.53, 0.008),
     (0.25, 1.18, 4.26, 0.019),
 )
-ROUNDED = sie.Row(
-    [sie.RoundedFlat(a, R).shifted(x).raised(z) for a, R, x, z in HEIGHTS]
-)  # pressed so hard that it nearly touches as a whole, but for its concave corners
+# Under a load at which all touches, but for the concave corners
+ROUNDED = sie.Row([sie.RoundedFlat(a, R).shifted(x).raised(z) for a, R, x, z in HEIGHTS])
 
 
 def solved(**asked):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import sie
-from sie.patches.admissible import _joined
+from sie.patches.tension import _joined
 
 
 def solved(**asked):

@@ -280,11 +280,22 @@ def answered(scene, points):
         assert solution.shear.resultant == pytest.approx(solution.tangential_load, abs=1e-12)
 
 
-def test_the_steady_cycle_that_a_refused_path_offers_is_found():
+def test_the_steady_cycle_that_a_refused_path_offers_has_its_loads_and_energy():
     with pytest.raises(sie.ContactError, match=r"ask sie\.steady_cycle"):
         answered(SHEARED, MIXED)
     cycle = sie.steady_cycle(SHEARED, *MIXED)
-    assert cycle.energy > 0.0
+    assert cycle.shear_change.resultant == pytest.approx(MIXED[0][1] - MIXED[1][1], rel=1e-13)
+    edges, (stick,) = cycle[0].pressure.interval, cycle.stick
+    lost = sum(friction_work(cycle, *zone) for zone in zip(edges, stick))
+    assert cycle.energy == pytest.approx(2.0 * lost, rel=1e-9)
+
+
+def friction_work(cycle, edge, end):
+    """∫ f p |slip| dx over a slip zone, on the way from one turning point to the other."""
+    t, w = np.polynomial.legendre.leggauss(40)
+    x = 0.5 * (edge + end) + 0.5 * (end - edge) * np.sin(0.5 * np.pi * t)
+    dx = 0.25 * np.pi * abs(end - edge) * np.cos(0.5 * np.pi * t) * w
+    return SHEARED.friction * np.sum(cycle[0].pressure(x) * cycle.slip_range(x) * dx)
 
 
 def test_a_constant_tilt_lets_the_normal_load_grow_after_a_moment():

@@ -281,9 +281,8 @@ def test_waves_pressed_flat_are_one_contact_wherever_the_profile_lies(height, nu
 
 
 def test_the_refusal_of_a_contact_that_overlaps_elsewhere_names_the_place():
-    profile = sie.Piecewise(
-        (-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0))
-    )  # h' = 0 again at ±3
+    # h' = 0 again at ±3
+    profile = sie.Piecewise((-1.0, 1.0), ((3.0, 1.0), (0.0, 2.0), (-3.0, 1.0)))
     with pytest.raises(sie.ContactError, match="x = ") as caught:
         asked(scene(profile=profile, normal_load=..., half_width=0.15))
     assert np.isfinite(caught.value.reached["x"])

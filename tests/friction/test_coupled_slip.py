@@ -39,6 +39,7 @@ PROFILES = {
     "rounded flat": sie.RoundedFlat(0.5, 1.0),
     "polynomial": sie.Polynomial((0.0, 0.0, 0.5, 0.0, 0.2)),
     "function": sie.FromFunction(slope="sinh(x)"),
+    "function without slope": sie.FromFunction(slope="0*x", domain=(-1.0, 1.0)),
     "shifted": sie.Parabola(1.0).shifted(3.0),
     "kinked": sie.Piecewise((-2.0, -0.4, 0.4, 2.0), ((-0.8, 1.0), (0.0, 0.5), (0.8, 1.0))),
 }
@@ -359,7 +360,7 @@ def test_rounded_flat_tends_to_a_parabola_and_to_a_flat():
 
 
 def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
-    # Of similar bodies P = E* A m b^m W with W = sqrt(π)/2 Γ((m+1)/2)/Γ(m/2+1), so that 2 m M W = 1
+    # If β = 0, P = E* A m b^m W with W = sqrt(π)/2 Γ((m+1)/2)/Γ(m/2+1), so that 2 m M W = 1
     flat = flat_functions(1e-7, 1e-7)
     for m in (1.0, 2.0, 3.7, 9.0):
         W = 0.5 * math.sqrt(math.pi) * math.gamma(0.5 * (m + 1.0)) / math.gamma(0.5 * m + 1.0)
@@ -371,7 +372,8 @@ def test_moments_of_power_laws_are_those_of_similar_bodies_as_beta_vanishes():
 
 def flat_on_a_grid(beta, friction, n=120):
     """The printed equations (1) and (12) on n equal cells by an active set: stick half-width and
-    pressures."""
+    pressures.
+    """
     edges = np.linspace(-1.0, 1.0, n + 1)
     x = 0.5 * (edges[1:] + edges[:-1])
     # ∫ ln|x - t| dt over the cells: both equations integrated once are displacements

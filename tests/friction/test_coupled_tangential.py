@@ -380,6 +380,14 @@ def test_sharp_edges_are_refused_with_the_width_of_the_zone_that_is_missing(prof
         _ = solved(profile).edges
 
 
+@pytest.mark.parametrize(
+    "profile", [sie.Flat(1.0), sie.Flat(0.1).shifted(3.0), sie.Piecewise((-1.0, 1.0), ((0.0,),))]
+)
+def test_a_sharp_flat_is_refused_before_anything_is_solved(profile):
+    with pytest.raises(sie.ContactError, match="corner of the indenter"):
+        solved(profile)
+
+
 def test_width_of_the_zone_that_is_missing_follows_the_oscillation_of_a_bonded_edge():
     width = math.exp(-math.pi * (0.5 * math.pi + math.atan(0.3)) / math.atanh(0.3))
     with pytest.raises(sie.ContactError, match=f"about {width:.1g} half-widths"):

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 import sie
 from oracles.kalker import Mesh
 from sie.friction.memory import LoadMemory
+from sie.friction.slip_state import edge_frames
 from sie.friction.slip_zones import slip_zone
-from sie.friction.states import edge_frames
 from sie.io.export import as_dict
 from sie.io.report import summary
 from sie.io.scene_file import SceneFile
@@ -602,9 +602,8 @@ def test_random_histories_agree_with_a_mesh_to_its_error(steps, case):
     assert coarse[:, 0].max() < 6e-3 and coarse[:, 2].max() < 1.5
     assert fine[:, 0].max() < 1.6e-3 and fine[:, 2].max() < 1.5
     assert fine[:, 0].mean() < 0.45 * coarse[:, 0].mean()
-    assert (
-        fine[-1, 1] < 0.45 * coarse[-1, 1]
-    )  # of a zone of a few elements the slip is known to few digits, on any mesh
+    # In a zone of a few elements the slip is known to few digits, on any mesh.
+    assert fine[-1, 1] < 0.45 * coarse[-1, 1]
 
 
 def test_large_bulk_stress_that_opens_both_zones_is_reached_by_any_number_of_steps():

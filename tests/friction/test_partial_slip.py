@@ -150,9 +150,10 @@ def test_the_shear_next_to_the_stick_zone_of_a_thin_slip_zone():
     for t in (1e-1, 1e-3, 1e-6, 1e-9):
         x = float(c) * (1.0 - 1e-3 * t)
         q = E * F / 2 * (mp.sqrt(b * b - mp.mpf(x) ** 2) - mp.sqrt(c * c - mp.mpf(x) ** 2))
+        # The last term is the effect of an ulp of c.
         assert abs(float(solution.shear(x)) / q - 1) < 1e-12 + 2 * math.ulp(x) / mp.sqrt(
             (c - x) * (b - c)
-        )  # what an ulp of c does
+        )
 
 
 @pytest.mark.parametrize(
@@ -226,8 +227,8 @@ def test_slip_at_incipient_sliding_is_f_times_the_height_of_the_profile():
 )
 @pytest.mark.parametrize("strain", [-1e3, -4.0, 0.1, 7.0])
 def test_full_sliding_under_any_bulk_stress_is_the_limit_of_what_slipped_before(profile, strain):
-    """Where the strain pulls the lowest point out of the contact, or there is none, the last point
-    to let go is an edge.
+    """Where the strain pulls the lowest point out of the contact, or there is none, an edge slips
+    last.
     """
     whole, almost = (
         sheared(profile, fraction, bulk_stress=strain * P) for fraction in (1.0, 1.0 - 1e-12)

@@ -120,9 +120,8 @@ def test_rounded_punch_against_principal_value_quadrature_with_thirty_digits(cou
 
     c = mp.cos(mp.pi * e)
     assert abs(over_rims(lambda t: 1)) < 1e-14 * abs(over_rims(lambda t: t))
-    assert solution.normal_load == pytest.approx(
-        float(c * over_rims(lambda t: t)), rel=1e-14
-    )  # E*/2 = 1
+    # E*/2 = 1
+    assert solution.normal_load == pytest.approx(float(c * over_rims(lambda t: t)), rel=1e-14)
     for x in (-0.9, 0.0, 0.75, 0.999):  # on the flat, where no principal value is needed
         p = (
             c**2
@@ -154,9 +153,8 @@ def test_the_sliding_rounded_punch_of_both_packages(coupling, half_flat):
     ] == pytest.approx([float(r) for r in rims], rel=1e-12)
     x = inside(solution)
     exact = analytic.dissimilar.sliding_rounded_flat.pressure(x, **closed)
-    middle = (
-        np.abs(x - solution.centre) < 0.999 * solution.half_width
-    )  # nearer, the edge as a double is what differs
+    # Nearer to it the rounding of the edge to a double is the difference.
+    middle = np.abs(x - solution.centre) < 0.999 * solution.half_width
     assert solution.pressure(x)[middle] == pytest.approx(exact[middle], rel=1e-12)
     assert solution.moment == pytest.approx(
         float(analytic.dissimilar.sliding_rounded_flat.moment(**closed)), rel=1e-12
@@ -384,9 +382,8 @@ def test_the_remedy_for_dissimilar_bodies_keeps_all_but_their_coupling(loads):
     followed = sie.solve(replace(scene, dundurs=0))
     body, indenter = ((1.0 - e.poisson**2) / e.young for e in PAIR.values())
     assert followed.scene.Estar == pytest.approx(1.0 / (body + indenter), rel=1e-15)
-    strain = (
-        loads.get("bulk_stress", 0.0) * body
-    )  # of the body, plane strain; E*/2 times it is what the shear answers
+    # The strain of the body in plane strain; E*/2 times it is balanced by the shear.
+    strain = loads.get("bulk_stress", 0.0) * body
     similar = {name: value for name, value in loads.items() if name != "bulk_stress"} | {
         "bulk_stress": 2.0 * strain / (body + indenter)
     }

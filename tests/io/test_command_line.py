@@ -267,9 +267,8 @@ def test_csv_reads_back_as_the_library_s_numbers(kind, tmp_path, capsys):
     np.testing.assert_array_equal(p, solution.pressure(x))
     np.testing.assert_array_equal(gap, solution.gap(x))
     assert (np.diff(x) > 0).all()
-    breaks = (
-        file.scene.profile.breaks if kind != "sampled" else ()
-    )  # of a trace no break is a place of its own
+    # A break of a trace is no place of its own.
+    breaks = file.scene.profile.breaks if kind != "sampled" else ()
     assert {*solution.edges, *(b for b in breaks if x[0] < b < x[-1])} <= set(x.tolist())
 
 

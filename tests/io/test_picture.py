@@ -119,7 +119,7 @@ def test_a_finite_peak_is_marked_by_dots_and_its_value():
     (left, right), p = dots.get_data()
     assert right == pytest.approx(-left, abs=1e-6)
     np.testing.assert_allclose(p, solution.pressure(right), rtol=1e-12)
-    assert f"$p_{{\\max}}$ = {p[0]:.1f} MPa" in words(upper)
+    assert f"$p_{{\\mathrm{{max}}}}$ = {p[0]:.1f} MPa" in words(upper)
 
 
 @pytest.mark.parametrize(("name", "arrows"), [("flat", 2), ("one sharp edge", 1), ("wedge", 1)])
@@ -135,7 +135,7 @@ def test_a_spike_is_cut_but_its_value_is_printed():
     upper, _ = plot.picture(solution).axes
     largest, _ = plot.peak(solution)
     assert upper.get_ylim()[1] < 0.5 * largest
-    assert any(word == f"$p_{{\\max}}$ = {largest:.3f} MPa" for word in words(upper))
+    assert any(word == f"$p_{{\\mathrm{{max}}}}$ = {largest:.3f} MPa" for word in words(upper))
 
 
 def test_a_flat_punch_has_no_gap_but_a_picture():
@@ -209,9 +209,8 @@ def test_a_limit_of_friction_is_drawn_where_it_fits_and_not_in_stubs(solution):
         for line in axes.lines
         if line.get_linestyle() == "--" and len(line.get_ydata()) > 2
     ]
-    assert all(
-        low <= y[2 * len(y) // 5] <= high for y in limits
-    )  # beside the middle, where a wedge's is infinite
+    # Beside the middle, where a wedge's is infinite
+    assert all(low <= y[2 * len(y) // 5] <= high for y in limits)
     assert len(limits) == 1 + bool((lines(axes)["$q$"].get_ydata() < 0.0).any())
 
 

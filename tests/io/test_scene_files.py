@@ -14,6 +14,7 @@ from sie.io.scene_file import SceneFileError, example, parse, read
 from sie.profiles import kinds
 
 KINDS = list(kinds.KINDS)
+KIND = 'kind = "parabola", radius = 2.0'
 PARABOLA = '[profile]\nkind = "parabola"\nradius = 10.0\n'
 BODY = "[body]\nyoung = 1e5\npoisson = 0.3\n"
 PAIR = "[pair]\nmodulus = 1e5\n"
@@ -255,6 +256,11 @@ def test_two_letters_swapped_in_any_key_of_an_example_suggest_the_key(kind):
             'it belongs to kind "piecewise" or "function"',
         ),
         (BODY + PARABOLA + "columns = [0, 1]\n" + LOAD, 'it belongs to kind "sampled"'),
+        (BODY + PARABOLA + f"of = [{{{KIND}}}]\n" + LOAD, '"of": it belongs to kind "row"'),
+        (
+            BODY + LOAD + f'[profile]\nkind = "row"\nof = [{{{KIND}, period = 3.0}}]\n',
+            '"period": it belongs in [profile], and repeats the whole of it',
+        ),
         (BODY + PARABOLA + LOAD + "radius = 1.0\n", '"radius": it belongs in [profile]'),
         (BODY + PARABOLA + "shifted = nan\n" + LOAD, "[profile] shifted is nan: give a number"),
         (BODY + PARABOLA + "tilted = inf\n" + LOAD, "[profile] tilted = inf is infinite"),

@@ -149,9 +149,8 @@ def test_tilt_and_moment_are_inverse_to_each_other(scene):
     one = sie.solve(scene)
     other = one.with_(moment=one.moment)
     r, P = one.half_width, scene.normal_load
-    size = P / (scene.Estar * r) + abs(one.centre) / r * P / (
-        scene.Estar * r
-    )  # dM/dtilt = -π/4 E* r²
+    # dM/dtilt = -π/4 E* r²
+    size = P / (scene.Estar * r) + abs(one.centre) / r * P / (scene.Estar * r)
     assert other.tilt == pytest.approx(one.tilt, abs=4 * PROMISE * max(size, abs(one.tilt)))
     assert other.moment == pytest.approx(one.moment, abs=PROMISE * P * (r + abs(one.centre)))
     assert other.half_width == pytest.approx(r, rel=2 * PROMISE * (1 + abs(one.centre) / r))

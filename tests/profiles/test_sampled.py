@@ -425,9 +425,8 @@ def wavy_pad(height, waves):
 
 @pytest.mark.parametrize("load", [3e-3, 1e-2])
 def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
-    solution = pressed(
-        wavy_pad(1e-4, 6.0), load
-    )  # contacts that begin at the lowest wave and grow with the load end in it
+    # Contacts that begin at the lowest wave and grow with the load end in it.
+    solution = pressed(wavy_pad(1e-4, 6.0), load)
     assert solution.check().ok
     same = sie.solve(
         sie.Scene(profile=solution.scene.profile, modulus=1.0, half_width=solution.half_width)
@@ -439,9 +438,8 @@ def test_waves_on_a_base_do_not_hide_the_contact_that_presses_them_flat(load):
 
 
 @given(st.floats(1e-5, 3e-4), st.floats(3.0, 30.0), st.floats(1e-5, 1e-2))
-@example(
-    3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506
-)  # an edge within some ulp of a point of the trace
+# An edge within some ulp of a point of the trace
+@example(3.208964811676877e-05, 9.81311208978229, 0.0031236263147810506)
 @settings(max_examples=20)
 def test_waves_on_a_base_are_solved_or_refused(height, waves, load):
     try:

@@ -100,9 +100,8 @@ def test_the_elastic_limit_has_twelve_digits_and_its_place_eight(a, f):
 def test_known_elastic_limits(a, f):
     value, on_surface = KNOWN[a, f]
     found = punch(a, f).elastic_limit()
-    assert found.ratio == pytest.approx(
-        value, rel=2e-12 if f == 0 else 2e-7
-    )  # as many digits as the table has
+    # As many digits as the table has
+    assert found.ratio == pytest.approx(value, rel=2e-12 if f == 0 else 2e-7)
     assert found.on_surface is on_surface
 
 

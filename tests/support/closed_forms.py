@@ -193,9 +193,8 @@ def principal_value(density: Callable[[Any], Any], x: float, breaks: Sequence[An
         cosine, sine = mp.cos_sin(mp.convert(angle))
         t = m + r * cosine
         value = density(t)
-        if t == pole or mp.isinf(
-            value
-        ):  # closer to the pole or to a corner than 30 digits can tell
+        # Closer to the pole or to a corner than 30 digits resolve
+        if t == pole or mp.isinf(value):
             return coarse.zero
         return coarse.convert((value * r * sine - known) / (pole - t))
 

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from strategies import between, log_between
 
 from oracles.principal_value import principal_value
-from validation.topics.appendix import CASES, DIGITS, EQUATIONS, WRONG, Setting, agreed, digits, mp
+from validation.appendix_equations import DIGITS, EQUATIONS, Setting, mp
+from validation.topics.appendix import CASES, WRONG, agreed, digits
 
 
 @settings(max_examples=4)

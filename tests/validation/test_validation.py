@@ -225,7 +225,7 @@ def test_every_module_of_figures_is_named_after_a_topic():
 
     drawn_topics = {module.name for module in pkgutil.iter_modules(figures.__path__)}
     assert drawn_topics < set(TOPICS)
-    assert set(TOPICS) - drawn_topics == {"kinks"}  # a table says it all
+    assert set(TOPICS) - drawn_topics == {"kinks"}  # it has a table only
 
 
 def test_the_economy_measures_a_difference_and_a_footprint():

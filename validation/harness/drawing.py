@@ -1,6 +1,6 @@
 """Drawing, separate from computing: Matplotlib figures in one style, as SVG inside a page.
 
-Figures are drawn as narrow as a phone, so that their letters stay readable there.
+Figures have the width of a phone, so that their text is readable there.
 """
 
 from __future__ import annotations
@@ -182,9 +182,8 @@ def heat(ax: Any, found: Map, *, low: float = -17, high: float = 0, label: str) 
         rasterized=False,
     )
     bar = ax.figure.colorbar(mesh, ax=ax, label=label, pad=0.02)
-    bar.solids.set(
-        rasterized=False, edgecolor="face"
-    )  # else Matplotlib puts a bitmap into the page
+    # Without this Matplotlib puts a bitmap into the page.
+    bar.solids.set(rasterized=False, edgecolor="face")
 
 
 def svg(figure: Figure) -> str:

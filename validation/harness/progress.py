@@ -50,9 +50,8 @@ class Progress:
             share = self.share()
             bar = "█" * round(WIDTH * share) + "·" * (WIDTH - round(WIDTH * share))
             line = f"{bar} {100 * share:3.0f} %  {self.name}{': ' if self.name else ''}{what}"
-            self.stream.write(
-                "\r\x1b[K" + line[: shutil.get_terminal_size().columns - 1]
-            )  # a line that breaks would stay
+            # A line that breaks would stay.
+            self.stream.write("\r\x1b[K" + line[: shutil.get_terminal_size().columns - 1])
             self.stream.flush()
 
     def share(self) -> float:

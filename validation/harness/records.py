@@ -139,6 +139,13 @@ class Doing:
 Record = Claim | Table | Curve | Map | Doing
 
 
+def in_turn(*parts: tuple[str, Iterator[Record]]) -> Iterator[Record]:
+    """The records of the parts of a topic, each announced to the progress bar."""
+    for name, records in parts:
+        yield Doing(name)
+        yield from records
+
+
 BROKEN = "the topic runs to its end; it broke off with"
 
 
@@ -161,7 +168,7 @@ class Found(list[Record]):
         return [r for r in self if isinstance(r, Curve) and r.figure == figure]
 
     def keys(self, beginning: str = "") -> list[str]:
-        """The names of the figures that there are curves for, in the order they came."""
+        """The names of the figures that have curves, in the order of the curves."""
         return list(
             dict.fromkeys(
                 r.figure for r in self if isinstance(r, Curve) and r.figure.startswith(beginning)

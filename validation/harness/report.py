@@ -73,14 +73,11 @@ def page(sections: Sequence[Section], seconds: float, quick: bool) -> str:
     kind = "quick run" if quick else "whole run"
     body = [
         f"<h1>plane-contact: every claim computed anew</h1><p><b>{len(claims)} claims</b>: "
-        f"{counts}. "
-        f"A {kind} of {seconds:.0f} s, {escape(machine())}.</p>"
-        "<p class=note>Each claim has a number measured in this run, a bar, and the same measure "
-        "on a wrong input, which must miss it: "
-        "a measure that its wrong input passes is called blind, and proves nothing. Refuted: a "
-        "claim of the paper that is listed among its "
-        "errata; there the control is the corrected form, which must meet the bar.</p>"
-        f"<nav>{links}</nav>"
+        f"{counts}. A {kind} of {seconds:.0f} s, {escape(machine())}.</p><p class=note>Each claim "
+        "has a number measured in this run, a bar, and the same measure on a wrong input, which "
+        "must miss it: a measure that its wrong input passes is called blind, and proves nothing. "
+        "Refuted: a claim of the paper that is listed among its errata; there the control is the "
+        f"corrected form, which must meet the bar.</p><nav>{links}</nav>"
     ]
     body += [_section(s) for s in sections]
     return (
@@ -169,7 +166,7 @@ def _data(value: Any) -> str:
 
 
 def number(value: Any) -> str:
-    """A number as one reads it: four figures, powers of ten where it is far from one."""
+    """A number to four figures, with a power of ten where it is far from one."""
     if value is None:
         return "—"
     if isinstance(value, bool) or not isinstance(value, (int, float, np.floating)):

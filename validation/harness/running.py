@@ -22,7 +22,7 @@ from validation.harness.progress import Progress
 from validation.harness.records import Found, kept
 from validation.harness.report import Section
 
-TICK = 0.5  # seconds between two looks of the progress bar
+TICK = 0.5  # seconds between two updates of the progress bar
 TOPICS = "validation.topics"
 FIGURES = f"{TOPICS}.figures"
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -89,16 +89,15 @@ def workers(topics: int) -> Iterator[Executor]:
         return
     others = set(multiprocessing.active_children())
     before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ.update(
-        dict.fromkeys(ONE_THREAD, "1")
-    )  # only what is started from here on reads them
+    # Only processes that start from here on read them.
+    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
     try:
         with ProcessPoolExecutor(
             min(topics, cores), mp_context=multiprocessing.get_context("spawn")
         ) as pool:
             try:
                 for _ in range(cores):
-                    pool.submit(awake)  # they import while this process does
+                    pool.submit(awake)  # their imports run beside those of this process
                 yield pool
             # An interrupt too: else the pool would compute all that it was given before it ends
             except BaseException:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,7 @@ mp = context(25)
 def further(quick: bool) -> Iterator[Record]:
     yield from interior(quick)
     yield from partial_slip(quick)
-    if hasattr(sie, "Sampled"):
-        yield from sampled(quick)
+    yield from sampled(quick)
 
 
 def _points(make: Runner, sizes: Sequence[int], error: Callable[[Any], float]) -> list[Point]:
@@ -51,27 +51,12 @@ def interior(quick: bool) -> Iterator[Record]:
         [complex(rounded_flat.potential(mp.mpc(v), **FORM, lib=mp)) for v in z[::40].tolist()]
     )
 
-    def quadrature(n: int) -> Callable[[], Any]:
-        theta = np.arange(1, n + 1) * np.pi / (n + 1)
-        return lambda: (
-            (1 / (z[:, None] - np.cos(theta))) @ (density(np.cos(theta)) * np.sin(theta) / (n + 1))
-        )
-
-    def series(n: int) -> Callable[[], Any]:
-        def run() -> Any:
-            b = rounded_flat.chebyshev_coefficients(n, **FORM)
-            R = 1 / (z + np.sqrt(z - 1) * np.sqrt(z + 1))
-            return R * np.polynomial.polynomial.polyval(R * R, b)
-
-        return run
-
     def error(values: Any) -> float:
         return float(np.abs(values[::40] - truth).max() / np.abs(truth).max())
 
-    name, says = (
-        "race: interior, depth 0.01 b",
-        "Potential F(z) of the rounded punch at 1001 points, a/b = 0.5",
-    )
+    quadrature, series = partial(_by_quadrature, density, z), partial(_by_series, z)
+    name = "race: interior, depth 0.01 b"
+    says = "Potential F(z) of the rounded punch at 1001 points, a/b = 0.5"
     nodes = NODES[: 4 if quick else 5]
     yield curve(
         name, "this package", _points(lambda n: lambda: density.cauchy(z), (0,), error), says=says
@@ -87,40 +72,39 @@ def interior(quick: bool) -> Iterator[Record]:
     )  # fmt: skip
 
 
+def _by_quadrature(density: sie.Density, z: Any, n: int) -> Callable[[], Any]:
+    theta = np.arange(1, n + 1) * np.pi / (n + 1)
+    t, weight = np.cos(theta), np.sin(theta) / (n + 1)
+    return lambda: (1 / (z[:, None] - t)) @ (density(t) * weight)
+
+
+def _by_series(z: Any, n: int) -> Callable[[], Any]:
+    def run() -> Any:
+        b = rounded_flat.chebyshev_coefficients(n, **FORM)
+        R = 1 / (z + np.sqrt(z - 1) * np.sqrt(z + 1))
+        return R * np.polynomial.polynomial.polyval(R * R, b)
+
+    return run
+
+
 def partial_slip(quick: bool) -> Iterator[Record]:
     """The shear q = f (p_b - p_c) of the rounded punch, Q = 0.6 f P.
 
     Each method computes the zones and two pressures.
     """
     yield Doing("partial slip")
-    P, f, Q = 0.3, 0.5, 0.09
     scene = sie.Scene(
-        profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=P, friction=f, tangential_load=Q
-    )
+        profile=sie.RoundedFlat(0.5, 1.0), modulus=1.0, normal_load=0.3, friction=0.5,
+        tangential_load=0.09,
+    )  # fmt: skip
     solution = sie.solve(scene)
-    b, c = solution.half_width, solution.stick[0][1]
+    b = solution.half_width
     samples = b * np.array([-0.97, -0.8, -0.51, -0.2, 0.05, 0.33, 0.62, 0.9, 0.99])
     x = np.concatenate((samples, np.linspace(-b, b, 994)[1:-1]))
-    given = {
-        "half_flat": 0.5,
-        "radius": 1.0,
-        "modulus": 1.0,
-        "normal_load": P,
-        "friction": f,
-        "tangential_load": Q,
-        "lib": mp,
-    }
+    given = {"normal_load": 0.3, "friction": 0.5, "tangential_load": 0.09} | {
+        "half_flat": 0.5, "radius": 1.0, "modulus": 1.0, "lib": mp
+    }  # fmt: skip
     truth = np.array([float(cattaneo_rounded.shear(mp.mpf(v), **given)) for v in samples.tolist()])
-    slope = scene.profile.slope
-
-    def series(n: int) -> Callable[[], Any]:
-        def run() -> Any:
-            q = solvers.gauss_chebyshev(slope, -b, b, n, x)
-            inside = np.abs(x) < c
-            q[inside] -= solvers.gauss_chebyshev(slope, -c, c, n, x[inside])
-            return f * q
-
-        return run
 
     def error(values: Any) -> float:
         return float(np.abs(values[: len(samples)] - truth).max() / truth.max())
@@ -128,17 +112,12 @@ def partial_slip(quick: bool) -> Iterator[Record]:
     def package(n: int) -> Callable[[], Any]:
         return lambda: sie.solve(scene).shear(x)
 
-    name, says = (
-        "race: partial slip",
-        "Shear of the rounded punch, a = 1/2, R = 1, Q = 0.6 f P, at 1001 points",
-    )
+    series = partial(_two_series, solution, x)
+    name = "race: partial slip"
+    says = "Shear of the rounded punch, a = 1/2, R = 1, Q = 0.6 f P, at 1001 points"
+    sizes = NODES[:3] if quick else (*NODES, 8192)
     yield curve(name, "this package", _points(package, (0,), error), says=says)
-    yield curve(
-        name,
-        "Gauss-Chebyshev, one series",
-        _points(series, NODES[:3] if quick else (*NODES, 8192), error),
-        says=says,
-    )
+    yield curve(name, "Gauss-Chebyshev, one series", _points(series, sizes, error), says=says)
     yield checked(
         error, package(0)(), series(32)(), what="partial slip: error of the shear over its peak",
         by="README: to machine precision",
@@ -146,25 +125,31 @@ def partial_slip(quick: bool) -> Iterator[Record]:
     )  # fmt: skip
 
 
+def _two_series(solution: sie.Solution, x: Any, n: int) -> Callable[[], Any]:
+    """The shear at x by Gauss-Chebyshev series of n terms on the contact and on the stick zone."""
+    scene, b, c = solution.scene, solution.half_width, solution.stick[0][1]
+    slope, inside = scene.profile.slope, np.abs(x) < c
+
+    def run() -> Any:
+        q = solvers.gauss_chebyshev(slope, -b, b, n, x)
+        q[inside] -= solvers.gauss_chebyshev(slope, -c, c, n, x[inside])
+        return scene.friction * q
+
+    return run
+
+
 def sampled(quick: bool) -> Iterator[Record]:
-    """A parabola given at n points: the error is that of the interpolation, or of the elements."""
+    """A profile given at n points: the error is that of the interpolation, or of the elements."""
     yield Doing("sampled")
-    x = np.linspace(-0.95, 0.95, 1001)
-    truth = 0.5 * np.sqrt((1 - x) * (1 + x))
     load = np.pi / 4
+    smooth = sie.FromFunction(np.sinh, domain=(-20.0, 20.0), parity="even")
+    exact = sie.solve(sie.Scene(profile=smooth, modulus=1.0, normal_load=load))
+    x = np.linspace(-0.95, 0.95, 1001) * exact.half_width
+    truth = exact.pressure(x)
 
     def profile(n: int) -> tuple[Any, Any]:
         t = 3.2 * ((np.arange(n) + 0.5) / n - 0.5)
         return t, np.cosh(t) - 1.0
-
-    exact = sie.solve(
-        sie.Scene(
-            profile=sie.FromFunction(np.sinh, domain=(-20.0, 20.0), parity="even"),
-            modulus=1.0,
-            normal_load=load,
-        )
-    )
-    x, truth = x * exact.half_width, exact.pressure(x * exact.half_width)
 
     def package(n: int) -> Callable[[], Any]:
         t, h = profile(n)

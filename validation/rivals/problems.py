@@ -213,7 +213,7 @@ def wavy(height: float = 0.01, share: float = 0.4) -> Problem:
     """Westergaard's wave h = Δ (1 - cos 2πx), period 1, in contact on a share of it.
 
     With u = tan πx the periodic kernel π cot π(x-ξ) dξ becomes dv/(u - v), but for a constant that
-    symmetry takes away: the package solves it as a contact with the slope h'(x(u)).
+    vanishes by symmetry: the package solves it as a contact with the slope h'(x(u)).
     """
     b = math.tan(0.5 * math.pi * share)
 

@@ -10,6 +10,7 @@ edges of the contact, which this package computes.
 
 from __future__ import annotations
 
+import importlib.util
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -160,3 +161,7 @@ INSTALLABLE = {
     "Tamaas": ("tamaas", tamaas),
     "ContactMechanics": ("ContactMechanics", contact_mechanics),
 }
+
+
+def installed(module: str) -> bool:
+    return importlib.util.find_spec(module) is not None

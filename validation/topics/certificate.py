@@ -3,8 +3,8 @@
 Rounded flats, parabolas, wedges and powers, sliding parabolas and rounded flats of dissimilar
 bodies, parabolas known by samples, and the shear of rounded flats in partial slip, of random sizes,
 loads and moduli, whose truth is a closed form in 22 digits. Half of the answers are then made
-wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, without
-information to the certificate. The estimate must never be smaller than a third of the true error.
+wrong, by an amount between 1e-13 and 1e-2 of the peak and in one of several shapes, of which the
+certificate has no information. The estimate must never be smaller than a third of the true error.
 The true error is the largest at one to three random places within 0.95 r of the centre, over the
 peak (of f p, for a shear), less what one ulp of x and of the edges explains; of a trace also less
 what the rounding of its spline explains.
@@ -155,9 +155,8 @@ def _sampled(kind: str, rng: np.random.Generator, sizes: tuple[float, float, flo
     profile = sie.Sampled(x, 0.5 * x * x / R)
     t = np.concatenate([x, x[:-1] + 1e-6 * b, 0.5 * (x[1:] + x[:-1])])
     t = t[(np.abs(t) < b)]
-    rounding = 2.0 * float(
-        np.abs(profile.slope(t) - t / R).max()
-    )  # p/peak ~ twice the change of slope, the peak being E* b/(2R)
+    # p/peak is about twice the change of slope, the peak being E* b/(2R).
+    rounding = 2.0 * float(np.abs(profile.slope(t) - t / R).max())
     scene = sie.Scene(profile=profile, modulus=E, half_width=b)
     return Contact(
         kind,

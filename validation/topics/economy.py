@@ -9,9 +9,9 @@ all skips off, and then one of them at a time.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,10 +25,16 @@ TITLE = "Economy: what a scene does not need is not computed"
 SECONDS = (2.0, 5.0)
 TIMED = True
 SAME = 1e-13
-SAVED, NO_LOSS = (
-    1.3,
-    0.7,
-)  # times; one skip alone may save little, which a busy machine hides, but must not cost
+# Least ratios of times; one skip alone may save little, which a busy machine hides, but must not
+# cost
+SAVED, NO_LOSS = 1.3, 0.7
+COLUMNS = (
+    "time [ms]",
+    "without skips [ms]",
+    "saving, times",
+    "largest difference / peak",
+)
+TRACTIONS = ("pressure", "shear")
 RIM = sie.RoundedFlat(0.5, 1.0)
 SLOPE = sie.FromFunction(np.sinh, domain=(-30.0, 30.0), parity="even")
 SLIPPING: dict[str, Any] = {"profile": RIM, "modulus": 1.0, "normal_load": 0.3, "friction": 0.5}
@@ -51,27 +57,40 @@ SCENES = {
 }
 
 
-def answers(solution: sie.Solution, x: Any) -> Any:
+class Compared(NamedTuple):
+    """A scene with all skips, and with fewer: milliseconds and answers of both."""
+
+    times: tuple[float, float]
+    answers: tuple[Any, Any]
+
+    @property
+    def row(self) -> tuple[float, float, float, float]:
+        """Both times, the saving, and the difference of the answers over the peak."""
+        return *self.times, self.times[1] / self.times[0], difference(self.answers)
+
+    @property
+    def spoiled(self) -> tuple[Any, Any]:
+        return self.answers[0], self.answers[0] * (1.0 + 1e-11)
+
+
+def compared(scene: sie.Scene, economy: Collection[str], patience: float) -> Compared:
+    """Pressure and shear with all skips, and with these alone."""
+    x = np.linspace(*sie.solve(scene).edges, 1003)[1:-1]
+    runs = [partial(answers, scene, x, skips) for skips in (ECONOMY, economy)]
+    saving, without = medians(runs, patience)
+    return Compared((1e3 * saving, 1e3 * without), (runs[0](), runs[1]()))
+
+
+def answers(scene: sie.Scene, x: Any, economy: Collection[str]) -> Any:
     """Pressure and shear."""
+    solution = sie.solve(scene, economy=economy)
     return np.concatenate((solution.pressure(x), solution.shear(x)))
-
-
-def _solved(scene: sie.Scene, x: Any, economy: Collection[str]) -> Any:
-    return answers(sie.solve(scene, economy=economy), x)
 
 
 def difference(pair: tuple[Any, Any]) -> float:
     """Largest, over the peak."""
     one, other = pair
     return float(np.abs(one - other).max() / np.abs(one).max())
-
-
-def cost(scene: sie.Scene, x: Any, patience: float) -> list[float]:
-    """Median seconds with the skips and without."""
-    return medians(
-        (lambda: answers(sie.solve(scene), x), lambda: answers(sie.solve(scene, economy=()), x)),
-        patience,
-    )
 
 
 # A skip by its name, and a scene that does not need the skipped work.
@@ -87,136 +106,91 @@ SKIPS = {
 
 def one_by_one(quick: bool) -> Iterator[Record]:
     """Each skip alone switched off, in a scene that profits from it."""
-    rows, spoiled = [], np.inf
+    found = {}
     for skip in sorted(ECONOMY):
-        name = SKIPS.get(skip, "partial slip")
         yield Doing(f"without {skip}")
-        scene, rest = SCENES[name], ECONOMY - {skip}
-        x = np.linspace(*sie.solve(scene).edges, 1003)[1:-1]
-        seconds = medians(
-            (partial(_solved, scene, x, ECONOMY), partial(_solved, scene, x, rest)),
-            0.05 if quick else 0.2,
-        )
-        apart = difference(
-            (answers(sie.solve(scene), x), answers(sie.solve(scene, economy=rest), x))
-        )
-        spoiled = min(
-            spoiled, difference((one := answers(sie.solve(scene), x), one * (1.0 + 1e-11)))
-        )
-        rows.append(
-            (skip, name, 1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], apart)
-        )
+        scene = SCENES[SKIPS.get(skip, "partial slip")]
+        found[skip] = compared(scene, ECONOMY - {skip}, 0.05 if quick else 0.2)
     yield Table(
         "Each skip alone",
-        (
-            "skip",
-            "scene",
-            "time [ms]",
-            "without it [ms]",
-            "saving, times",
-            "largest difference / peak",
-        ),
-        rows,
+        ("skip", "scene", *COLUMNS),
+        [(skip, SKIPS.get(skip, "partial slip"), *c.row) for skip, c in found.items()],
     )
     yield Claim(
         "each skip alone: largest difference of pressure and shear / peak",
         "this project: the answer is the same",
-        largest(r[-1] for r in rows),
-        spoiled,
+        largest(difference(c.answers) for c in found.values()),
+        smallest(difference(c.spoiled) for c in found.values()),
         "answers off by 1e-11",
         high=SAME,
     )
-    yield saved(
-        "each skip alone: smallest saving, times", ((row[2], row[3]) for row in rows), NO_LOSS
-    )
+    times = [c.times for c in found.values()]
+    yield saved("each skip alone: smallest saving, times", times, NO_LOSS)
 
 
-def saved(what: str, times: Iterable[tuple[float, float]], low: float) -> Claim:
+def saved(what: str, times: Sequence[tuple[float, float]], low: float) -> Claim:
     """The least quotient of the times without and with; exchanged, for the control."""
-    pairs = list(times)
     return checked(
-        lambda pairs: smallest(without / with_ for with_, without in pairs), pairs,
-        [pair[::-1] for pair in pairs],
+        lambda pairs: smallest(without / saving for saving, without in pairs), times,
+        [pair[::-1] for pair in times],
         what=what, by="this page", named="with and without exchanged", low=low,
     )  # fmt: skip
 
 
-def stress_of(scene: sie.Scene) -> Iterator[Claim]:
-    """The plan of the stress: one more stage than that of the pressure and the shear."""
+READ: dict[str, Callable[[sie.Solution], Any]] = {
+    "pressure": lambda solution: solution.pressure(0.3),
+    "shear": lambda solution: solution.shear(0.3),
+    "stress": lambda solution: solution.stress(0.3, 0.2).xx,
+}
+
+
+def footprint(name: str, scene: sie.Scene, want: Sequence[str], other: Sequence[str]) -> Claim:
+    """The stages that are filled when `want` is read are those of its plan, and of no other."""
     solution = sie.solve(scene)
-    _ = solution.stress(0.3, 0.2).xx
-    planned = sie.plan(scene, "stress").stages
-    filled = {
-        key for key in vars(solution) if key in {s.stage for s in sie.plan(scene, "check").steps}
-    }
-    without = sie.plan(scene, ("pressure", "shear")).stages
-    yield Claim(
-        "stress asked for: stages filled that were not planned, or planned and not filled",
-        "this project: the footprint is the plan",
-        len(filled ^ planned),
-        len(filled ^ without),
-        "the plan of pressure and shear",
+    for quantity in want:
+        READ[quantity](solution)
+    filled = vars(solution).keys() & {s.stage for s in sie.plan(scene, "check").steps}
+    return checked(
+        lambda stages: len(filled ^ stages),
+        sie.plan(scene, want).stages,
+        sie.plan(scene, other).stages,
+        what=f"{name}: stages filled that were not planned, or planned and not filled",
+        by="this project: the footprint is the plan",
+        named=f"the plan of {' and '.join(other)}",
         high=0,
     )
 
 
+def of_scene(name: str, compared: Compared) -> Iterator[Claim]:
+    yield checked(
+        difference, compared.answers, compared.spoiled,
+        what=f"{name}: pressure and shear with and without the skips differ by",
+        by="this project: the answer is the same", named="pressures off by 1e-11", high=SAME,
+    )  # fmt: skip
+    yield footprint(name, SCENES[name], TRACTIONS, (*TRACTIONS, "check"))
+
+
 def compute(quick: bool) -> Iterator[Record]:
-    header, rows, stages = ["scene"], [], []
-    names, with_skips, without = list(SCENES), [], []
+    found: dict[str, Compared] = {}
     for name, scene in SCENES.items():
         yield Doing(name)
-        plan = sie.plan(scene, ("pressure", "shear"))
-        saving, bare = sie.solve(scene), sie.solve(scene, economy=())
-        x = np.linspace(*saving.edges, 1003)[1:-1]
-        one, other = answers(saving, x), answers(bare, x)
-        filled = {
-            key for key in vars(saving) if key in {s.stage for s in sie.plan(scene, "check").steps}
-        }
-        yield checked(
-            difference,
-            (one, other),
-            (one, other * (1 + 1e-11)),
-            what=f"{name}: pressure and shear with and without the skips differ by",
-            by="this project: the answer is the same",
-            named="pressures off by 1e-11",
-            high=SAME,
-        )
-        yield Claim(
-            f"{name}: stages filled that were not planned, or planned and not filled",
-            "this project: the footprint is the plan",
-            len(filled ^ plan.stages),
-            len((filled | {"certificate"}) ^ plan.stages),
-            "a certificate that was not asked for",
-            high=0,
-        )
-        seconds = cost(scene, x, 0.05 if quick else 0.3)
-        with_skips.append(1e3 * seconds[0])
-        without.append(1e3 * seconds[1])
-        rows.append((name, *(f"{'run' if s.run else 'skip'}: {s.reason}" for s in plan.steps)))
-        header = ["scene", *(s.name for s in plan.steps)]
-        stages.append(
-            (
-                name,
-                1e3 * seconds[0],
-                1e3 * seconds[1],
-                seconds[1] / seconds[0],
-                difference((one, other)),
-            )
-        )
-    yield Table("Scenes and stages", header, rows)
+        found[name] = compared(scene, (), 0.05 if quick else 0.3)
+        yield from of_scene(name, found[name])
+    plans = {name: sie.plan(scene, TRACTIONS) for name, scene in SCENES.items()}
     yield Table(
-        "What the skips save",
-        ("scene", "time [ms]", "without skips [ms]", "saving, times", "largest difference / peak"),
-        stages,
+        "Scenes and stages",
+        ["scene", *(s.name for s in next(iter(plans.values())).steps)],
+        [
+            (name, *(f"{'run' if s.run else 'skip'}: {s.reason}" for s in plan.steps))
+            for name, plan in plans.items()
+        ],
     )
+    rows = [(name, *c.row) for name, c in found.items()]
+    yield Table("The savings of the skips", ("scene", *COLUMNS), rows)
     yield from one_by_one(quick)
-    yield from stress_of(SCENES["partial slip"])
-    yield saved(
-        "the skips together: smallest saving over the scenes, times",
-        zip(with_skips, without, strict=True),
-        SAVED,
-    )
-    yield Curve(
-        "economy", "with the skips", with_skips, list(range(len(names))), "points", {"names": names}
-    )
-    yield Curve("economy", "without", without, list(range(len(names))), "points")
+    yield footprint("stress asked for", SCENES["partial slip"], ("stress",), TRACTIONS)
+    times = [c.times for c in found.values()]
+    yield saved("the skips together: smallest saving over the scenes, times", times, SAVED)
+    places, names = list(range(len(found))), {"names": list(found)}
+    yield Curve("economy", "with the skips", [t for t, _ in times], places, "points", names)
+    yield Curve("economy", "without", [t for _, t in times], places, "points")

@@ -20,13 +20,13 @@ import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
 from validation.harness.measures import largest
-from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
+from validation.harness.records import Claim, Curve, Record, Table, checked, in_turn
 
 TITLE = "Paths of all loads, and steady cycles"
 SECONDS = (3.0, 20.0)
 TIMED = False
 EXACT, TABULATED, FOLLOWED = 1e-12, 2e-7, 1e-12
-# Of the mesh: mean error of q over the largest f p, of the energy, and how they fall.
+# Bounds for the mesh: mean error of q over the largest f p, that of the energy, and their decrease.
 MEAN_ERROR, ENERGY_ERROR, HALVED = 4e-3, 3e-2, 0.75
 BALANCE = 1e-6
 BY = "this project"
@@ -89,14 +89,12 @@ def followed(scene: sie.Scene, points: Points, parts: int = 1) -> sie.History:
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    yield Doing("closed forms")
-    yield from _tabulated()
-    yield Doing("steady cycles")
-    yield from _steady()
-    yield Doing("laws")
-    yield from _laws()
-    yield Doing("random paths on a mesh")
-    yield from _on_meshes(quick)
+    yield from in_turn(
+        ("closed forms", _tabulated()),
+        ("steady cycles", _steady()),
+        ("laws", _laws()),
+        ("random paths on a mesh", _on_meshes(quick)),
+    )
     yield from _drawn()
 
 

@@ -3,12 +3,11 @@
 Closed forms: two equal parabolas (steps of the arithmetic-geometric mean), two equal flats, and per
 period Westergaard's wave, a row of parabolas and a row of flats, in 50 digits. Gaps: the same
 parabolas pressed until the gap between patches is 1e-10 of a patch, on the line and per period.
-Events: on h = x²/2 + cos(12x + 0.7)/20 a patch is born and grows like the square root of the load
-beyond that (up to a logarithm), and two merge like the square root of what is left; next to an
-event the certificate states the conditioning. Wave: Westergaard's from first touch to full contact.
-Rough: a self-affine profile, repeated, by this package and by the grid codes that are installed
-(pip install -e ".[peers]"), and by the FFT boundary elements of this folder: time and largest error
-of each grid.
+Events: on h = x²/2 + cos(12x + 0.7)/20 a patch appears and grows like the square root of the load
+beyond that (up to a logarithm), and the gap between two vanishes like the square root of the load
+that is left; next to an event the certificate states the conditioning. Wave: Westergaard's from
+first touch to full contact. Rough: a self-affine profile against codes that work on grids
+(`validation.rivals.rough_profile`).
 
 The error of edges is relative to the narrowest patch, that of pressures to their peak.
 """
@@ -20,7 +19,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -30,8 +28,7 @@ import sie
 from analytic import flat_row, hertz, parabola_row, two_flats, two_parabolas, wavy
 from validation.harness.measures import apart, largest, mp
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
-from validation.rivals import solvers
-from validation.topics.work_precision import installed
+from validation.rivals.rough_profile import roughness
 
 TITLE = "Contact in several patches"
 SECONDS = (15.0, 60.0)
@@ -41,13 +38,9 @@ Array = NDArray[np.float64]
 INSIDE = np.array([-0.97, -0.6, -0.2, 0.1, 0.5, 0.9])  # of each patch, in half-widths
 BY = "this project: to machine precision"
 NEARER = 4  # times, towards an event
-# how far the exponent of a square root may be from 1/2: at a birth r² has a factor ln(1/r)
+# The distance of the exponent of a square root from 1/2: of a patch that appears r² has a factor
+# ln(1/r)
 ROOT = 0.05
-AHEAD = 1e6  # largest error of the best grid over that of this package
-POINTS = (200, 1000)  # of the rough profile
-GRIDS = ((1024, 4096), (1024, 4096, 16384, 65536))
-MEAN = 0.01  # mean pressure on the rough profile
-SEED = 20260711
 
 
 # -- closed forms ---------------------------------------------------------------------------------
@@ -249,35 +242,35 @@ def exponent(x: Array, y: Sequence[float]) -> float:
 
 
 def events() -> Iterator[Record]:
-    """The birth and the merger nearest to the load 0.228, at which there are three patches."""
+    """The appearance and the merger nearest to the load 0.228, at which there are three patches."""
     yield Doing("events")
-    for kind, size, second in (
-        ("birth", narrowest_patch, 0.226),
-        ("merger", narrowest_gap, 0.235),
+    for what, size, second in (
+        ("patch that appears", narrowest_patch, 0.226),
+        ("gap that closes", narrowest_gap, 0.235),
     ):
         away, near = approached(size, 0.228, second)
         sizes = [size(s) for s in near]
         loads = [s.normal_load for s in near]
-        what = f"narrowest {'patch after a birth' if kind == 'birth' else 'gap before a merger'}"
         yield Claim(
-            f"{what}: its exponent in the distance of the load, less 1/2", "square root of a fold",
+            f"narrowest {what}: its exponent in the distance of the load, less 1/2",
+            "square root of a fold",
             abs(exponent(away, sizes) - 0.5), abs(exponent(away, loads) - 0.5),
             "the load, which stays", high=ROOT,
         )  # fmt: skip
         certificates: list[Any] = [s.check() for s in near]
         yield Claim(
-            f"answers beside a {kind} that are not certified", "certificate",
+            f"answers next to a {what}, and not certified", "certificate",
             sum(not c.ok for c in certificates), len(near), "all of them", high=0.0,
         )  # fmt: skip
-        if kind == "birth":
+        if size is narrowest_patch:
             stated = [c.condition * float(e) for c, e in zip(certificates, away, strict=True)]
             yield Claim(
-                "condition of a patch just born times the distance of the load, less 1/2",
+                "condition of a patch that appears times the distance of the load, less 1/2",
                 "certificate: d ln r / d ln P of a square root", abs(stated[-1] - 0.5),
                 abs(certificates[0].condition * float(away[-1]) - 0.5),
                 "the condition stated for the first load", high=ROOT,
             )  # fmt: skip
-        yield Curve("events", what, away, sizes, "both")
+        yield Curve("events", f"narrowest {what}", away, sizes, "both")
     s = waved(0.228)
     x = np.linspace(*s.edges, 1201)
     yield Curve("events: pressure", "P = 0.228 E*", x, s.pressure(x))
@@ -325,101 +318,6 @@ def apart_of_hertz(case: Case) -> float:
     x = samples(solution)
     p = hertz.pressure(x, half_width=b, radius=radius, modulus=1.0)
     return apart(p, [case.pressure(v) for v in x.tolist()])
-
-
-# -- a rough profile ------------------------------------------------------------------------------
-
-
-def rough(n: int) -> sie.Profile:
-    """A self-affine profile of Hurst exponent 0.8 through n points, repeated with period 1."""
-    rng = np.random.default_rng(SEED)
-    k = np.arange(4, n // 8)
-    x = np.arange(n) / n
-    phase = rng.uniform(0.0, 2.0 * np.pi, len(k))
-    h = (k**-1.3 * np.cos(2.0 * np.pi * np.outer(x, k) + phase)).sum(axis=1)
-    h *= 0.01 / h.std()
-    turned = np.roll(h, -int(np.argmax(h)))  # the period begins in a valley
-    return sie.Periodic(sie.Sampled(np.append(x, 1.0), np.append(turned, turned[0])), 1.0)
-
-
-def grid_codes() -> dict[str, Callable[[Array, float, float], Array]]:
-    codes: dict[str, Callable[[Array, float, float], Array]] = {
-        "FFT boundary elements": partial(solvers.boundary_elements, periodic=True)
-    }
-    for name, (module, solver) in solvers.INSTALLABLE.items():
-        if installed(module):
-            codes[name] = solver
-    return codes
-
-
-def roughness(quick: bool) -> Iterator[Record]:
-    n = POINTS[not quick]
-    yield Doing(f"rough profile, {n} points")
-    scene = sie.Scene(profile=rough(n), modulus=1.0, normal_load=MEAN)
-    start = perf_counter()
-    solution = sie.solve(scene)
-    number = len(solution.patches)
-    ours = perf_counter() - start
-    certificate = solution.check()
-    rows: list[tuple[Any, ...]] = [("this package", None, certificate.error, 1e3 * ours)]
-    yield Curve("rough: race", "this package", [ours], [certificate.error], "points",
-                {"strong": True, "colour": "black"})  # fmt: skip
-    best = math.inf
-    for name, code in grid_codes().items():
-        times, errors = [], []
-        for cells in GRIDS[not quick]:
-            yield Doing(f"rough profile, {name}, {cells} cells")
-            x = (np.arange(cells) + 0.5) / cells
-            h = scene.profile.height(x)
-            start = perf_counter()
-            p = code(h, 1.0 / cells, MEAN)
-            times.append(perf_counter() - start)
-            exact = solution.pressure(x)
-            errors.append(float(np.abs(p - exact).max() / exact.max()))
-            rows.append((name, cells, errors[-1], 1e3 * times[-1]))
-        yield Curve("rough: race", name, times, errors, "both")
-        best = min(best, *errors)
-    yield Claim(
-        f"rough profile in {number} patches: largest error of the best grid over the certified "
-        "error of this package",
-        "this project: what no peer has", best / certificate.error, 1.0, "the grid's own error",
-        low=AHEAD,
-    )  # fmt: skip
-    yield Claim(
-        "rough profile: loads of the patches, added, less the load, over it", BY,
-        abs(sum(solution.patch_loads) / MEAN - 1.0),
-        abs(sum(solution.patch_loads[1:]) / MEAN - 1.0), "one patch left out", high=PRESSURE,
-    )  # fmt: skip
-    absent = [name for name, (module, _) in solvers.INSTALLABLE.items() if not installed(module)]
-    yield Table(
-        f"A rough profile of {n} points in {number} patches, mean pressure {MEAN:g} E*",
-        ("method", "cells", "largest error / peak", "time [ms]"),
-        rows,
-        "Of this package the error is the certified one, the time that of the patches and their "
-        "edges. Not raced here: " + (", ".join(f"{a} (not installed)" for a in absent) or "none"),
-    )
-    yield from _drawn(solution, scene, quick)
-
-
-def _drawn(solution: sie.Solution, scene: sie.Scene, quick: bool) -> Iterator[Record]:
-    x = np.linspace(0.0, 1.0, 4001)
-    h = scene.profile.height(x)
-    # the surface of the half-plane, in the frame of the indenter
-    yield Curve("rough", "indenter", x, h - h.min())
-    gap = solution.gap(x)
-    yield Curve("rough", "surface of the half-plane", x, h - h.min() - gap)
-    yield Curve("rough: pressure", "this package", x, solution.pressure(x))
-    cells = GRIDS[not quick][0]
-    at = (np.arange(cells) + 0.5) / cells
-    grid = solvers.boundary_elements(scene.profile.height(at), 1.0 / cells, MEAN, periodic=True)
-    k = int(np.argmax(solution.patch_loads))
-    (a, b), period = solution.patches[k], 1.0
-    near = np.linspace(a, b, 801)
-    yield Curve("rough: patch", "this package", near, solution.pressure(near))
-    turned = at + period * np.round((0.5 * (a + b) - at) / period)
-    some = (turned >= a) & (turned <= b)
-    yield Curve("rough: patch", f"FFT boundary elements, {cells} cells", turned[some], grid[some],
-                "points")  # fmt: skip
 
 
 def compute(quick: bool) -> Iterator[Record]:

@@ -24,7 +24,7 @@ TIMED = False
 
 PROMISE = 1e-13
 EPS = float(np.finfo(float).eps)
-SPOILED = 1e-12  # relative change that every checker must see
+SPOILED = 1e-12  # relative change that every checker must detect
 TABLE = "Each case, E* = 1"
 HEADER = (
     "case (E* = 1)",

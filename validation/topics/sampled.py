@@ -24,7 +24,7 @@ from analytic import hertz
 from oracles import normal_contact
 from oracles.normal_contact import Pieces, contact, mp
 from validation.harness.measures import apart
-from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
+from validation.harness.records import Claim, Curve, Record, Table, checked, in_turn
 from validation.harness.timing import fastest
 
 TITLE = "Sampled profiles: splines, growth, noise"
@@ -45,12 +45,11 @@ ONE_PERCENT = 0.01
 
 
 def compute(quick: bool) -> Iterator[Record]:
-    yield Doing("spline in 40 digits")
-    yield from spline(SAMPLES[not quick])
-    yield Doing("growth")
-    yield from growth(SIZES[not quick], patience=0.25 if quick else 0.5)
-    yield Doing("noise")
-    yield from noise(NOISY[not quick])
+    yield from in_turn(
+        ("spline in 40 digits", spline(SAMPLES[not quick])),
+        ("growth", growth(SIZES[not quick], patience=0.25 if quick else 0.5)),
+        ("noise", noise(NOISY[not quick])),
+    )
 
 
 # -- the spline -----------------------------------------------------------------------------------
@@ -166,56 +165,44 @@ def noisy(n: int, smoothing: Any) -> sie.Scene:
 
 def noise(n: int) -> Iterator[Record]:
     b = float(hertz.half_width(normal_load=np.pi / 4, radius=1.0, modulus=1.0))
-
-    def error(scene: sie.Scene) -> float:
-        try:
-            return abs(sie.solve(scene).half_width / b - 1.0)
-        except sie.ContactError:
-            return float("inf")
-
     start = perf_counter()
-    scene = noisy(n, "gcv")
-    solution = sie.solve(scene)
-    measured = error(scene)
-    s = np.linspace(-1.0, 1.0, 401)
-    p = solution.pressure(s)
+    solution = sie.solve(noisy(n, "gcv"))
+    measured = _error_of_width(solution, b)
+    x = np.linspace(-1.0, 1.0, 401)
+    p = solution.pressure(x)
     seconds = perf_counter() - start
     yield Claim(
         f"trace of {n} points with noise: error of the half-width under a load",
         "this project: within 1 %",
         measured,
-        error(noisy(3000, 100.0)),
+        _error_of_width(sie.solve(noisy(3000, 100.0)), b),
         "smoothing by which the curvature is lost too",
         high=ONE_PERCENT,
     )
-    smooth: Any = scene.profile
-    x, h = smooth.points, smooth.heights
-    yield Curve("noise", f"{n} points, smoothed by cross validation", s, p)
-    yield Curve(
-        "noise", "Hertz", s, 0.5 * np.sqrt(np.maximum((1.0 - s) * (1.0 + s), 0.0)), "dashed"
-    )
-    some = slice(None, None, n // 200)
-    yield Curve("trace", "less the parabola", x[some], (h - 0.5 * x * x)[some], "points")
-    yield Curve(
-        "trace", "the spline's", x[some], scene.profile.height(x[some]) - 0.5 * x[some] ** 2
-    )
-    rms = float(
-        np.sqrt(np.mean((p - hertz.pressure(s, radius=1.0, modulus=1.0, half_width=b)) ** 2))
-    )
+    smooth: Any = solution.scene.profile
+    exact = hertz.pressure(x, radius=1.0, modulus=1.0, half_width=b)
+    rms = float(np.sqrt(np.mean((p - exact) ** 2)))
+    width = solution.half_width / b - 1.0
     yield Table(
         "A trace with noise",
-        (
-            "points",
-            "noise / R",
-            "λ of the smoothing",
-            "misfit / R",
-            "half-width / Hertz - 1",
-            "rms of p / peak",
-            "time [s]",
-        ),
-        [(n, NOISE, smooth.lam, smooth.misfit, solution.half_width / b - 1.0, 2.0 * rms, seconds)],
+        ("points", "noise / R", "λ of the smoothing", "misfit / R", "half-width / Hertz - 1",
+         "rms of p / peak", "time [s]"),
+        [(n, NOISE, smooth.lam, smooth.misfit, width, 2.0 * rms, seconds)],
         "The time is that of smoothing, solving and 401 pressures, once.",
-    )
+    )  # fmt: skip
+    yield Curve("noise", f"{n} points, smoothed by cross validation", x, p)
+    yield Curve("noise", "Hertz", x, exact, "dashed")
+    some = slice(None, None, n // 200)
+    x, parabola = smooth.points[some], 0.5 * smooth.points[some] ** 2
+    yield Curve("trace", "less the parabola", x, smooth.heights[some] - parabola, "points")
+    yield Curve("trace", "the spline's", x, smooth.height(x) - parabola)
+
+
+def _error_of_width(solution: sie.Solution, b: float) -> float:
+    try:
+        return abs(solution.half_width / b - 1.0)
+    except sie.ContactError:
+        return float("inf")
 
 
 # -- drawing --------------------------------------------------------------------------------------

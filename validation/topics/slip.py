@@ -56,8 +56,8 @@ class Contact:
     given: dict[str, float]
 
     def exact(self, name: str, x: Numbers, *loads: float) -> list[Any]:
-        """`name` of the module at points: the last load is that of now, the others are where it
-        turned.
+        """`name` of the module at points: the last load is the present one, the others are those of
+        the turning points.
         """
         turned = ("largest_load", "least_load")[: len(loads) - 1]
         named = {k: mp.mpf(Q) for k, Q in zip((*turned, "tangential_load"), loads, strict=True)}
@@ -262,53 +262,36 @@ def bulk() -> Iterator[Record]:
     """Hertz, Q = 0.6 fP, σ up to where it reverses the slip at an edge: e = πσb²/(8fP) = b - c."""
     Q, b = 0.6 * FP, float(HERTZ.given["half_width"])
     room = 1.0 - float(np.sqrt(0.4))
-    sigmas = [share * room * 8.0 * FP / (np.pi * b) for share in (0.0, 0.45, -0.9)]
-    worst: list[tuple[float, float, float]] = []
-    for sigma in sigmas:
-        solution, x = sie.solve(HERTZ.scene(tangential_load=Q, bulk_stress=sigma)), b * PLACES
-        given = HERTZ.given | {
-            "normal_load": P,
-            "friction": F,
-            "tangential_load": mp.mpf(Q),
-            "bulk_stress": mp.mpf(sigma),
-            "lib": mp,
-        }
-        exact = [cattaneo.bulk_shear(mp.mpf(v), **given) for v in x.tolist()]
-        zone = cattaneo.bulk_stick(**given)
+    lines, x = np.linspace(-1.0, 1.0, 201), b * PLACES
+    shears, zones, wrong_sign = [], [], []
+    for share in (0.0, 0.45, -0.9):
+        sigma = share * room * 8.0 * FP / (np.pi * b)
+        solution = sie.solve(HERTZ.scene(tangential_load=Q, bulk_stress=sigma))
         other = sie.solve(HERTZ.scene(tangential_load=Q, bulk_stress=-sigma))
-        worst.append(
-            (
-                apart(solution.shear(x), exact),
-                apart(solution.stick[0], zone),
-                apart(other.shear(x), exact),
-            )
-        )
-        lines = b * np.linspace(-1.0, 1.0, 201)
-        yield Curve(
-            "bulk", f"σ b/(fP) = {sigma * b / FP:.3g}", lines / b, solution.shear(lines) / FP
-        )
+        given = _loads(Q, sigma)
+        exact = [cattaneo.bulk_shear(mp.mpf(v), **given) for v in x.tolist()]
+        shears.append(apart(solution.shear(x), exact))
+        zones.append(apart(solution.stick[0], cattaneo.bulk_stick(**given)))
+        wrong_sign.append(apart(other.shear(x), exact))
+        label = f"σ b/(fP) = {sigma * b / FP:.3g}"
+        yield Curve("bulk", label, lines, solution.shear(b * lines) / FP)
         yield Curve("bulk points", "", PLACES, [float(q) / FP for q in exact], "points")
-    by, wrong = "Nowell & Hills 1987", "the bulk stress with the other sign"
-    control = max(w[2] for w in worst)
+    by, plain = "Nowell & Hills 1987", sie.solve(HERTZ.scene(tangential_load=Q))
     yield Claim(
-        "Hertz with bulk stress: largest error of the shear",
-        by,
-        largest(w[0] for w in worst),
-        control,
-        wrong,
-        high=BAR,
-    )
-    spoiled = apart(
-        sie.solve(HERTZ.scene(tangential_load=Q)).stick[0], cattaneo.bulk_stick(**given)
-    )
+        "Hertz with bulk stress: largest error of the shear", by, largest(shears),
+        max(wrong_sign), "the bulk stress with the other sign", high=BAR,
+    )  # fmt: skip
     yield Claim(
-        "Hertz with bulk stress: error of the ends of the stick zone / half-width",
-        by,
-        largest(w[1] for w in worst),
-        spoiled,
-        "without bulk stress",
-        high=BAR_OF_SLIP,
-    )
+        "Hertz with bulk stress: error of the ends of the stick zone / half-width", by,
+        largest(zones), apart(plain.stick[0], cattaneo.bulk_stick(**given)),
+        "without bulk stress", high=BAR_OF_SLIP,
+    )  # fmt: skip
+
+
+def _loads(Q: float, sigma: float) -> dict[str, Any]:
+    """The arguments of the closed forms of Hertz under Q and a bulk stress."""
+    loads = {"tangential_load": mp.mpf(Q), "bulk_stress": mp.mpf(sigma)}
+    return HERTZ.given | {"normal_load": P, "friction": F, "lib": mp} | loads
 
 
 # -- cycles ---------------------------------------------------------------------------------------
@@ -353,9 +336,7 @@ def enclosed(amplitude: float, n: int) -> tuple[float, float]:
 
 
 def cost(steps: int) -> Claim:
-    """What a step of a long cycle costs: its stick zone, as a share of solving its scene by
-    itself.
-    """
+    """The cost of a step of a long cycle, its stick zone, relative to solving its scene alone."""
     angles = np.linspace(0.0, 2.0 * np.pi, steps + 1)[1:]
     path = sie.Path([(P, 0.8 * FP * np.sin(t)) for t in angles])
 
@@ -366,9 +347,8 @@ def cost(steps: int) -> Claim:
         for t in angles[: steps // 10]:
             _ = sie.solve(PUNCH.scene(tangential_load=0.8 * FP * np.sin(t))).stick
 
-    together, tenth = fastest(
-        (followed, a_tenth), patience=0.002 * steps
-    )  # other topics run beside this one
+    # Other topics run beside this one.
+    together, tenth = fastest((followed, a_tenth), patience=0.002 * steps)
     return checked(
         lambda times: times[0] / times[1],
         (together, 10.0 * tenth),

@@ -37,7 +37,7 @@ REFERENCES = {
 }
 SAME = 5e-11  # digits of the references
 EQUATIONS, SHEAR = 1e-11, 1e-10  # of the largest pressure in (1), of the largest shear in (12)
-OFF = 1e-3  # relative change of β that every checker must see
+OFF = 1e-3  # relative change of β that every checker must detect
 PAIR = (0.3, 0.3)
 SHARES = (0.0, 0.2, 0.5, 0.8, 0.9, 0.99)
 CELLS = (25, 50, 100)

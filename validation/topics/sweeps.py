@@ -21,7 +21,7 @@ from sie.problem.material import SIMILAR
 from validation.harness.measures import largest
 
 mp = context(50)
-SPOILED = 1e-10  # an answer off by so much must be seen
+SPOILED = 1e-10  # an answer off by so much must be detected
 CERTIFIED_PIECES = 1000  # beyond, a certificate takes longer than the solution
 MARGIN = 0.95  # of the half-width: nearer the edge one ulp of the edge weighs more than the bar
 
@@ -213,9 +213,8 @@ def coupling(beta_f: float) -> Outcome:
     """Sliding Hertz, tan πε = -βf: p = (E* cos πε/2R)(c2-x)^(1/2-ε)(c1+x)^(1/2+ε), c1, c2 = w(1 ∓
     2ε) (Hills, Nowell & Sackfield 1993).
     """
-    friction = min(
-        max(2.0, 2.5 * abs(beta_f)), abs(beta_f) / (2.0 * SIMILAR)
-    )  # bodies of a smaller β are similar
+    # Bodies of a smaller β are similar.
+    friction = min(max(2.0, 2.5 * abs(beta_f)), abs(beta_f) / (2.0 * SIMILAR))
     scene = sie.Scene(
         profile=sie.Parabola(1.0),
         modulus=1.0,
@@ -253,9 +252,8 @@ def depth(y: float) -> Outcome:
     found = [
         complex(f) / complex(t) for f, t in zip(_punch().pressure.cauchy(z), true, strict=True)
     ]
-    return _outcome(
-        None, found, [mp.one] * len(found), 1.0, estimate=math.nan
-    )  # the certificate is of the pressure
+    # The certificate is that of the pressure.
+    return _outcome(None, found, [mp.one] * len(found), 1.0, estimate=math.nan)
 
 
 def at_kink(distance: float, ratio: float = 0.5) -> Outcome:
@@ -283,9 +281,8 @@ def _of_punch(solution: sie.Solution, ratio: float, x: Any, scale: float | None)
     if scale is None:
         found = [float(f) / float(t) for f, t in zip(solution.pressure(x), true, strict=True)]
         return _outcome(solution, found, [mp.one] * len(found), 1.0)
-    peak = rounded_flat.pressure(
-        mp.mpf(ratio) + mp.mpf("0.4") * (1 - mp.mpf(ratio)), **punch
-    )  # nearly
+    # Nearly the place of the peak
+    peak = rounded_flat.pressure(mp.mpf(ratio) + mp.mpf("0.4") * (1 - mp.mpf(ratio)), **punch)
     return _outcome(solution, solution.pressure(x), true, max(peak, *true))
 
 

@@ -10,7 +10,6 @@ they are installed (pip install -e ".[peers]"); they are periodic, and so is the
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -127,10 +126,6 @@ def _closed_load(problem: Problem) -> float:
     )
 
 
-def installed(name: str) -> bool:
-    return importlib.util.find_spec(name) is not None
-
-
 def _has_series(problem: Problem) -> bool:
     return problem.series
 
@@ -153,7 +148,7 @@ def methods() -> tuple[Method, ...]:
     others = (
         Method(name, (32, 128, 512, 2048), _elements(solver), lambda problem: bool(problem.period))
         for name, (module, solver) in solvers.INSTALLABLE.items()
-        if installed(module)
+        if solvers.installed(module)
     )
     return (*OURS_AND_TEXTBOOKS, *others)
 
@@ -219,7 +214,7 @@ def _absent() -> list[str]:
     return [
         f"{name} (not installed)"
         for name, (module, _) in solvers.INSTALLABLE.items()
-        if not installed(module)
+        if not solvers.installed(module)
     ]
 
 

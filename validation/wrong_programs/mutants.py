@@ -33,7 +33,7 @@ from validation.wrong_programs.pressures import (
     with_pressure,
 )
 
-BAR = 1e-13  # a right program stays within, a wrong one must not
+BAR = 1e-13  # the measure of a right program is below it, that of a wrong one above
 X = np.array([-0.9, -0.42, 0.03, 0.31, 0.77])
 
 

@@ -76,8 +76,8 @@ SMOOTH = sie.Scene(
 
 
 def closed_form(x: Any, second: float = 1.0, b: float = 1.0) -> Array:
-    """Of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the second
-    logarithm.
+    """The pressure of PUNCH (Ciavarella, Hills & Monno 1998, eq. 32); `second` multiplies the
+    second logarithm.
     """
     a = 0.5
     x = np.abs(x)

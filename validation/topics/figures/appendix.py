@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from oracles.principal_value import GUARD
+from validation.appendix_equations import DIGITS
 from validation.harness.drawing import Figure, axes, draw, labelled, legend
 from validation.harness.records import Found
-from validation.topics.appendix import DIGITS
 
 
 def figures(found: Found) -> Iterator[Figure]:
@@ -22,7 +22,6 @@ def figures(found: Found) -> Iterator[Figure]:
     yield Figure(
         "appendix-digits", drawing,
         f"Digits to which each form agrees with principal-value quadrature ({DIGITS + GUARD} "
-        f"digits carried): the identities and closed "
-        "forms in mpmath to all of 50, doubles to 15 or 16; the printed forms of (26), (29), (31), "
-        "(34) and after (25) to none.",
+        "digits carried): the identities and closed forms in mpmath to all of 50, doubles to 15 "
+        "or 16; the printed forms of (26), (29), (31), (34) and after (25) to none.",
     )  # fmt: skip

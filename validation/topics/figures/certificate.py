@@ -26,6 +26,6 @@ def figures(found: Found) -> Iterator[Figure]:
     legend(ax)
     yield Figure(
         "judged", drawing,
-        "Each dot is a random contact. Below the line the certificate would have claimed too much. "
-        "Errors of nothing are drawn at 1e-18.",
+        "Each dot is a random contact. Below the line the estimate would be too small. "
+        "Errors of zero are drawn at 1e-18.",
     )  # fmt: skip

@@ -11,7 +11,7 @@ from validation.harness.records import Found
 def figures(found: Found) -> Iterator[Figure]:
     drawing, (loop, zones) = axes(2)
     draw(loop, found.curves("loop"))
-    labelled(loop, "rigid shift [R]", "Q/(fP)", "Q and σ out of phase")
+    labelled(loop, "rigid shift / R", "Q/(fP)", "Q and σ out of phase")
     loop.locator_params(axis="x", nbins=5)
     legend(loop)
     for curve in found.curves("zones"):
@@ -19,7 +19,8 @@ def figures(found: Found) -> Iterator[Figure]:
         zones.plot(curve.x, curve.y, color="tab:blue" if stick else "0.5")
     for label, color in (("contact", "0.5"), ("stick zone", "tab:blue")):
         zones.plot([], [], color=color, label=label)
-    labelled(zones, "steps of the path", "x [half-widths]", "P, Q and σ in phase")
+    labelled(zones, "steps of the path", "x / half-width", "P, Q and σ in phase")
+    zones.locator_params(axis="x", integer=True)
     legend(zones, loc="center")
     yield Figure(
         "histories",

@@ -25,20 +25,20 @@ def figures(found: Found) -> Iterator[Figure]:
         yield _shears(
             found,
             f"turns: {contact.name}",
-            "x [lengths of R]",
-            "q / (f P) [1/R]",
+            "x/R",
+            "q R/(f P)",
             f"Shear of the {contact.name} contact in loading, unloading and reloading.",
         )
     yield _shears(
         found,
         "bulk",
         "x/b",
-        "q / (f P) [1/R]",
+        "q R/(f P)",
         "Hertz under Q = 0.6 fP and a bulk stress that rises with it.",
     )
     drawing, ax = axes()
     draw(ax, found.curves("loops"))
-    labelled(ax, "shift between the bodies [R]", "Q/(fP)")
+    labelled(ax, "shift between the bodies / R", "Q/(fP)")
     ax.locator_params(axis="x", nbins=5)
     legend(ax)
     yield Figure(

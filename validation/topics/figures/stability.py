@@ -16,6 +16,17 @@ STATES = {"full": "tab:green", "known": "gold", "lost": "tab:red"}
 
 def figures(found: Found) -> Iterator[Figure]:
     yield _frontier(found)
+    yield from _sweeps(found)
+    yield from _maps(found)
+    drawing, ax = axes()
+    draw(ax, found.curves("condition"))
+    labelled(ax, "unknowns n", "condition number (2-norm)", log="xy")
+    legend(ax)
+    caption = "Condition numbers of the square systems; the transform that β = 0 allows needs none."
+    yield Figure("condition", drawing, caption)
+
+
+def _sweeps(found: Found) -> Iterator[Figure]:
     for key in found.keys("sweep: "):
         curves = found.curves(key)
         drawing, ax = axes(height=2.9)
@@ -32,33 +43,23 @@ def figures(found: Found) -> Iterator[Figure]:
             drawing,
             "Shaded: the promised range. Line: the bar, 1e-13. A gap in a curve is a refusal.",
         )
+
+
+def _maps(found: Found) -> Iterator[Figure]:
     for key, x, y, caption in (
         (
-            "map: kink",
-            FLATNESS,
-            "decades of the distance to the kink",
+            "map: kink", FLATNESS, "decades of the distance to the kink",
             "Pressure next to the end of the flat, / peak.",
         ),
         (
-            "map: scale",
-            "decades of the length",
-            "decades of the modulus",
+            "map: scale", "decades of the length", "decades of the modulus",
             "The same contact at any scale: error of p / peak.",
         ),
-    ):
+    ):  # fmt: skip
         drawing, ax = axes()
         heat(ax, found.maps(key)[0], label="log10 of the error", high=-12)
         labelled(ax, x, y, key.removeprefix("map: "))
         yield Figure("map-" + key[5:], drawing, caption)
-    drawing, ax = axes()
-    draw(ax, found.curves("condition"))
-    labelled(ax, "unknowns n", "condition number (2-norm)", log="xy")
-    legend(ax)
-    yield Figure(
-        "condition",
-        drawing,
-        "Condition numbers of the square systems; the transform that β = 0 allows needs none.",
-    )
 
 
 def _frontier(found: Found) -> Figure:
@@ -92,7 +93,7 @@ def _frontier(found: Found) -> Figure:
     return Figure(
         "frontier", drawing,
         "How far each number can be taken. Green: full accuracy; yellow: refused, or the "
-        "certificate shows it; red: lost in silence. "
+        "certificate shows it; red: lost, and not stated. "
         "Below each row, what is promised.",
     )  # fmt: skip
 

@@ -1,19 +1,11 @@
-"""Whether patches are the answer: p >= 0 on all of them and gap >= 0 beside them, by bounds and not
-by samples.
+"""The gap beside and between patches: where it would be negative, its values, and its volume.
 
-    on a patch     D >= 0, panel by panel: a Legendre series has c_0 - Σ|c_n| as a lower bound
-    beside one     g' / root >= 0 from the edge on, then g >= 0 in the same way
-
-A panel whose bound says nothing is halved. Where the conditions of the edges hold as well this is
-the answer: the problem is convex. At a concave corner, where H jumps down, D falls without bound
-like a logarithm, which no polynomial shows: a patch that covers one is in tension there, on an
-interval that may be too narrow for doubles. The gap at given points comes from the same series.
+On panels that count from an edge g'/root is a Legendre series, and g the primitive of one. That
+g'/root >= 0 from the edge on, or g >= 0, is verified by bounds and not by samples.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -21,174 +13,18 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .chord import Points
-from .operator import Operator, gap_values, intensities, on_patches
+from .bounds import DEEPEST, NODES, halves, legendre, lower_bound
+from .operator import Operator, gap_values
 from .panels import FARTHEST, GapPanels, distance_of, gap_panels
-from .state import Findings, Overlap, State, Tension
+from .state import Overlap
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-NODES = 8  # on a part of a panel
-DEEPEST = 30  # halvings
-HALVED = 42  # times the distance from a concave corner is: less than CLOSED
-TENSION = 1e-13  # of the largest D: rounding
-CLOSED = 1e-12  # half-widths of its patch: the gap at a concave corner is not told from none
 OVERLAP, ROUNDING = 1e-11, 7e-14  # of the gap's largest g; of max|H| times its width
 
 
-@dataclass(frozen=True, eq=False)
-class Found:
-    """A certified answer."""
-
-    state: State
-    operator: Operator
-    findings: Findings
-    rounds: int
-    steps: int
-
-
-def findings(o: Operator) -> Findings:
-    tension, lowest = tensions(o)
-    return Findings(tension, _overlaps(o), lowest)
-
-
-@lru_cache(maxsize=8)
-def legendre(n: int) -> Array:
-    """Values at the n Gauss nodes to Legendre coefficients, as a matrix (n, n)."""
-    g, w = chebyshev.gauss_legendre(n)
-    P = np.polynomial.legendre.legvander(2.0 * g - 1.0, n - 1)
-    matrix = P * w[:, None] * (2.0 * np.arange(n) + 1.0)
-    matrix.flags.writeable = False
-    return matrix
-
-
-def lower_bound(values: Array) -> Array:
-    """Below all of a polynomial that has these values (m, n) at Gauss nodes."""
-    c = values @ legendre(values.shape[1])
-    return np.asarray(c[:, 0] - np.abs(c[:, 1:]).sum(axis=1))
-
-
-# -- on the patches --------------------------------------------------------------------------------
-
-
-def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
-    """Where the patches pull, and the lowest bound of D over the largest D."""
-    k = o.panels
-    parts = np.stack((k.lo, k.hi), axis=1)
-    panel = np.arange(len(k.lo))
-    scale, lowest = 0.0, np.inf
-    bad: list[tuple[int, float, float, float, float]] = []
-    g, _ = chebyshev.gauss_legendre(NODES)
-    for depth in range(DEEPEST):
-        lo, length = parts[:, :1], np.diff(parts, axis=1)
-        angle = lo + length * g
-        D, x = intensities(o, panel, angle)
-        finite = D[np.isfinite(D)]
-        scale = max(scale, float(finite.max(initial=0.0)))
-        bound = lower_bound(np.where(np.isfinite(D), D, scale))
-        negative = -TENSION * scale > D
-        for j in np.flatnonzero(negative.any(axis=1)):
-            bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
-        enough = bound >= -TENSION * scale
-        lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
-        lowest = min(lowest, float(np.where(negative, D, np.inf).min()))
-        open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
-        if not open_.any():
-            break
-        middle = parts[open_].mean(axis=1)
-        parts = np.concatenate(
-            (
-                np.stack((parts[open_, 0], middle), axis=1),
-                np.stack((middle, parts[open_, 1]), axis=1),
-            )
-        )
-        panel = np.tile(panel[open_], 2)
-    corners, deepest = _at_corners(o)
-    bad += corners
-    lowest = min(lowest, deepest)
-    return tuple(_joined(bad)), lowest / scale if scale else 0.0
-
-
-def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float]], float]:
-    """Runs of tension at the concave corners on patches, as `_runs` has them, and the lowest D."""
-    P, pieces = o.patches, o.pieces
-    corners = pieces.never_closed
-    patch = np.searchsorted(P.a, corners, side="right") - 1
-    covered = (patch >= 0) & (corners < P.b[np.maximum(patch, 0)]) & (corners > P.a[patch])
-    corners, patch = corners[covered], patch[covered]
-    if not corners.size:
-        return [], np.inf
-    widths, deepest = [], np.full(corners.shape, np.inf)
-    for side in ("left", "right"):
-        piece = pieces.locate(corners, side)
-        end = pieces.ends[piece] if side == "left" else pieces.ends[piece + 1]
-        edge = P.a[patch] if side == "left" else P.b[patch]
-        room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
-        width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
-        corner = np.broadcast_to(corners[:, None], width.shape)
-        which = np.broadcast_to(piece[:, None], width.shape)
-        D = on_patches(o, patch, Points(corner, -width if side == "left" else width), which)
-        widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
-        deepest = np.minimum(deepest, D.min(axis=1))
-    left, right = widths
-    open_ = np.maximum(left, right) > CLOSED * P.r[patch]
-    lo, hi = corners - left, corners + right
-    runs = [
-        (int(patch[k]), float(lo[k]), float(lo[k]), float(hi[k]), float(hi[k]))
-        for k in np.flatnonzero(open_)
-    ]
-    return runs, float(deepest[open_].min(initial=np.inf))
-
-
-def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
-    """Runs of neighbouring nodes of a panel where D < 0: (from, first node, last node, up to).
-
-    They reach half-way to the next node, or as far beyond the panel's first or last one.
-    """
-    order = np.argsort(x)
-    x, negative = x[order], negative[order]
-    ends = np.concatenate((x[:1] - (x[1] - x[0]), 0.5 * (x[1:] + x[:-1]), x[-1:] + (x[-1] - x[-2])))
-    padded = np.concatenate(([False], negative, [False]))
-    starts = np.flatnonzero(padded[1:] & ~padded[:-1])
-    stops = np.flatnonzero(padded[:-1] & ~padded[1:])
-    return [
-        (float(ends[i]), float(x[i]), float(x[j - 1]), float(ends[j]))
-        for i, j in zip(starts.tolist(), stops.tolist(), strict=True)
-    ]
-
-
-def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
-    """Runs of the same patch that touch, as one."""
-    found: list[Tension] = []
-    until = -np.inf
-    for patch, start, lo, hi, stop in sorted(bad):
-        if found and found[-1].patch == patch and start <= until:
-            found[-1] = Tension(patch, min(lo, found[-1].lo), max(hi, found[-1].hi))
-            until = max(until, stop)
-        else:
-            found.append(Tension(patch, lo, hi))
-            until = stop
-    return found
-
-
-# -- beside the patches ----------------------------------------------------------------------------
-
-
-class Side(NamedTuple):
-    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ
-    and of the integrand, g at its start.
-    """
-
-    panels: GapPanels
-    sign: Array
-    phi: Array
-    primitive: Array
-    start: Array
-    reference: Array
-
-
-def _overlaps(o: Operator) -> tuple[Overlap, ...]:
+def overlaps(o: Operator) -> tuple[Overlap, ...]:
     panels = gap_panels(o.patches, o.pieces, outside=True)
     if not len(panels.gap):
         return ()
@@ -220,12 +56,9 @@ def _overlaps(o: Operator) -> tuple[Overlap, ...]:
         open_ = ~enough & ~negative.any(axis=1)
         if not open_.any() or depth == DEEPEST - 1:
             break
-        middle = 0.5 * (lo + hi)[open_]
-        panel, edge = (
-            np.tile(panel[open_], 2),
-            np.concatenate((edge[open_], np.zeros(len(middle), dtype=bool))),
-        )
-        lo, hi = np.concatenate((lo[open_], middle)), np.concatenate((middle, hi[open_]))
+        panel = np.tile(panel[open_], 2)
+        edge = np.concatenate((edge[open_], np.zeros(np.count_nonzero(open_), dtype=bool)))
+        lo, hi = halves(lo[open_], hi[open_])
     return _gathered(bad, largest)
 
 
@@ -247,8 +80,20 @@ def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tup
     return tuple(found)
 
 
+class Side(NamedTuple):
+    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ
+    and of the integrand, g at its start.
+    """
+
+    panels: GapPanels
+    sign: Array
+    phi: Array
+    primitive: Array
+    start: Array
+
+
 def sides(o: Operator, panels: GapPanels) -> Side:
-    reference, T, D = gap_values(o, panels)
+    _, T, D = gap_values(o, panels)
     sign = np.where(panels.right, -1.0, 1.0)
     phi = sign[:, None] * T * D / (np.pi * panels.root)
     n = phi.shape[1]
@@ -262,7 +107,7 @@ def sides(o: Operator, panels: GapPanels) -> Side:
     run = np.cumsum(first) - 1
     total = np.cumsum(whole) - whole
     start = total - total[np.flatnonzero(first)][run]
-    return Side(panels, sign, phi @ legendre(n), primitive, start, reference)
+    return Side(panels, sign, phi @ legendre(n), primitive, start)
 
 
 def _nodes(panels: GapPanels) -> Array:
@@ -293,7 +138,7 @@ def opening(o: Operator, side: Side, panel: Index, t: Array) -> tuple[Array, Arr
     same = follows & (pieces.locate(x) == k.piece[panel][:, None])
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = phi + np.where(same, 0.0, sign * difference / root)
-    return sign * rise * 1.0 + bent, x, slope
+    return sign * rise + bent, x, slope
 
 
 def _referenced(o: Operator, k: GapPanels, panel: Index, distance: Array, sign: Array) -> Array:

@@ -1,8 +1,8 @@
-"""What is not solved for dissimilar bodies with friction, and why: refused before any work.
+"""Refusals of loads with friction that no contact carries, or that are not covered.
 
-A normal load that grows, and a tangential load that grows after it, leave states that depend on
-the loads alone, as zones of stick and slip move in one direction. Other loads do not: what sticks
-again keeps a slip gradient that depends on every state before.
+Of dissimilar bodies, a normal load that grows, and a tangential load that grows after it, leave
+states that depend on the loads alone, as zones of stick and slip move in one direction. Other loads
+do not: what sticks again keeps a slip gradient that depends on every state before.
 """
 
 from __future__ import annotations
@@ -11,24 +11,44 @@ import math
 from typing import NoReturn
 
 from sie.errors import ContactError
-from sie.problem.scene import Scene
+
+from .load_limit import refuse_sliding
+from .scene import Scene, refuse_no_scene
+
+# The nearest contact of dissimilar bodies that is covered: E*, the bodies' shares of it and their
+# constants stay.
+NEGLECTED = (
+    "give dundurs = 0 (in a scene file, under [pair]) to neglect β alone, which changes tractions "
+    "by a part of about β"
+)
 
 
-def refuse_unsolved(scene: Scene, remedy: str) -> None:
+def refuse_uncovered(scene: Scene) -> None:
+    """Raises ValueError unless it is a scene, ContactError for loads that are not covered."""
+    refuse_no_scene(scene)
+    if scene.bonded and scene.bulk_stress == 0.0:
+        return
+    if scene.normal_load is not None and not scene.slides:
+        refuse_sliding(scene.friction, scene.normal_load, scene.tangential_load)
+    if scene.beta != 0.0 and scene.friction != 0.0 and (scene.coupled or scene.bulk_stress):
+        _refuse_dissimilar(scene)
+
+
+def _refuse_dissimilar(scene: Scene) -> None:
     """Raises ContactError for what is asked beyond P, then Q, of a symmetric profile."""
     pair = f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g}"
     if scene.bulk_stress:
         raise ContactError(
             f"{pair} under bulk_stress = {scene.bulk_stress:g}: how the strain of the body moves "
             "both ends of the stick zone, where p and q change together, is not solved; set "
-            f"bulk_stress = 0, set friction = 0, or {remedy}"
+            f"bulk_stress = 0, set friction = 0, or {NEGLECTED}"
         )
     if scene.tilt or scene.moment:
         name, value = ("tilt", scene.tilt) if scene.tilt else ("moment", scene.moment)
         raise ContactError(
             f"{pair} pressed with {name} = {value:g}: their stick zone grows in proportion to the "
             "contact only under a symmetric profile, and the growth of both of its ends is not "
-            f"solved; set {name} = 0, set friction = 0, or {remedy}"
+            f"solved; set {name} = 0, set friction = 0, or {NEGLECTED}"
         )
     if scene.tangential_load and scene.half_width is not None:
         raise ContactError(
@@ -36,6 +56,8 @@ def refuse_unsolved(scene: Scene, remedy: str) -> None:
             f"{scene.half_width:g}: Q changes the width of their contact, and the load of a width "
             "under Q is not solved; give normal_load"
         )
+    if scene.tangential_load and scene.profile.pieces.is_flat_punch:
+        refuse_corners(scene)
 
 
 def refuse_corners(scene: Scene) -> NoReturn:

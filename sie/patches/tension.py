@@ -1,0 +1,116 @@
+"""Where patches are in tension: D >= 0 on all of them, by bounds and not by samples.
+
+At a concave corner, where H jumps down, D falls without bound like a logarithm, which no polynomial
+shows: a patch that covers one is in tension there, on an interval that may be too narrow for
+doubles.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sie.numerics import chebyshev
+
+from .bounds import CLOSED, DEEPEST, NODES, TENSION, halves, lower_bound
+from .chord import Points
+from .operator import Operator, intensities, on_patches
+from .state import Tension
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+HALVED = 42  # times the distance from a concave corner is: less than CLOSED
+
+
+def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
+    """Where the patches are in tension, and the lowest bound of D over the largest D."""
+    k = o.panels
+    lo, hi = k.lo, k.hi
+    panel = np.arange(len(k.lo))
+    scale, lowest = 0.0, np.inf
+    bad: list[tuple[int, float, float, float, float]] = []
+    g, _ = chebyshev.gauss_legendre(NODES)
+    for depth in range(DEEPEST):
+        angle = lo[:, None] + (hi - lo)[:, None] * g
+        D, x = intensities(o, panel, angle)
+        finite = D[np.isfinite(D)]
+        scale = max(scale, float(finite.max(initial=0.0)))
+        bound = lower_bound(np.where(np.isfinite(D), D, scale))
+        negative = -TENSION * scale > D
+        for j in np.flatnonzero(negative.any(axis=1)):
+            bad += [(int(k.patch[panel[j]]), *run) for run in _runs(x[j], negative[j])]
+        enough = bound >= -TENSION * scale
+        lowest = min(lowest, float(bound[enough].min(initial=np.inf)))
+        lowest = min(lowest, float(np.where(negative, D, np.inf).min()))
+        open_ = ~enough & ~negative.any(axis=1) & (depth < DEEPEST - 1)
+        if not open_.any():
+            break
+        lo, hi = halves(lo[open_], hi[open_])
+        panel = np.tile(panel[open_], 2)
+    corners, deepest = _at_corners(o)
+    bad += corners
+    lowest = min(lowest, deepest)
+    return tuple(_joined(bad)), lowest / scale if scale else 0.0
+
+
+def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float]], float]:
+    """Runs of tension at the concave corners on patches, as `_runs` has them, and the lowest D."""
+    P, pieces = o.patches, o.pieces
+    corners = pieces.never_closed
+    patch = np.searchsorted(P.a, corners, side="right") - 1
+    covered = (patch >= 0) & (corners < P.b[np.maximum(patch, 0)]) & (corners > P.a[patch])
+    corners, patch = corners[covered], patch[covered]
+    if not corners.size:
+        return [], np.inf
+    widths, deepest = [], np.full(corners.shape, np.inf)
+    for side in ("left", "right"):
+        piece = pieces.locate(corners, side)
+        end = pieces.ends[piece] if side == "left" else pieces.ends[piece + 1]
+        edge = P.a[patch] if side == "left" else P.b[patch]
+        room = np.minimum(np.abs(end - corners), np.abs(edge - corners))
+        width = room[:, None] * 0.5 ** np.arange(1.0, HALVED)
+        corner = np.broadcast_to(corners[:, None], width.shape)
+        which = np.broadcast_to(piece[:, None], width.shape)
+        D = on_patches(o, patch, Points(corner, -width if side == "left" else width), which)
+        widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
+        deepest = np.minimum(deepest, D.min(axis=1))
+    left, right = widths
+    open_ = np.maximum(left, right) > CLOSED * P.r[patch]
+    lo, hi = corners - left, corners + right
+    runs = [
+        (int(patch[k]), float(lo[k]), float(lo[k]), float(hi[k]), float(hi[k]))
+        for k in np.flatnonzero(open_)
+    ]
+    return runs, float(deepest[open_].min(initial=np.inf))
+
+
+def _runs(x: Array, negative: NDArray[np.bool_]) -> list[tuple[float, float, float, float]]:
+    """Runs of neighbouring nodes of a panel where D < 0: (from, first node, last node, up to).
+
+    They reach half-way to the next node, or as far beyond the panel's first or last one.
+    """
+    order = np.argsort(x)
+    x, negative = x[order], negative[order]
+    ends = np.concatenate((x[:1] - (x[1] - x[0]), 0.5 * (x[1:] + x[:-1]), x[-1:] + (x[-1] - x[-2])))
+    padded = np.concatenate(([False], negative, [False]))
+    starts = np.flatnonzero(padded[1:] & ~padded[:-1])
+    stops = np.flatnonzero(padded[:-1] & ~padded[1:])
+    return [
+        (float(ends[i]), float(x[i]), float(x[j - 1]), float(ends[j]))
+        for i, j in zip(starts.tolist(), stops.tolist(), strict=True)
+    ]
+
+
+def _joined(bad: list[tuple[int, float, float, float, float]]) -> list[Tension]:
+    """Runs of the same patch that touch, as one."""
+    found: list[Tension] = []
+    until = -np.inf
+    for patch, start, lo, hi, stop in sorted(bad):
+        if found and found[-1].patch == patch and start <= until:
+            found[-1] = Tension(patch, min(lo, found[-1].lo), max(hi, found[-1].hi))
+            until = max(until, stop)
+        else:
+            found.append(Tension(patch, lo, hi))
+            until = stop
+    return found
