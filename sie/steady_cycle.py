@@ -30,6 +30,7 @@ from .friction.load_steps import steady_points
 from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
 from .history import History
+from .numerics.zones import within
 from .problem.load_path import Path
 from .problem.path_scene import refuse_uncovered
 from .problem.request import ECONOMY
@@ -74,7 +75,7 @@ def steady_cycle(
         For values that are no loads, or a scene of full stick.
     ContactError
         Where the steady state is not that of one permanent stick zone which both ends of the slip
-        reach at once.
+        reach at once. In several patches, or per period, it is that of P and Q alone.
 
     Examples
     --------
@@ -142,10 +143,13 @@ class SteadyCycle(Sequence["SteadyState"]):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The permanent stick zone, ((lo, hi),) in lengths."""
+        """The permanent stick zone, ((lo, hi),) in lengths, or one for each of several patches."""
         if self._slipping:
             return self._reduced(1).stick
-        (a, b), (c, d) = (self.history.plain(*p.loads.normal).edges for p in self._ends)
+        first, second = (self.history.plain(*p.loads.normal) for p in self._ends)
+        if max(len(first.patches), len(second.patches)) > 1:
+            return min(first, second, key=lambda contact: contact.normal_load).patches
+        (a, b), (c, d) = first.edges, second.edges
         return ((max(a, c), min(b, d)),)
 
     @property
@@ -183,8 +187,10 @@ class SteadyCycle(Sequence["SteadyState"]):
         out = step_slip(self.history, 1, x)
         if not self._slipping:
             return out
-        first, second = (self.history.plain(*p.loads.normal).edges for p in self._ends)
-        at_A, at_B = ((a <= x) & (x <= b) for a, b in (first, second))
+        at_A, at_B = (
+            within(x, self.history.plain(*p.loads.normal).patches, self.history.period)
+            for p in self._ends
+        )
         for wider, coming in ((at_A & ~at_B, 2), (at_B & ~at_A, 1)):
             if wider.any():
                 comes, leaves = (ChangingContact(self.history, k) for k in (coming, 3 - coming))
