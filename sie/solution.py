@@ -69,7 +69,7 @@ class Solution:
     scene : Scene
         The question.
     tol : float, optional
-        Relative accuracy that is asked of the resolution of functions and of the certificate.
+        Relative accuracy, as in `solve`.
     economy : collection of str, optional
         The savings that are allowed, as in `solve`.
 
@@ -616,7 +616,7 @@ class Solution:
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions at y = 0, length.
 
         Returns
         -------
@@ -669,7 +669,7 @@ class Solution:
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions on the surface, in the contact or beside it, length.
 
         Returns
         -------

@@ -163,7 +163,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface that do not leave the contact, length.
 
         Returns
         -------
@@ -211,7 +211,7 @@ class SteadyCycle(Sequence["SteadyState"]):
         Parameters
         ----------
         x : array_like of float
-            Positions on the surface, length.
+            Positions on the surface, also those that leave the contact, length.
 
         Returns
         -------

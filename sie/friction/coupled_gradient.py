@@ -36,7 +36,7 @@ FAINT = 1e-16  # of that size times the interval: what a short panel may miss
 # Tails below ROUGH that a cut leaves above SAME of what they were are rounding
 ROUGH, SAME = 1e-8, 0.8
 SHORTEST = 1e-11  # of the interval: no panel is cut that is as short; a corner's p is infinite
-HALVINGS = 14  # of the last panel, before its functions are looked at
+HALVINGS = 14  # of the last panel, before its functions are evaluated
 APART = 1e-9  # of the interval: marks that are nearer are one
 
 

@@ -63,20 +63,20 @@ def mended(state: State, found: Findings, pieces: Pieces) -> State:
         if b - start > least:
             cut.append((start, b))
     merged = set()
-    born = []
+    added = []
     for overlap in found.overlap:
         k = overlap.gap
         inner = 0 <= k < P.number - 1 or P.chord.periodic
         if inner and overlap.largest < 0.1 * overlap.depth:
             merged.add(k)
         else:
-            born.append(_born(overlap, state, pieces))
+            added.append(_added(overlap, state, pieces))
     for k in sorted(merged):
         if k < P.number - 1:
             cut.append((P.b[k] - 0.01 * P.r[k], P.a[k + 1] + 0.01 * P.r[k + 1]))
         else:
             cut.append((P.a[0] - P.gaps[k] - 0.01 * P.r[k], P.a[0] + 0.01 * P.r[0]))
-    a, b = np.array(apart(cut + [e for e in born if e is not None])).T
+    a, b = np.array(apart(cut + [e for e in added if e is not None])).T
     if P.chord.periodic:
         a, b = one_period(*_wrapped(a, b, P.chord.period), P.chord.period)
     return bounded(a, b, pieces, P.chord, state.tilt)
@@ -92,7 +92,7 @@ def _wrapped(a: Array, b: Array, period: float) -> tuple[Array, Array]:
     return a, b
 
 
-def _born(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
+def _added(overlap: Overlap, state: State, pieces: Pieces) -> tuple[float, float] | None:
     """A patch where the bodies overlap: as deep as a parabola that its load presses in."""
     P = state.patches
     x = overlap.x

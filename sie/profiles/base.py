@@ -220,6 +220,7 @@ class Profile(ABC):
         Returns
         -------
         Profile
+            The same indenter at another place.
 
         Raises
         ------
@@ -262,6 +263,7 @@ class Profile(ABC):
         Returns
         -------
         Profile
+            The same indenter, farther from the surface.
 
         Raises
         ------

@@ -122,11 +122,8 @@ class Slope:
 
     def inside(self, x: Array) -> Array:
         """H at points x (K, n), each row inside one piece."""
-        k = np.clip(
-            np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1,
-            0,
-            len(self.origins) - 1,
-        )
+        k = np.searchsorted(self.breaks, x[:, x.shape[1] // 2], side="right") - 1
+        k = np.clip(k, 0, len(self.origins) - 1)
         return self.local(k, np.zeros(len(k)), np.zeros(len(k)), x)
 
     def _on(self, k: NDArray[np.int64], x: Array) -> Array:

@@ -161,7 +161,7 @@ class Cycle:
         Parameters
         ----------
         x, y : array_like of float
-            Positions and depths, length, broadcast against each other.
+            Positions and depths, as of `history`.
 
         Returns
         -------
@@ -188,7 +188,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface where the slip of all states is known, length.
 
         Returns
         -------
@@ -204,7 +204,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions as of `slip_range`.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class Cycle:
         Parameters
         ----------
         x : array_like of float
-            Positions, length.
+            Positions on the surface where the slip and the tension of all states are known.
 
         Returns
         -------

@@ -188,7 +188,7 @@ class Density(ABC):
         Parameters
         ----------
         z : array_like
-            Places x + i y, lengths of any shape.
+            Places x + i y, as of `cauchy`.
         side : {1, -1, 0}
             As of `cauchy`.
 
@@ -211,7 +211,7 @@ class Density(ABC):
         Parameters
         ----------
         x : array_like
-            Places on the surface, lengths of any shape.
+            Places on the surface, as of the traction itself.
 
         Returns
         -------

@@ -18,8 +18,8 @@ from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_growth import power_law_moment
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
-# digits of
-# another formulation (mpmath) and by collocation of the printed equations on graded panels.
+# digits of another formulation (mpmath) and by collocation of the printed equations on graded
+# panels.
 REFERENCES = {
     (0.1, 0.1): (0.70061786631, 0.32027597518, 0.31651145915),
     (0.2, 0.3): (0.913700055232, 0.325433464420, 0.30966325689),
