@@ -16,6 +16,7 @@ ROOT = Path(__file__).parent.parent
 DOCUMENTS = sorted(
     [*(ROOT / "docs").rglob("*.md"), *(ROOT / name for name in ("README.md", "CONTRIBUTING.md"))]
 )
+GALLERY = sorted((ROOT / "docs" / "gallery").glob("plot_*.py"))
 each = pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 PACKAGES = "sie|analytic|validation|oracles"
 
@@ -53,6 +54,21 @@ def test_the_picture_of_the_architecture_is_that_of_the_imports():
     script = runpy.run_path(str(ROOT / "docs" / "draw_architecture.py"))
     drawn = (ROOT / "docs" / "architecture.svg").read_text(encoding="utf-8")
     assert drawn == script["picture"](), "run python docs/draw_architecture.py"
+
+
+@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
+def test_every_script_of_the_gallery_draws_a_labelled_picture(script, monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt  # noqa: PLC0415 -- after the choice of Agg
+
+    monkeypatch.setattr(plt, "show", lambda: None)
+    plt.close("all")
+    described = runpy.run_path(str(script))
+    axes = [ax for number in plt.get_fignums() for ax in plt.figure(number).axes]
+    plt.close("all")
+    assert described["__doc__"].strip()
+    assert axes and all(ax.get_xlabel() and ax.get_ylabel() for ax in axes)
 
 
 def test_the_version_is_written_in_one_module():

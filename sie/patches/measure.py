@@ -27,8 +27,8 @@ from numpy.typing import NDArray
 from .chord import Points
 from .panels import Patches, PatchPanels, patch_panels
 from .pieces import Pieces
-from .sums import Groups, far_sums, multiply, parts, steps
-from .tree import Level, Separation, Tree
+from .sums import Groups, far_sums, multiply, parts
+from .tree import Level, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -76,13 +76,9 @@ class Measure:
         if N == 1:
             return out
         groups = self.groups(i, x, np.arange(len(i)) if group is None else group)
-        if np.iscomplexobj(out):
-            every = np.arange(len(groups.i))
-            near = Separation([], np.tile(np.arange(N), len(every)), np.repeat(every, N))
-        else:
-            chord, extent = self.patches.chord, groups.wide
-            near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
-            out *= np.exp(far_sums(self.patches.chord, groups, near, x, self._logarithms)[..., 0])
+        chord, extent = self.patches.chord, groups.wide
+        near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
+        out *= np.exp(far_sums(chord, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
         for some in parts(len(block), out.shape[1]):
             multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
@@ -90,8 +86,13 @@ class Measure:
 
     def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
         """ln S of far nodes at places, (m, n, 1)."""
-        step = steps(self.patches.chord, level.points(node), x)
-        return np.log(np.abs(step, out=step), out=step) @ level.charges[0, node, :, None]
+        q = level.points(node)
+        step = self.patches.chord.beyond(q, x)
+        if np.iscomplexobj(step):  # the charges add to zero: any branch that no point crosses
+            step *= np.where(step[..., :1].real < 0.0, -1.0, 1.0)
+        else:
+            np.abs(step, out=step)
+        return np.log(step, out=step) @ level.charges[0, node, :, None]
 
     def _factor(self, j: Index, i: Index, x: Points, block: Index) -> Any:
         """What patch j contributes to S_i at blocks."""

@@ -15,17 +15,19 @@ charge itself.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .gap_rows import across_gaps
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
 from .pieces import Pieces
+from .repairs import after
 from .state import Event, Given, State
-from .sums import add, parts
 
 Array = NDArray[np.float64]
 
@@ -103,21 +105,7 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
     K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
-    return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
-
-
-def across_gaps(o: Operator, weight: Array) -> Array:
-    """Σ weight/d(x, e) over the nodes x of each gap and all edges e, (N - 1, 2N)."""
-    P, k = o.patches, o.gaps
-    e = P.edges
-    out = np.zeros((P.number - 1, len(e)))
-    for some in parts(len(k.gap), k.dx.shape[1] * len(e)):
-        step = P.chord.apart(
-            k.points.anchor[some, :, None] - e[:, None], k.points.offset[some, None, :]
-        )
-        sums = np.reciprocal(step, out=step) @ weight[some, :, None]
-        add(out, k.gap[some], sums[..., 0])
-    return out
+    return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
 
 
 class Damping(NamedTuple):
@@ -151,6 +139,21 @@ class Damping(NamedTuple):
         insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
         return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
 
+    def carried(self, before: State, after: State) -> tuple[Damping, State]:
+        """The same, and the charges, of the edges that were there before; others begin anew."""
+        old, edges = before.patches.edges, after.patches.edges
+        k = np.minimum(np.searchsorted(old, edges), len(old) - 1)
+        same = old[k] == edges
+        new = Damping.none(len(edges))
+        charge = np.where(same & after.sharp, before.charge[k], 0.0)
+        return Damping(*(np.where(same, v[k], w) for v, w in zip(self, new, strict=True))), replace(
+            after, charge=charge
+        )
+
+    @classmethod
+    def none(cls, n: int) -> Damping:
+        return cls(np.full(n, np.inf), *np.zeros((3, n)))
+
 
 def solve(
     state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
@@ -159,29 +162,35 @@ def solve(
     number of steps. `accuracy`: half-widths that the last step may have, and the most steps.
     """
     enough, most = accuracy
-    ends = pieces.solid_around(state.patches.c)
-    none = np.zeros(2 * state.patches.number)
-    damping = Damping(none + np.inf, none, none, none)
+    damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(most):
+    for step in range(most + MOST_STEPS * state.patches.number):
+        if len(sizes) == most:
+            break
         _, linear = conditions(state, pieces, given)
         y = linear.solution
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
-        damping = damping.limited(state, none if unknown else asked)
+        damping = damping.limited(state, 0.0 * asked if unknown else asked)
         size = relative_size(state, y, asked)
-        state, clipped = moved(state, damping.moved, y, (ends, given.moment is not None))
+        limits = pieces.solid_around(state.patches.c), given.moment is not None
+        state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
         if _settled(sizes, enough):
             wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
             return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
         event = _event(state, asked, damping.insists, pieces)
         if event is not None:
-            return state, event, step + 1
-        if damping.insists.max() >= INSISTS:
+            fewer = after(event, state, pieces)
+            if fewer.patches.number >= state.patches.number:
+                return state, event, step + 1
+            # what the other edges ask for is not changed by an event far from them
+            damping, state = damping.carried(state, fewer)
+            sizes = sizes[:-1] if most < MOST_STEPS else []
+        elif damping.insists.max() >= INSISTS:
             damping.insists[:] = 0
-    return state, Event("stall", -1), most
+    return state, Event("stall", -1), step + 1
 
 
 def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
