@@ -68,6 +68,11 @@ def rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
     return tuple(numbers(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
 
 
+def rows_or_text(where: str, value: Any) -> tuple[tuple[float, ...], ...] | str:
+    """A list of lists of numbers, or a text."""
+    return text(where, value) if isinstance(value, str) else rows(where, value)
+
+
 def texts(where: str, value: Any) -> tuple[str, ...]:
     """A list of texts."""
     return tuple(text(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
