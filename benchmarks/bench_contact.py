@@ -6,6 +6,8 @@ Counts of solves and transforms, which do not depend on the machine, are asserte
 tests/contact/test_cost.py.
 """
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -45,6 +47,22 @@ def test_over_the_closed_form_of_the_rounded_punch(benchmark, name):
     question = scene(PROFILES[name])
     run = lambda: sie.solve(question).pressure(X)  # noqa: E731
     benchmark.extra_info["ratio"] = compared(run, closed_form)[1]
+    benchmark(run)
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.5, 0.01), (0.05, 0.5), (0.001, 10)])
+def test_stick_zone_and_1001_pressures_over_a_product_of_matrices(benchmark, beta, friction):
+    """`ratio` to the product of two matrices of 400 rows, for constants that no call had before."""
+    matrix = np.random.default_rng(1).random((400, 400))
+    constants = itertools.count()
+
+    def run():
+        pair = {"dundurs": beta * (1.0 - 1e-9 * next(constants)), "friction": friction}
+        question = sie.Scene(profile=PROFILES["rounded flat"], modulus=2.0, normal_load=0.7, **pair)
+        solution = sie.solve(question)
+        return solution.stick, solution.pressure(X)
+
+    benchmark.extra_info["ratio"] = compared(run, lambda: matrix @ matrix)[1]
     benchmark(run)
 
 

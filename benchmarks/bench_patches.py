@@ -1,7 +1,11 @@
 """Contact in several patches: rough traces, and how the cost grows with the number of patches.
 
-python -m pytest benchmarks/bench_patches.py
+python -m pytest benchmarks/bench_patches.py            times
+python benchmarks/bench_patches.py [POINTS ...]         growth at a fixed density of patches
 """
+
+import sys
+from time import process_time
 
 import numpy as np
 import pytest
@@ -33,7 +37,9 @@ def test_a_row_of_parabolas(benchmark, count):
     assert len(patches) == count
 
 
-@pytest.mark.parametrize(("points", "load"), [(300, 0.02), (1000, 0.02), (3000, 0.03)])
+@pytest.mark.parametrize(
+    ("points", "load"), [(300, 0.02), (1000, 0.02), (3000, 0.03), (10_000, 0.04)]
+)
 def test_a_rough_trace(benchmark, points, load):
     trace = rough(points)
     assert len(benchmark.pedantic(solved, (trace, load), rounds=1)) > 10
@@ -51,11 +57,21 @@ def self_similar(points, seed=1):
     return sie.Sampled(x, h * (10.0 / points / h.std()) + ends)
 
 
-@pytest.mark.parametrize("points", [1000, 3000, 10_000, 30_000])
-def test_a_fixed_density_of_patches(benchmark, points):
+def repeated(points):
+    """The same waves, as a spline that repeats without a joint."""
+    x = np.linspace(0.0, 2.0, points + 1)
+    h = np.asarray(self_similar(points).heights)
+    h = np.fft.irfft(np.fft.rfft(h)[: points // 4], points)  # four points on the shortest wave
+    h = np.roll(h, -int(np.argmax(h)))
+    return sie.Periodic(sie.Sampled(x, np.append(h, h[0])), 2.0)
+
+
+@pytest.mark.parametrize("make", [self_similar, repeated])
+@pytest.mark.parametrize("points", [1000, 3000, 10_000, 30_000, 100_000])
+def test_a_fixed_density_of_patches(benchmark, make, points):
     """The growth exponent is the slope of these times over the number of points."""
-    trace = self_similar(points)
-    assert len(benchmark.pedantic(solved, (trace, 0.01), rounds=1)) > points / 100
+    trace = make(points)
+    assert len(benchmark.pedantic(solved, (trace, 0.01), rounds=1)) > points / 150
 
 
 def test_the_stress_below_two_patches(benchmark):
@@ -70,3 +86,21 @@ def test_the_elastic_limit_of_two_patches(benchmark):
     row = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
     scene = sie.Scene(profile=row, modulus=MODULUS, poisson=0.3, normal_load=0.4)
     assert benchmark(lambda: sie.solve(scene).elastic_limit())
+
+
+def growth(sizes):
+    """Prints points, patches, processor time, and the exponent from the first size on."""
+    for make in (self_similar, repeated):
+        print(make.__name__)
+        first = None
+        for points in sizes:
+            trace, start = make(points), process_time()
+            patches = len(solved(trace, 0.01))
+            seconds = process_time() - start
+            first = first or (points, seconds)
+            exponent = np.log(seconds / first[1]) / np.log(max(points / first[0], 1.0 + 1e-9))
+            print(f"{points:8d} points {patches:6d} patches {seconds:8.2f} s   n^{exponent:.2f}")
+
+
+if __name__ == "__main__":
+    growth([int(v) for v in sys.argv[1:]] or [1000, 3000, 10_000, 30_000, 100_000])

@@ -1,8 +1,8 @@
 """The command line.
 
     sie solve scene.toml            solve a scene, and print, draw or write the answer
-        [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]] [--field FILE] [--grid NXxNY]
-        [--points N] [--tol T]
+        [--want WHAT ...] [--plot FILE] [--csv FILE] [--history FILE] [--json [FILE]]
+        [--field FILE] [--grid NXxNY] [--points N] [--tol T]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
         [--tol T] [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
@@ -10,7 +10,7 @@
     sie example [NAME]              a commented scene file; without NAME, the list of them
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --json). No file that a scene or a command reads is written to. Exit codes:
+(--csv, --history, --json). No file that a scene or a command reads is written to. Exit codes:
 
     0      solved
     1      solved, but the certificate is not met, or the mesh result differs by more than --tol
@@ -34,7 +34,7 @@ from types import ModuleType
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
 from .errors import ContactError
-from .history import follow
+from .history import PathSolution, follow
 from .interrupt import INTERRUPTED
 from .io import export, scene_file
 from .io.answers import wanted
@@ -44,7 +44,6 @@ from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
-from .problem.load_path import Path
 from .problem.request import GRID
 from .solution import Solution, solve
 from .streams import discard_output, print_error, print_text
@@ -97,6 +96,11 @@ def _solve(arguments: argparse.Namespace) -> int:
             "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
         )
     file = _scene(arguments)
+    if "history" in outputs and not file.load_path:
+        raise ValueError(
+            "--history writes the turning points of a load path, and the scene has none: "
+            "give [load] path, or --csv in place of --history"
+        )
     _refuse_overwriting(arguments, outputs, file)
     solution = _solution(file, arguments.tol)
     contents = {
@@ -117,8 +121,8 @@ def _solve(arguments: argparse.Namespace) -> int:
 def _solution(file: SceneFile, tol: float) -> Solution:
     """The solution of the scene, or of the last point of its path."""
     return (
-        follow(file.scene, Path(file.path), tol=tol)[-1]
-        if file.path
+        follow(file.scene, file.load_path, tol=tol)[-1]
+        if file.load_path
         else solve(file.scene, tol=tol)
     )
 
@@ -178,6 +182,7 @@ def _example(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
+OUTPUTS = ("plot", "csv", "history", "json", "field")
 COMMANDS = {"solve": _solve, "compare": _compare, "plan": _plan, "example": _example}
 
 
@@ -217,7 +222,7 @@ def _standard_input() -> bytes:
 
 def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     """The destination of each kind of output. ValueError unless all can be written."""
-    given = ((kind, getattr(arguments, kind, None)) for kind in ("plot", "csv", "json", "field"))
+    given = ((kind, getattr(arguments, kind, None)) for kind in OUTPUTS)
     outputs = {kind: pathlib.Path(name) for kind, name in given if name is not None}
     if "plot" in outputs:
         _check_picture(outputs["plot"])
@@ -229,7 +234,8 @@ def _outputs(arguments: argparse.Namespace) -> dict[str, pathlib.Path]:
     for (first, path), (second, other) in combinations(outputs.items(), 2):
         if path == other == pathlib.Path(STANDARD):
             raise ValueError(
-                "--csv and --json cannot both go to standard output: give one of them a file"
+                f"--{first} and --{second} cannot both go to standard output: give one of them a "
+                "file"
             )
         if files.same(_place(path), _place(other)):
             raise ValueError(
@@ -303,6 +309,9 @@ def _content(
         return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
+    if kind == "history":
+        assert isinstance(solution, PathSolution)
+        return export.history_text(solution.history, file, arguments.points).encode()
     if kind == "json":
         return export.json_text(solution, file, arguments.points).encode()
     return _picture(solution, file, path.suffix[1:].lower())

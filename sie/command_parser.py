@@ -19,8 +19,8 @@ COMMANDS = {
     "example": "print a commented scene file to start from",
 }
 OPTIONS = (
-    "--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol", "--help",
-    "--version",
+    "--want", "--plot", "--csv", "--history", "--json", "--field", "--grid", "--points", "--tol",
+    "--help", "--version",
 )  # fmt: skip
 STANDARD = "-"
 MOST_POINTS = 10**6
@@ -99,6 +99,7 @@ def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:
     everything = "write all that is wanted; without FILE, print it"
     add("--plot", "FILE", f"{plot} (needs Matplotlib)")
     add("--csv", "FILE", "write x, pressure, gap, shear, slip")
+    add("--history", "FILE", "write the same at every turning point of a load path")
     add("--json", "FILE", everything, nargs="?", const=STANDARD)
     add("--field", "FILE", "write the stress on a grid: .csv, .npz or .vti (ParaView)")
     add("--grid", "NXxNY", f"points of that grid ({GRID[0]}x{GRID[1]})", type=_grid)

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, overload
@@ -32,12 +33,12 @@ from numpy.typing import NDArray
 
 from .contact.inequalities import slope_rises
 from .contact.known_contact import Normal
-from .errors import LoadError
+from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_step import Contacts
 from .friction.load_steps import turning_points
-from .friction.path_slip import PathSlip
+from .friction.path_slip import PathSlip, step_shift
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
 from .friction.turning_point import Loads, TurningPoint
@@ -148,6 +149,7 @@ class History(Sequence[Solution]):
         self._energy = PathEnergy(self)
         self._tau = replace(self.scene, bulk_stress=1.0).tau  # of a unit of bulk stress
         self._known: dict[Under, KnownZones] = {}
+        self._shifts: dict[int, float] = {}
         self._dissipation: dict[float, Dissipation] = {}
         self._work_in_patches: dict[float, PatchDissipation] = {}
         self.turning_points = steps(scene, path, self)
@@ -188,6 +190,21 @@ class History(Sequence[Solution]):
             turn = now - first if loads.P else 0.0
         level = f * loads.P
         return complex(level, f * 0.5 * self.scene.Estar * turn * self.arm) if turn else level
+
+    def tilt_of(self, level: complex) -> float:
+        """The tilt of the contact of a level."""
+        lever = self.scene.friction * 0.5 * self.scene.Estar * self.arm
+        return self.plain(*self._first).tilt + level.imag / lever
+
+    def contact_at(self, P: float, tilt: float) -> Interval:
+        """The contact under P at a tilt, in one patch."""
+        scene = replace(self.scene, normal_load=P, tilt=tilt, moment=None)
+        return Solution(scene, self.tol, self.economy).as_one_patch.edges.contact
+
+    @property
+    def by_moment(self) -> bool:
+        """Whether moments are added along the path, not tilts."""
+        return bool(self.path.moment)
 
     @cached_property
     def curved(self) -> bool:
@@ -233,7 +250,9 @@ class History(Sequence[Solution]):
         """
         key = (normal, depth)
         if key not in self._first_loadings:
-            near = self._known.setdefault(normal, KnownZones())
+            if normal not in self._known:
+                self._known[normal] = KnownZones()
+            near = self._known[normal]
             guess = None if depth.imag else near.guess(depth.real)
             found = self._loaded(self.plain(*normal), depth, turned, guess)
             if isinstance(found, OneSignedSlip) and not depth.imag:
@@ -243,7 +262,7 @@ class History(Sequence[Solution]):
 
     def on_the_way(self, normal: Under, depth: complex, turned: bool) -> Slip:
         """The same between two turning points; it is not kept."""
-        plain = self._frictionless(*normal)
+        plain = self._plain.get(normal) or self._frictionless(*normal)
         if not depth:
             return NoSlip(plain.as_one_patch.edges.contact, self.scene.friction)
         return self._loaded(plain, depth, turned)
@@ -282,25 +301,39 @@ class History(Sequence[Solution]):
         """The patches of contact under P."""
         if not self.in_one_patch:
             return self.under(P, self.plain(self.largest, turn).tilt).patches
-        contact = self.dissipation(turn).contacts.contact(P).interval
+        contact = self.upright_contact(P, turn)
         return ((contact.x1, contact.x2),)
 
+    def upright_contact(self, P: float, turn: float) -> Interval:
+        """The contact under P, in one patch, beside others at the same tilt."""
+        return self.dissipation(turn).contacts.contact(P).interval
+
     def rows(self) -> list[dict[str, Any]]:
-        """For files: the loads of each point, its stick zones, and the energy dissipated up to
-        it.
+        """For files: the loads of each point, its stick zones, and the energy dissipated up to it
+        if that is known.
         """
-        names = ("normal_load", "tangential_load", "bulk_stress")
+        turned = "tilt" if self.path.tilt else "moment"
         rows = []
-        for loads, point in zip(self.path.points, self, strict=True):
-            stick = [list(zone) for zone in point.stick] if loads[0] else []
-            energy = point.energy_lost if loads[0] else 0.0
-            row = dict(zip(names, loads, strict=True))
-            rows.append(row | {"stick": stick, "energy_lost": energy})
+        for state, point in zip(self.turning_points, self, strict=True):
+            P, Q, sigma, turn = state.loads
+            row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
+            if self.path.tilt or self.path.moment:
+                row[turned] = turn
+            row["stick"] = [list(zone) for zone in point.stick] if P else []
+            with suppress(ContactError):
+                row["energy_lost"] = point.energy_lost if P else 0.0
+            rows.append(row)
         return rows
 
     def energy(self, index: int) -> float:
         """The energy lost from the beginning of the path to a turning point."""
         return self._energy.until(index)
+
+    def shift_of_step(self, index: int) -> float:
+        """The shift of the indenter that slip adds in one step."""
+        if index not in self._shifts:
+            self._shifts[index] = step_shift(self, index)
+        return self._shifts[index]
 
     def dissipation(self, turn: float) -> Dissipation:
         """The dissipated energy, and the contacts under all loads of the path, at one tilt."""

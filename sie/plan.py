@@ -229,6 +229,8 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
     if asks_for_patches(scene.profile):
+        if scene.half_width is not None:
+            return "refused: a half-width is not that of several patches, give normal_load"
         return "load given: patches from a grid, their edges by Newton, verified by bounds"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:

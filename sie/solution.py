@@ -27,10 +27,11 @@ from .contact.inequalities import slope_rises, verify_inequalities
 from .contact.known_contact import Edges, Normal
 from .contact.normal import contact_under, normal_contact
 from .contact.pressure import pressure
-from .errors import ContactError, InequalityError, LoadError
+from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
 from .friction.coupled_normal import coupled_contact
+from .friction.coupled_rates import tangential_energy, tangential_shift
 from .friction.coupled_sheared import ShearedContact, sheared_contact
 from .friction.coupled_tangential import TangentialSearch, tangential_search
 from .friction.coupled_traction import OnHalves
@@ -59,6 +60,8 @@ from .traction.combination import scaled
 from .traction.of_slope import SlopeDensity
 
 Array = NDArray[np.float64]
+
+NEARLY = 0.999  # of f P: a load in partial slip next to sliding
 
 
 class Solution:
@@ -105,7 +108,7 @@ class Solution:
             return self._in_patches()
         try:
             return self.one_patch()
-        except (InequalityError, LoadError) as error:
+        except (InequalityError, LoadError, ResolutionError) as error:
             if self._may_be_in_patches:
                 return self._in_patches(error)
             raise explained(error, self.scene.profile) from None
@@ -208,6 +211,11 @@ class Solution:
     @cached_property
     def pressed(self) -> tuple[Edges, CoupledContact]:
         """The same under the normal load alone."""
+        scene = self.scene
+        if not scene.profile.convex:
+            P, b = scene.normal_load, scene.half_width
+            plain = Scene(profile=scene.profile, modulus=scene.Estar, normal_load=P, half_width=b)
+            _ = Solution(plain, self.tol).as_one_patch
         return coupled_contact(self.scene, self._frictionless)
 
     @cached_property
@@ -320,7 +328,11 @@ class Solution:
     @cached_property
     def dissipated(self) -> float:
         """The energy dissipated by slip."""
-        return dissipated(self.tangential)
+        if not self.scene.coupled:
+            return dissipated(self.tangential)
+        state, pressed = self.coupled[1], self.pressed[1].energy
+        more = tangential_energy(state) if isinstance(state, ShearedContact) else 0.0
+        return pressed + more
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
@@ -530,12 +542,11 @@ class Solution:
         Raises
         ------
         ContactError
-            As for `slip`, and for dissimilar bodies under a tangential load.
+            As for `slip`, and for dissimilar bodies under a tangential load if the states on the
+            way to it are not found.
         """
         self._refuse_unknown_slip()
-        if self.scene.coupled:
-            return self.coupled[1].energy
-        return self.dissipated if self.sheared else 0.0
+        return self.dissipated if self.sheared or self.scene.coupled else 0.0
 
     @property
     def shift(self) -> float:
@@ -554,26 +565,26 @@ class Solution:
         Notes
         -----
         The shift without slip is Q times a constant that depends on the place of observation,
-        because plane elasticity leaves it undetermined.
+        because plane elasticity leaves it undetermined. For dissimilar bodies it is that of a
+        contact bonded between the edges that the normal load made.
 
         References
         ----------
         Johnson, Contact Mechanics (1985), § 2.2.
         """
         self._refuse_unknown_slip()
-        if self.scene.coupled and self.scene.tangential_load:
-            raise ContactError(
-                f"the shift of dissimilar bodies (β = {self.scene.beta:.4g}) is counted from that "
-                "without slip, which oscillates next to the edges and is not solved; `slip` is"
-            )
+        if self.scene.coupled:
+            state = self.coupled[1]
+            return tangential_shift(state) if isinstance(state, ShearedContact) else 0.0
         return self.tangential.shift if self.sheared else 0.0
 
     def _refuse_unknown_slip(self) -> None:
         if self.scene.slides and self.scene.beta:
+            limit = self.scene.slides * self.scene.friction * self.normal_load
             raise ContactError(
-                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide is "
-                "a matter of partial slip, which is not covered for them yet: pressure, shear and "
-                "stresses are"
+                f"how far dissimilar bodies (β = {self.scene.beta:.4g}) slip before they slide "
+                "depends on the states before: drop sliding and give tangential_load = "
+                f"{NEARLY * limit:.6g}, {NEARLY:g} of f P, for the slip next to it"
             )
 
     # -- in the body -------------------------------------------------------------------------------

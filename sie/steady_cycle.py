@@ -14,6 +14,7 @@ opposite directions: then, at constant P and tilt, twice the first loading by ha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -24,10 +25,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import arguments
 from .errors import ContactError
+from .friction.changing_contact import ChangingContact
 from .friction.load_steps import steady_points
 from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
 from .history import History
+from .numerics.zones import within
 from .problem.load_path import Path
 from .problem.path_scene import refuse_uncovered
 from .problem.request import ECONOMY
@@ -72,7 +75,7 @@ def steady_cycle(
         For values that are no loads, or a scene of full stick.
     ContactError
         Where the steady state is not that of one permanent stick zone which both ends of the slip
-        reach at once.
+        reach at once. In several patches, or per period, it is that of P and Q alone.
 
     Examples
     --------
@@ -140,10 +143,13 @@ class SteadyCycle(Sequence["SteadyState"]):
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:
-        """The permanent stick zone, ((lo, hi),) in lengths."""
+        """The permanent stick zone, ((lo, hi),) in lengths, or one for each of several patches."""
         if self._slipping:
             return self._reduced(1).stick
-        (a, b), (c, d) = (self.history.plain(*p.loads.normal).edges for p in self._ends)
+        first, second = (self.history.plain(*p.loads.normal) for p in self._ends)
+        if max(len(first.patches), len(second.patches)) > 1:
+            return min(first, second, key=lambda contact: contact.normal_load).patches
+        (a, b), (c, d) = first.edges, second.edges
         return ((max(a, c), min(b, d)),)
 
     @property
@@ -167,19 +173,37 @@ class SteadyCycle(Sequence["SteadyState"]):
         Raises
         ------
         ContactError
-            For points that leave the contact in each cycle.
+            For points that leave the contact in each cycle, in several patches or where the tilt
+            follows from a moment.
+
+        Notes
+        -----
+        What leaves the contact slips from when it comes back until it leaves again.
         """
         return on_line(lambda at: np.abs(self._slip(at)), x)
 
     def _slip(self, x: Array) -> Array:
-        (a, b), (c, d) = (self.history.plain(*p.loads.normal).edges for p in self._ends)
-        leaving = ((a <= x) & (x <= b)) != ((c <= x) & (x <= d))
-        if leaving.any() and self._slipping:
-            raise ContactError(
-                f"x = {float(x[leaving][0]):.6g} leaves the contact in each cycle: how far it "
-                f"slips is not covered; ask for points within [{max(a, c):.6g}, {min(b, d):.6g}]"
-            )
-        return step_slip(self.history, 1, x)
+        """The slip at B, counted from A; the range where x leaves the contact."""
+        out = step_slip(self.history, 1, x)
+        if not self._slipping:
+            return out
+        at_A, at_B = (
+            within(x, self.history.plain(*p.loads.normal).patches, self.history.period)
+            for p in self._ends
+        )
+        for wider, coming in ((at_A & ~at_B, 2), (at_B & ~at_A, 1)):
+            if wider.any():
+                comes, leaves = (ChangingContact(self.history, k) for k in (coming, 3 - coming))
+                slip = np.abs(comes.slip_of_new(x[wider]))
+                back = np.abs(leaves.slip_of_left(x[wider]))
+                out[wider] = -self._sign * np.maximum(slip, back)
+        return out
+
+    @property
+    def _sign(self) -> float:
+        """The direction of slip on the way to A."""
+        top = self.history.turning_points[0].memory.top
+        return math.copysign(1.0, top.k) if top else 0.0
 
     def shear_range(self, x: ArrayLike) -> Array:
         """|q_A - q_B|, the range of the shear traction in a cycle, as stress, at positions x.

@@ -3,17 +3,20 @@
 import importlib
 import re
 import runpy
+import shutil
 import tomllib
 from pathlib import Path
 
 import pytest
 
 import sie
+from sie.cli import main
 
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = sorted(
     [*(ROOT / "docs").rglob("*.md"), *(ROOT / name for name in ("README.md", "CONTRIBUTING.md"))]
 )
+GALLERY = sorted((ROOT / "docs" / "gallery").glob("plot_*.py"))
 each = pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 PACKAGES = "sie|analytic|validation|oracles"
 
@@ -53,6 +56,21 @@ def test_the_picture_of_the_architecture_is_that_of_the_imports():
     assert drawn == script["picture"](), "run python docs/draw_architecture.py"
 
 
+@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
+def test_every_script_of_the_gallery_draws_a_labelled_picture(script, monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt  # noqa: PLC0415 -- after the choice of Agg
+
+    monkeypatch.setattr(plt, "show", lambda: None)
+    plt.close("all")
+    described = runpy.run_path(str(script))
+    axes = [ax for number in plt.get_fignums() for ax in plt.figure(number).axes]
+    plt.close("all")
+    assert described["__doc__"].strip()
+    assert axes and all(ax.get_xlabel() and ax.get_ylabel() for ax in axes)
+
+
 def test_the_version_is_written_in_one_module():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     assert "version" in project["project"]["dynamic"]
@@ -63,3 +81,34 @@ def test_the_version_is_written_in_one_module():
 def test_the_citation_has_the_version_of_the_package():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert f"\nversion: {sie.__version__}\n" in citation
+
+
+GUIDES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
+
+
+@pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
+def test_the_snippets_and_commands_of_a_guide_run_in_order(guide, tmp_path, monkeypatch, capsys):
+    """Python, scene files ("Save this as `name`") and commands, beside the guide's data."""
+    for data in guide.parent.glob("*.csv"):
+        shutil.copy(data, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    text = guide.read_text(encoding="utf-8")
+    (saved,) = re.findall(r"Save this as `([\w.-]+)`", text)
+    names = {}
+    for kind, block in re.findall(r"```(python|toml|sh)\n(.*?)```", text, flags=re.DOTALL):
+        if kind == "python":
+            exec(compile(block, guide.name, "exec"), names)
+        elif kind == "toml":
+            Path(saved).write_text(block, encoding="utf-8")
+        else:
+            for line in block.splitlines():
+                assert main(line.split()[1:]) == 0, capsys.readouterr().err
+
+
+def test_every_refusal_of_a_path_that_is_listed_is_one_that_is_raised():
+    page = (ROOT / "docs" / "derivations" / "layered-memory.md").read_text(encoding="utf-8")
+    table = page.split("## What is refused")[1].split("\n## ")[0]
+    raised = " ".join(path.read_text(encoding="utf-8") for path in (ROOT / "sie").rglob("*.py"))
+    raised = re.sub(r'"\s+f?"', "", raised)
+    for phrase in re.findall(r'"([^"]+)"', table):
+        assert phrase in raised, phrase

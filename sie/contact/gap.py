@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 More = Callable[[Array, float], Array] | None
 
 NODES = 20
+DEGREE = 8.0  # of a series that they integrate over a panel
 # ... and so few of them on a panel this short, relative to its θ (all singularities have
 # Re θ = 0) and to 1
 SHORT, SHORT_NODES = 0.125, 6
@@ -88,7 +89,7 @@ def _on_one_side(
     beyond = np.nextafter(contact.x2 if side > 0.0 else contact.x1, side * np.inf)
 
     def integral(start: Array, length: Array) -> Array:
-        short = length <= np.minimum(SHORT * start, SHORT)
+        short = (length <= np.minimum(SHORT * start, SHORT)) & (not slope.functions)
         out = np.zeros(start.shape)
         for chosen, nodes in ((short, SHORT_NODES), (~short, NODES)):
             if chosen.any():
@@ -135,7 +136,15 @@ def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slo
     even = np.arange(LONGEST, theta_max, LONGEST)
     edge = contact.x2 if side > 0.0 else contact.x1
     doubled = edge + side * contact.r * DOUBLED
-    pieces = refined(slope, min(edge, farthest), max(edge, farthest), EPS, doubled).breaks
+    resolved = refined(slope, min(edge, farthest), max(edge, farthest), EPS, doubled)
+    pieces = resolved.breaks
+    if slope.functions:
+        parts = np.maximum(np.ceil(resolved.degrees / DEGREE), 1.0).astype(int)
+        pieces = np.interp(
+            np.concatenate([k + np.arange(n) / n for k, n in enumerate(parts.tolist())]),
+            np.arange(len(pieces)),
+            pieces,
+        )
     outside = -(contact.from_right(pieces) if side > 0.0 else contact.from_left(pieces))
     outside = outside[(outside > 0.0) & np.isfinite(outside)]
     breaks = 2.0 * np.arcsinh(np.sqrt(outside) / np.sqrt(2.0 * contact.r))

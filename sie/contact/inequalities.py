@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import InequalityError
+from sie.errors import InequalityError, ResolutionError
 from sie.numerics.interval import EPS, Interval, angles, inner, position
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -111,7 +111,12 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
     x = x[np.abs(x - contact.m) < np.where(outward > 0.0, right, left)]
     if not x.size:
         return x, x
-    values = gap(x, density, slope)
+    try:
+        values = gap(x, density, slope)
+    except ResolutionError:  # of waves without end
+        if not slope_rises(density, slope):
+            raise
+        return x, np.zeros(len(x))
     scale = max(
         float(
             np.abs(values[np.minimum(np.abs(x - contact.x1), np.abs(x - contact.x2)) <= r]).max(

@@ -158,7 +158,9 @@ def _in_window(
             resolved = refined(slope, window.lo, window.hi, resolution(tol))
             found = _searched(scene, resolved, economy, tilt)
         except LoadError as error:
-            if not window.may_carry_more(float(error.reached.get("load", 0.0))):
+            # a wider window does not make one patch of those that carry the moment
+            several = "tilt" in error.reached and not (profile.convex or scene.epsilon)
+            if several or not window.may_carry_more(float(error.reached.get("load", 0.0))):
                 _refuse_infinite_ends(profile.pieces)
                 raise
             window.grow()

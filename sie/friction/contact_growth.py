@@ -136,32 +136,10 @@ class ContactGrowth:
         guess = self._guess(math.log(y))
         if guess is None:
             return None
-        contact, target, previous = guess, y / self.search.half_modulus, NEAR
-        for _ in range(STEPS):
-            k, r = self.search.integrals(contact), contact.r
-            if not (k.JL > 0.0 and k.JR > 0.0):
-                return None
-            step1, step2 = (
-                (r * (k.I1 - k.I0) - target) / (r * k.JL),
-                (target - r * (k.I1 + k.I0)) / (r * k.JR),
-            )
-            d1, d2 = self._distances(contact)
-            size = max(abs(step1) / d1, abs(step2) / d2)
-            if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(self.top / y):
-                return Contact(contact, (False, False), k)
-            if not size <= previous:
-                return None
-            contact, previous = contact.moved(step1, step2), size
-            if not (self._ends[0] < contact.x1 and contact.x2 < self._ends[1]):
-                return None
-        return None
-
-    def _distances(self, contact: Interval) -> tuple[float, float]:
-        z1, z2 = self.touch
-        return (z1 - contact.x1) - contact.tail1, (contact.x2 - z2) + contact.tail2
+        return near_contact(self.search, y, guess, self.top)
 
     def _learn(self, y: float, found: Contact) -> None:
-        distances = self._distances(found.interval)
+        distances = _distances(found.interval, self.touch)
         if any(found.sharp) or min(distances) <= 0.0:
             return
         point = (math.log(y), math.log(distances[0]), math.log(distances[1]))
@@ -187,3 +165,33 @@ class ContactGrowth:
         (d1, d2), (z1, z2) = np.exp(moves[0]).tolist(), self.touch
         (x1, tail1), (x2, tail2) = two_sum(z1, -d1), two_sum(z2, d2)
         return Interval(x1, x2, tail1, tail2)
+
+
+def near_contact(search: Search, load: float, guess: Interval, top: float) -> Contact | None:
+    """The contact under a load by Newton from another one, None if that does not settle or an edge
+    is sharp; `top` is the largest load, next to which rounding of the slope is small.
+    """
+    contact, target, previous = guess, load / search.half_modulus, NEAR
+    touch, (lo, hi) = search.touch(), search.slope.domain
+    for _ in range(STEPS):
+        k, r = search.integrals(contact), contact.r
+        if not (k.JL > 0.0 and k.JR > 0.0):
+            return None
+        step1, step2 = (
+            (r * (k.I1 - k.I0) - target) / (r * k.JL),
+            (target - r * (k.I1 + k.I0)) / (r * k.JR),
+        )
+        d1, d2 = _distances(contact, touch)
+        size = max(abs(step1) / d1, abs(step2) / d2)
+        if size <= SETTLED or previous * 0.25 <= size <= SETTLED * math.sqrt(top / load):
+            return Contact(contact, (False, False), k)
+        if not size <= previous:
+            return None
+        contact, previous = contact.moved(step1, step2), size
+        if not (lo < contact.x1 and contact.x2 < hi):
+            return None
+    return None
+
+
+def _distances(contact: Interval, touch: tuple[float, float]) -> tuple[float, float]:
+    return (touch[0] - contact.x1) - contact.tail1, (contact.x2 - touch[1]) + contact.tail2

@@ -14,15 +14,15 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, interval_about
 from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 
-from .coupled_flat import FULL_STICK
 from .coupled_functions import FlatFunctions
 from .coupled_growth import load_slope
-from .coupled_profile import GrowthPanel, Superposition, _graded, _rules
+from .coupled_interpolation import interpolated
+from .coupled_panels import graded, totals
+from .coupled_profile import GrowthPanel, Superposition
 from .coupled_traction import CoupledTraction, Panels, resolved_panels
 
 Array = NDArray[np.float64]
@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 WIDER = 1.0 + 64.0 * EPS  # than the frictionless contact: as far as P' is known
 FALLING = 1e-9  # of the largest P': below it a negative one is not rounding
 ENERGY_NODES = 24
+FEW = 12  # marks: between more of them interpolation saves little
 # half-widths: the first panel beside the edge, where H has a power of the distance
 NEAR_EDGE = 1e-9
 
@@ -137,7 +138,7 @@ class CoupledContact:
     @property
     def full_stick(self) -> bool:
         """Whether the slip zones are narrower than a part FULL_STICK of the contact."""
-        return self.flat.rest <= FULL_STICK * (1.0 + 1e-6)
+        return self.flat.punch.bonded
 
     @cached_property
     def superposition(self) -> Superposition:
@@ -172,9 +173,17 @@ class CoupledContact:
         return self.sign / self.half_modulus * g
 
     def _of(self, function: Callable[[Array, Array], Array], y: Array) -> Array:
+        def direct(y: Array) -> Array:
+            return function(y, np.full(len(y), self.ahead))
+
         values = np.zeros(len(y))
         inside = (y > 0.0) & (y <= self.b) if not self.flat_base else y <= self.b
-        values[inside] = function(y[inside], np.full(int(inside.sum()), self.ahead))
+        if not self.growth or len(self.marks) > FEW:
+            values[inside] = direct(y[inside])
+        else:
+            # Smooth and even about the axis under a flat base
+            first = -self.marks[0] if self.flat_base else 0.0
+            values[inside] = interpolated(direct, np.array((first, *self.marks)), y[inside])
         return values
 
     def _of_corner(
@@ -201,13 +210,12 @@ class CoupledContact:
         if abs(start) > FALLING * float(np.abs(first.series).max()):
             return math.inf
         hi = min(first.hi, self.ahead)
-        x, _, w = with_weight(ENERGY_NODES, 0.0, first.power - 1.0 if first.power else 0.0)
-        total = float(w @ (first(hi * x) / x))
+        s, weight = first.rule(hi, ENERGY_NODES, -1.0 if first.power else 0.0)
+        total = float(weight @ (first(s) / s))
         for panel in others:
             if panel.lo < self.ahead:
-                length = min(panel.hi, self.ahead) - panel.lo
-                x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
-                total += length * float(w @ (panel(length * x) / (panel.lo + length * x)))
+                ahead, weight = panel.rule(min(panel.hi, self.ahead) - panel.lo, ENERGY_NODES)
+                total += float(weight @ (panel(ahead) / (panel.lo + ahead)))
         return A * total
 
     # -- beside the contact ------------------------------------------------------------------------
@@ -225,12 +233,9 @@ class CoupledContact:
         """
         ahead = y - self.b
         none = np.full(len(y), np.inf)
-        owner, start, size, _, kind = _graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
-        z, _, w = _rules(0.0, 0.0)
-        at = self.b + (start[:, None] + size[:, None] * z[kind])
-        H = self.hilbert_outside(at.ravel()).reshape(at.shape)
-        integral = size * (H * w[kind]).sum(axis=1)
-        return np.bincount(owner, integral, minlength=len(y)) / self.half_modulus
+        owner, places, _, weight = graded(ahead, np.full(len(y), NEAR_EDGE * self.b), none)
+        H = self.hilbert_outside((self.b + places).ravel()).reshape(places.shape)
+        return totals(owner, H * weight, len(y)) / self.half_modulus
 
     @cached_property
     def energy(self) -> float:
@@ -239,9 +244,8 @@ class CoupledContact:
         steps = [(p, min(p.hi, self.ahead) - p.lo) for p in self.growth]
         for panel, length in steps:
             if length > 0.0:
-                x, _, w = with_weight(ENERGY_NODES, 0.0, panel.power)
-                ahead = panel.lo + length * x
-                total += length * float((w * panel(length * x)) @ self._rate(ahead))
+                ahead, weight = panel.rule(length, ENERGY_NODES)
+                total += float((weight * panel(ahead)) @ self._rate(panel.lo + ahead))
         if self.corner_load:
             # The flat's own part grows as the square of its load
             edge = self._rate(np.array([self.ahead]))[0]

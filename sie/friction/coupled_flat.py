@@ -25,38 +25,42 @@ Spence (1973, 1975) for the problem; Muskhelishvili (1953) §§ 107-114 for the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.elliptic import Modulus, elliptic_functions, modulus_of_ratio
-from sie.numerics.gauss_jacobi import gauss_jacobi
+from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 
 Array = NDArray[np.float64]
 
-DIGITS = 38.0  # -ln of the error that a rule may leave
+# -ln of the error that a rule may leave: of even functions, and of others
+DIGITS, ACROSS = 38.0, 36.0
 NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is derived from the solution
 SPARE = 4
 # Nodes of the double exponential rule for the logarithm in ε: its step, and where it is cut.
 STEP, LAST = 0.09, 42
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
 FULL_STICK = 1e-15
-# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess does not
-# decide
-NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.3
+# K'/K where 1 - c = c'²/2 is that, as c' = 4 exp(-π K/2K'); nearer than DOUBTFUL the guess cannot
+# tell
+NARROWEST_RATIO, DOUBTFUL = math.pi / math.log(8.0 / FULL_STICK), 1.05
 # beyond it c = 4 exp(-π K'/2K) is lost even beside a double's smallest lengths
 WIDEST_RATIO = 250.0
-FIRST_STEP, SETTLED, MOST_STEPS = 0.02, 1e-14, 20
+# Of the search for K'/K: where a step ends it, and how fast β² misses its value beside the guess
+SETTLED, STEEPNESS, MOST_STEPS = 1e-14, 0.9, 20
+ALIKE = 1e-8  # the ratios that bound an eigenvalue, where one more step ends the iteration
 
 
 @dataclass(frozen=True, eq=False)
 class FlatPunch:
     """The solution of the eigenvalue problem, for P = 1 on |x| < 1.
 
-    beta, friction      β > 0 and f, such that 1 - c >= FULL_STICK
+    beta, friction      β > 0 and f
+    bonded              whether the slip zone is narrower than FULL_STICK; f is then that which
+                        makes it about so wide
     modulus             k = c, the half-width of the stick zone
     square, remainder   sn² and cn² at the nodes
     weight              of the rule for 2 cn^2θ dn^(2-2θ) du
@@ -66,6 +70,7 @@ class FlatPunch:
 
     beta: float
     friction: float
+    bonded: bool
     modulus: Modulus
     square: Array = field(repr=False)
     remainder: Array = field(repr=False)
@@ -96,6 +101,23 @@ def nodes_for(ratio: float, digits: float = DIGITS) -> int:
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 
+def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
+    """Nodes on (0, 1), their distances from 1, and weights of functions with the powers a at 1 and
+    b at 0, whose nearest singularities are at half the interval's length times ratio.
+
+    A long interval is cut, as few nodes cost less to find.
+    """
+    n = math.ceil(1.0 / ratio)
+    nodes = math.ceil(ACROSS / (2.0 * math.asinh(NEARER * min(n * ratio, 1.5)))) + SPARE
+    if n == 1:
+        return with_weight(nodes, a, b)
+    ends = with_weight(nodes, 0.0, b), with_weight(nodes, a, 0.0)
+    panels = (ends[0], *[with_weight(nodes, 0.0, 0.0)] * (n - 2), ends[1])
+    x = np.concatenate([(k + panel.x) / n for k, panel in enumerate(panels)])
+    rest = np.concatenate([(n - 1 - k + panel.rest) / n for k, panel in enumerate(panels)])
+    return x, rest, np.concatenate([panel.weight / n for panel in panels])
+
+
 def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
     """1/(1 - c² sn²u sn²u') from both cn²: nothing cancels as c approaches 1."""
     sum_of_both = one[:, None] + other - one[:, None] * other
@@ -103,7 +125,9 @@ def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
     return kernel
 
 
-def _at_ratio(tau: float, beta: float, friction: float, n: int) -> tuple[float, FlatPunch]:
+def _at_ratio(
+    tau: float, beta: float, friction: float, n: int, start: Array | None = None
+) -> tuple[float, FlatPunch]:
     """-ε (2 + ε) at K'/K = τ, and the punch with this stick zone."""
     theta = math.atan(beta * friction) / math.pi
     modulus = modulus_of_ratio(tau)
@@ -111,18 +135,36 @@ def _at_ratio(tau: float, beta: float, friction: float, n: int) -> tuple[float, 
     part = np.sqrt(square)
     sn, cn, dn = elliptic_functions(modulus, part, rest / (1.0 + part))
     W = modulus.K * weight * (cn / rest) ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
-    root, remainder = np.sqrt(W), cn * cn
-    kernel = _kernel(modulus, remainder, remainder)
-    values, vectors = np.linalg.eigh(root[:, None] * kernel * root)
-    v = np.abs(vectors[:, -1]) / root
+    remainder = cn * cn
+    kernel = _kernel(modulus, remainder, remainder) * W
+    eigenvalue, v = _largest(kernel, 1.0 / dn if start is None else start)
     v /= modulus.k ** (2.0 * theta) * (W @ v)
     part, rest, dx = double_exponential()
     _, cn, dn = elliptic_functions(modulus, part, rest)
     tested = dx * dn * (_kernel(modulus, cn * cn, remainder) @ (W * v))
     logarithm = np.log(modulus.k * (cn / dn) ** 2)
     epsilon = float(tested @ np.expm1(theta * logarithm)) / float(tested.sum())
-    punch = FlatPunch(beta, friction, modulus, sn * sn, remainder, W, v, float(values[-1]))
+    punch = FlatPunch(beta, friction, False, modulus, sn * sn, remainder, W, v, eigenvalue)
     return -epsilon * (2.0 + epsilon), punch
+
+
+def _largest(matrix: Array, v: Array) -> tuple[float, Array]:
+    """The largest eigenvalue of a positive matrix, and its positive eigenvector.
+
+    The largest ratio of (matrix v)/v bounds it, and inverse iteration with this shift keeps v
+    positive and converges quadratically (Noda 1971).
+    """
+    negative, diagonal = -matrix, np.diag_indices(len(v))
+    for _ in range(MOST_STEPS):
+        ratio = (matrix @ v) / v
+        bound = float(ratio.max())
+        negative[diagonal] = bound - matrix[diagonal]
+        v = np.asarray(np.linalg.solve(negative, v), dtype=float)
+        v /= v.max()
+        if bound - float(ratio.min()) <= ALIKE * bound:
+            break
+    v = matrix @ v
+    return float((v @ matrix @ v) / (v @ v)), v
 
 
 @lru_cache(maxsize=1)
@@ -138,37 +180,46 @@ def double_exponential() -> tuple[Array, Array, Array]:
 def flat_punch(beta: float, friction: float) -> FlatPunch:
     """The flat punch in partial slip; β > 0, f > 0.
 
-    Where the slip zone would be narrower than FULL_STICK, friction is that which makes it so wide:
-    under a larger one the tractions differ only within such a distance of the edges.
+    Where the slip zone would be narrower than FULL_STICK, friction is that which makes it about so
+    wide: under a larger one the tractions differ only within such a distance of the edges.
     """
-    # Goodman's β/f, corrected for large ones: the oscillation of a bonded edge spans the phase
-    # atan f
-    guess = min(math.atanh(beta) / math.atan(friction), WIDEST_RATIO)
+    phase = _phase(beta, friction)
+    guess = min(phase / math.atan(friction), WIDEST_RATIO)
     n = nodes_for(NEARER * min(guess, 1.5))
     if guess == WIDEST_RATIO:
         return _at_ratio(guess, beta, friction, n)[1]
     if guess < DOUBTFUL * NARROWEST_RATIO:
         n = nodes_for(NEARER * NARROWEST_RATIO)
-        if _at_ratio(NARROWEST_RATIO, beta, friction, n)[0] > beta * beta:
-            return _root(
-                math.log(math.tan(math.atanh(beta) / NARROWEST_RATIO)),
-                beta,
-                lambda log_f: _at_ratio(NARROWEST_RATIO, beta, math.exp(log_f), n),
-            )
-    return _root(
-        math.log(guess), beta, lambda log_tau: _at_ratio(math.exp(log_tau), beta, friction, n)
-    )
+        certain = guess < NARROWEST_RATIO / DOUBTFUL
+        if certain or _at_ratio(NARROWEST_RATIO, beta, friction, n)[0] > beta * beta:
+            friction = math.tan(phase / NARROWEST_RATIO)
+            friction = math.tan(_phase(beta, friction) / NARROWEST_RATIO)
+            return replace(_root(NARROWEST_RATIO, beta, friction, n), bonded=True)
+    return _root(guess, beta, friction, n)
 
 
-def _root(start: float, beta: float, at: Callable[[float], tuple[float, FlatPunch]]) -> FlatPunch:
-    """The punch that meets the condition -ε (2 + ε) = β², by the secant method."""
-    before, missed_before = start, at(start)[0] - beta * beta
-    after = start + FIRST_STEP
+def _phase(beta: float, friction: float) -> float:
+    """About atan(f) K'/K: Goodman's β, corrected for larger constants by a fit to solutions."""
+    square = beta * beta
+    return beta * (1.0 + square * (0.5 + square / 3.0 + 0.054 * math.atan(friction) ** 2))
+
+
+def _root(guess: float, beta: float, friction: float, n: int) -> FlatPunch:
+    """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K."""
+    before, (value, punch) = math.log(guess), _at_ratio(guess, beta, friction, n)
+    missed_before = value - beta * beta
+    after = before - STEEPNESS * missed_before / (2.0 * value)
     for _ in range(MOST_STEPS):
-        value, punch = at(after)
+        if abs(after - before) <= SETTLED:
+            break
+        value, punch = _at_ratio(math.exp(after), beta, friction, n, punch.pressure)
         missed = value - beta * beta
-        if abs(after - before) <= SETTLED or missed == missed_before:
+        if missed == missed_before:
             break
         step = missed * (after - before) / (missed - missed_before)
+        # Of a secant step the next one leaves the product of both
+        settled = abs(step * (after - before)) <= SETTLED and abs(step) <= SETTLED**0.75
         before, missed_before, after = after, missed, after - step
+        if settled:
+            return _at_ratio(math.exp(after), beta, friction, n, punch.pressure)[1]
     return punch

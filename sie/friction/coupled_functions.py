@@ -31,15 +31,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics.elliptic import elliptic_functions
-from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
+from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .coupled_flat import NEARER, SPARE, FlatPunch, double_exponential, flat_punch
-from .coupled_tables import DEGREE, Points, Table, joined, panel_cuts
+from .coupled_flat import FlatPunch, double_exponential, flat_punch, long_rule
+from .coupled_tables import DEGREE, Points, Table, joined
 
 Array = NDArray[np.float64]
 Function = Callable[[Array, Array], Array]
 
-ACROSS = 36.0  # -ln of the error of a rule that is not even
+ZERO, ONE = (0.0, 1.0), (1.0, 0.0)  # as (t, 1 - t)
 
 
 class FlatFunctions:
@@ -108,15 +108,15 @@ class FlatFunctions:
 
     @cached_property
     def A(self) -> Table:
-        return Table(self._lower_cuts, self._A)
+        return Table(ZERO, self._middle, (1.0, self.beyond), self._A)
 
     @cached_property
     def S(self) -> Table:
-        return Table(self._lower_cuts, self._S)
+        return Table(ZERO, self._middle, (self.c, self.beyond), self._S)
 
     @cached_property
     def Psi(self) -> Table:
-        return Table(self._upper_cuts, self._Psi)
+        return self._near_edge(self._Psi)
 
     @cached_property
     def slip_near_c(self) -> Table:
@@ -130,8 +130,7 @@ class FlatFunctions:
             S = self.S(t.ravel(), e.ravel()).reshape(t.shape)
             return factor * (((t + self.c) / (e * (1.0 + t))) ** self.h * S) @ w
 
-        cuts = [cut for cut in self._lower_cuts if cut[0] > self.c and cut[1] < self.rest]
-        return Table([(self.c, self.rest), *cuts], mean)
+        return Table((self.c, self.rest), self._middle, (2.0 * self.c, self.beyond), mean)
 
     @cached_property
     def slip_near_edge(self) -> tuple[Table, Table]:
@@ -155,26 +154,21 @@ class FlatFunctions:
 
         there = self.slip_near_c(*at) * gap ** (1.0 + self.h)
         start = (there - singular(*at) * at[1] ** (1.0 - self.h) - regular(*at))[0]
-        cuts = self._upper_cuts
-        return Table(cuts, lambda t, e: start + regular(t, e)), Table(cuts, singular)
+        return self._near_edge(lambda t, e: start + regular(t, e)), self._near_edge(singular)
 
     @cached_property
     def _outside_table(self) -> Table:
-        cuts = panel_cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: 0.5 * (e + self.rest))
-        return Table(cuts, self._potential_outside)
+        return Table(ZERO, ONE, (1.0 / self.c, self.rest / self.c), self._potential_outside)
 
     @property
-    def _lower_cuts(self) -> list[tuple[float, float]]:
-        """Panels of 0 <= t <= c^(1/2), as far from -c as from 1 as they are long, as (t, 1 - t)."""
-        return panel_cuts(
-            (0.0, 1.0), (self.middle, self.beyond), lambda t, e: min(t + self.c, 0.5 * e)
-        )
+    def _middle(self) -> tuple[float, float]:
+        """c^(1/2), as (t, 1 - t)."""
+        return self.middle, self.beyond
 
-    @property
-    def _upper_cuts(self) -> list[tuple[float, float]]:
-        """Panels of c^(1/2) <= t <= 1, as far from c."""
-        start = self.middle, self.beyond
-        return panel_cuts(start, (1.0, 0.0), lambda t, e: float(self._beyond_c(t, e)))
+    def _near_edge(self, function: Function) -> Table:
+        """A table on c^(1/2) <= t <= 1 of a function that is singular at c and smooth at 1."""
+        from_c = float(self._beyond_c(*self._middle))
+        return Table(self._middle, ONE, (from_c, math.inf), function)
 
     def _beyond_c(self, t: Any, e: Any) -> Any:
         return self.rest - e if self.c > 0.5 else t - self.c
@@ -282,7 +276,7 @@ class FlatFunctions:
 
     def _stick_points(self, a: float) -> Points:
         """0 < t < c, for (c - t)^((a - 1)/2) times a smooth function."""
-        x, rest, w = with_weight(self._nodes(2.0 * self._tau), a, 0.0)
+        x, rest, w = long_rule(2.0 * self._tau, a, 0.0)
         sn, cn, dn = elliptic_functions(self.punch.modulus, x, rest)
         from_c = self.c * cn * cn / (1.0 + sn)
         return Points(
@@ -291,14 +285,14 @@ class FlatFunctions:
 
     def _outside(self, a: float) -> Points:
         """1/η for η > 1, for (η - 1)^((a - 1)/2) times a smooth function; weights of cn dn du."""
-        x, rest, w = with_weight(self._nodes(2.0 * self._tau), a, 0.0)
+        x, rest, w = long_rule(2.0 * self._tau, a, 0.0)
         sn, cn, dn = elliptic_functions(self.punch.modulus, x, rest)
         e = cn * cn / (1.0 + sn)
         return Points(sn, e, 1.0 - self.c * sn, w * (self.punch.modulus.K * cn * dn))
 
     def _slip_points(self, a: float, b: float, lo: float = 0.0, hi: float = 1.0) -> Points:
         """A part of c < t < 1, in the elliptic coordinate v, for (hi - v)^a (v - lo)^b."""
-        x, rest, w = with_weight(self._nodes(2.0 / (self._tau * (hi - lo))), a, b)
+        x, rest, w = long_rule(2.0 / (self._tau * (hi - lo)), a, b)
         return self._of_slip_zone(lo + (hi - lo) * x, (1.0 - hi) + (hi - lo) * rest, (hi - lo) * w)
 
     def _of_slip_zone(self, part: Array, remaining: Array, w: Array) -> Points:
@@ -314,11 +308,6 @@ class FlatFunctions:
     @property
     def _tau(self) -> float:
         return self.punch.modulus.K_complement / self.punch.modulus.K
-
-    @staticmethod
-    def _nodes(ratio: float) -> int:
-        """For an interval whose nearest singularities are at half its length times ratio."""
-        return math.ceil(ACROSS / (2.0 * math.asinh(NEARER * min(ratio, 1.5)))) + SPARE
 
     # -- p, r and A/χ there ------------------------------------------------------------------------
 

@@ -25,16 +25,16 @@ from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
-from .coupled_profile import GrowthPanel, Kernel, Superposition, _graded, _rules
-from .coupled_tables import Table, panel_cuts
+from .coupled_panels import graded, totals
+from .coupled_profile import GrowthPanel, Kernel, Superposition
+from .coupled_tables import Table
+from .coupled_traction import ROUGH, SAME
 
 Array = NDArray[np.float64]
 
 DEGREE = 16
 RESOLVED = 1e-12  # of the size of the functions: the last coefficients of a panel
 FAINT = 1e-16  # of that size times the interval: what a short panel may miss
-# Tails below ROUGH that a cut leaves above SAME of what they were are rounding
-ROUGH, SAME = 1e-8, 0.8
 SHORTEST = 1e-11  # of the interval: no panel is cut that is as short; a corner's p is infinite
 HALVINGS = 14  # of the last panel, before its functions are evaluated
 APART = 1e-9  # of the interval: marks that are nearer are one
@@ -85,9 +85,7 @@ class SlipGradient:
             return values * f.middle / part
 
         # J is not smooth at τ = c and at τ = -1, the other edge
-        ahead = f.beyond / f.middle
-        cuts = panel_cuts((0.0, 1.0), (1.0, 0.0), lambda t, e: min(0.5 * (e + ahead), t + f.middle))
-        return Table(cuts, J)
+        return Table((0.0, 1.0), (1.0, 0.0), (f.middle, f.beyond / f.middle), J)
 
     def _beside_shear(self, y: Array, top: Array) -> Array:
         """∫P' J(y/s) ds/s up to y/c^(1/2) or origin + top."""
@@ -104,17 +102,14 @@ class SlipGradient:
         """The same on one panel up to `end`, which lies `before` y/c^(1/2)."""
         f, z = self.flat, panel.origin
         to_c = np.maximum(y * (f.beyond / f.c), (y / f.c - z) - end)
-        owner, start, size, left, kind = _graded(end - panel.lo, y + (z + panel.lo), to_c)
-        x, rest, w = _rules(panel.power, 0.0)
-        ahead = start[:, None] + size[:, None] * x[kind]
+        kink = np.minimum(y + (z + panel.lo), panel.behind)
+        owner, ahead, left, weight = graded(end - panel.lo, kink, to_c, (panel.power, 0.0))
         scale = (f.middle / y[owner])[:, None]
         # Next to its end J varies over distances as short as the slip zone: 1 - part would lose
         # their digits
-        remaining = scale * ((before[owner] + left)[:, None] + size[:, None] * rest[kind])
-        values = self._J(scale * ((z + panel.lo) + ahead), remaining) * panel(ahead) * w[kind]
-        integral = size / y[owner] * values.sum(axis=1)
-        total: Array = np.bincount(owner, integral, minlength=len(y)).astype(float)
-        return total
+        remaining = scale * (before[owner][:, None] + left)
+        values = self._J(scale * ((z + panel.lo) + ahead), remaining) * panel(ahead) * weight
+        return totals(owner, values, len(y)) / y
 
 
 class Tabulated(NamedTuple):

@@ -31,7 +31,8 @@ from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 
 from .coupled_functions import FlatFunctions
-from .coupled_profile import NODES, GrowthPanel, _graded, _rules
+from .coupled_panels import LONGEST, NODES, graded, totals
+from .coupled_profile import GrowthPanel
 
 Array = NDArray[np.float64]
 
@@ -42,6 +43,7 @@ NEGLIGIBLE = 256.0 * EPS
 NO_LESS = 0.7  # of what a panel missed before it was cut
 MOST = 300  # panels: beyond, none is cut
 CUT = 0.4  # of a panel: where it is cut
+FOLDS = 2.5  # of the distance from a kink: how much it grows on a panel, as a logarithm
 NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink towards x
 
 
@@ -77,23 +79,22 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
     solved: list[GrowthPanel] = []
     load, origin = 0.0, pieces[0].lo
     for k, piece in enumerate(pieces):
-        power = _first_power(flat.h, piece, k == 0)
-        parts = _panels(origin, piece.lo, piece.hi)
-        start = parts[0][0]
-        todo = [(lo, hi, math.inf) for lo, hi in reversed(parts)]
+        panels = _panels(flat, origin, piece, _first_power(flat.h, piece, k == 0))
+        todo = [(panel, math.inf) for panel in reversed(panels)]
         while todo:
-            lo, hi, before = todo.pop()
-            panel = GrowthPanel(origin, lo, hi, power if lo == start else 0.0, np.zeros(DEGREE))
-            panel = _collocated(flat, solved, piece, panel)
+            empty, before = todo.pop()
+            panel = _collocated(flat, solved, piece, empty)
             more, missed = panel.load(math.inf), _missed(panel)
-            negligible = missed <= NEGLIGIBLE * abs(load + more)
-            # A shorter panel misses as much, by rounding
+            # P' falls at most as fast as the root of the distance from a corner grows
+            later = math.sqrt((piece.hi - piece.lo) / (panel.hi - panel.lo))
+            negligible = missed <= NEGLIGIBLE * abs(load + more) * max(later, 1.0)
+            negligible |= panel.hi - panel.lo <= 1.01 * _narrowest(panel.power) * piece.lo
+            # Of rounding a shorter panel misses as much
             if negligible or missed > NO_LESS * before or len(solved) > MOST:
                 solved.append(panel)
                 load += more
                 continue
-            middle = lo + CUT * (hi - lo)
-            todo += [(middle, hi, missed), (lo, middle, missed)]
+            todo += [(part, missed) for part in reversed(_halves(empty))]
     return tuple(solved)
 
 
@@ -113,21 +114,53 @@ def _first_power(h: float, piece: Piece, first: bool) -> float:
     return h - 1.0 if piece.jumps else h
 
 
-def _panels(origin: float, lo: float, hi: float) -> list[tuple[float, float]]:
-    """Parts of lo <= s <= hi no longer than their distance from the axis, counted from the
-    origin.
+def _panels(flat: FlatFunctions, origin: float, piece: Piece, power: float) -> list[GrowthPanel]:
+    """Panels of a piece, still without their series.
+
+    From a place where P' begins with a power of the distance they grow with this distance, beyond
+    that in which the slip zones move through the place.
     """
-    n = 1 if lo == 0.0 else max(1, math.ceil(math.log2(hi / lo)))
-    ends = [lo - origin, *(lo * (hi / lo) ** (k / n) - origin for k in range(1, n)), hi - origin]
-    return list(itertools.pairwise(ends))
+    lo, hi = piece.lo - origin, piece.hi - origin
+    if not power:
+        n = 1 if piece.lo == 0.0 else max(1, math.ceil(math.log2(piece.hi / piece.lo)))
+        ends = [
+            lo,
+            *(piece.lo * (piece.hi / piece.lo) ** (k / n) - origin for k in range(1, n)),
+            hi,
+        ]
+        return [_panel(origin, lo, hi) for lo, hi in itertools.pairwise(ends)]
+    first = min(piece.lo * min(max(flat.rest / flat.c, _narrowest(power)), 1.0), hi - lo)
+    n = math.ceil(math.log((hi - lo) / first) / FOLDS)
+    ends = [first * math.exp(k * FOLDS) for k in range(n)] + [hi - lo]
+    later = [_panel(origin, lo + d, lo + e, behind=d) for d, e in itertools.pairwise(ends)]
+    return [_panel(origin, lo, lo + ends[0], power), *later]
+
+
+def _narrowest(power: float) -> float:
+    """The part of the half-width on which P' from a kink (power > 0) or a corner carries nothing:
+    its power is 1/2 and -1/2 there, as far as the slip zone is narrower.
+    """
+    return EPS**0.75 if power > 0.0 else EPS
+
+
+def _panel(
+    origin: float, lo: float, hi: float, power: float = 0.0, behind: float = math.inf
+) -> GrowthPanel:
+    return GrowthPanel(origin, lo, hi, power, np.zeros(DEGREE), behind)
+
+
+def _halves(panel: GrowthPanel) -> list[GrowthPanel]:
+    """The panel in two; the first is shorter, as kinks of the profile leave powers there."""
+    ahead = CUT * (panel.hi - panel.lo) if panel.behind == math.inf else panel.nodes(0.5)
+    middle, behind = panel.lo + ahead, panel.behind + ahead
+    return [replace(panel, hi=middle), replace(panel, lo=middle, power=0.0, behind=behind)]
 
 
 def _collocated(
     flat: FlatFunctions, solved: list[GrowthPanel], piece: Piece, panel: GrowthPanel
 ) -> GrowthPanel:
     """The panel with its series."""
-    length = panel.hi - panel.lo
-    ahead = 0.5 * length * (1.0 + chebyshev.points(DEGREE))
+    ahead = panel.nodes(0.5 * (1.0 + chebyshev.points(DEGREE)))
     x = panel.lo + ahead  # from the origin
     known = (panel.origin + x) * piece.slope((panel.lo - (piece.lo - panel.origin)) + ahead)
     near = [other for other in solved if panel.lo - other.hi < NEAR * (other.hi - other.lo)]
@@ -157,15 +190,18 @@ def _beside(flat: FlatFunctions, panel: GrowthPanel, x: Array, beyond: Array) ->
 def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyond: Array) -> Array:
     """The same over a part of the panel."""
     length = np.full(len(x), part)
-    owner, start, size, left, kind = _graded(length, np.full(len(x), np.inf), beyond)
-    z, rest, w = _rules(panel.power, 0.0)
-    ahead = start[:, None] + size[:, None] * z[kind]
-    to_x = beyond[owner][:, None] + (left[:, None] + size[:, None] * rest[kind])
+    kink = np.full(len(x), panel.behind)
+    owner, ahead, left, weight = graded(length, kink, beyond, (panel.power, 0.0), _longest(panel))
     at = panel.origin + x[owner][:, None]
-    values = flat.outside((panel.origin + panel.lo + ahead) / at, to_x / at) * panel(ahead)
-    integral = size * (values * w[kind]).sum(axis=1)
-    total: Array = np.bincount(owner, integral, minlength=len(x)).astype(float)
-    return total
+    t, rest = (panel.origin + panel.lo + ahead) / at, (beyond[owner][:, None] + left) / at
+    return totals(owner, flat.outside(t, rest) * panel(ahead) * weight, len(x))
+
+
+def _longest(panel: GrowthPanel) -> float:
+    """The length of a panel of integrals over a part of this one: where P' is a polynomial of s,
+    it varies faster in the logarithm of a distance.
+    """
+    return LONGEST if panel.behind < math.inf else 0.5 * LONGEST
 
 
 def load_slope(
@@ -186,21 +222,14 @@ def load_slope(
 
 def _own(flat: FlatFunctions, panel: GrowthPanel, x: Array, ahead: Array) -> Array:
     """The matrix that takes the series to ∫P' ρ D(ρ) ds from lo to each x of the panel."""
-    owner, start, size, left, kind = _graded(
-        ahead, np.full(len(x), np.inf), (panel.origin + x) * (flat.rest / flat.c)
-    )
-    z, rest, w = _rules(panel.power, -flat.h)
-    inside = start[:, None] + size[:, None] * z[kind]
-    to_x = left[:, None] + size[:, None] * rest[kind]
+    to_c = (panel.origin + x) * (flat.rest / flat.c)
+    kink = np.full(len(x), panel.behind)
+    owner, inside, left, weight = graded(ahead, kink, to_c, (panel.power, -flat.h), _longest(panel))
     at = panel.origin + x[owner][:, None]
-    values = flat.outside((panel.origin + panel.lo + inside) / at, to_x / at) * (
-        size[:, None] * w[kind]
-    )
+    values = flat.outside((panel.origin + panel.lo + inside) / at, left / at) * weight
     if panel.power:
         values *= inside**panel.power
-    y = 2.0 / (panel.hi - panel.lo) * inside - 1.0
-    terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, y), values)
+    terms = np.einsum("kij,ij->ik", chebyshev.polynomials(DEGREE, panel.variable(inside)), values)
     matrix = np.zeros((len(x), DEGREE))
-    for row, term in zip(owner.tolist(), terms, strict=True):
-        matrix[row] += term
+    np.add.at(matrix, owner, terms)
     return matrix

@@ -59,13 +59,18 @@ def iterated(trial: Callable[[Array], T], edges: Array, room: Callable[[Array], 
             slopes = None
             continue
         made = moved.edges - now.edges
-        slopes = used + np.outer(moved.missed - now.missed - used @ made, made) / float(made @ made)
-        if moved.error > RENEWED * now.error:
-            slopes = None
+        used += np.outer(moved.missed - now.missed - used @ made, made) / float(made @ made)
+        slopes = used if moved.error <= RENEWED * now.error else None
         now = moved
         if now.error <= SETTLED:
-            return now
+            # One step more: where q is much less than f p, Q is told by the last digits
+            last = now.edges - np.asarray(np.linalg.solve(used, now.missed), dtype=float)
+            return min(now, trial(last), key=_error) if (room(last) > 0.0).all() else now
     return now if now.error < STALLED else None
+
+
+def _error(one: Missing) -> float:
+    return one.error
 
 
 def _slopes(

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from sie.contact.known_contact import Edges, Normal
 from sie.errors import ContactError, LoadError
 from sie.numerics.interval import EPS, interval_about
+from sie.numerics.root_finding import false_position
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -165,14 +166,16 @@ def _width(
 
 def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
     """The distance from the first place of contact at which ∫P' = P, to relative accuracy."""
-    from scipy.optimize import brentq  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
-
     hi = farthest
     while load(0.5 * hi) > P and hi > TINIEST * farthest:
         hi *= 0.5
-    if load(hi) <= P:
+    lo = 0.5 * hi
+    ends = load(lo) / P - 1.0, load(hi) / P - 1.0
+    if ends[1] <= 0.0:
         return hi
-    return float(brentq(lambda a: load(a) / P - 1.0, 0.5 * hi, hi, xtol=1e-300, rtol=4.0 * EPS))
+    return false_position(
+        lambda a: load(a) / P - 1.0, lo, hi, ends, lambda a, b, missed: abs(missed) <= 2.0 * EPS
+    )
 
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:

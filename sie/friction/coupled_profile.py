@@ -15,26 +15,24 @@ Spence (1975), J. Elasticity 5, 297, for the stick zone that no profile changes.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.numerics import chebyshev
-from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
+from sie.numerics.gauss_jacobi import with_weight
 
 from .coupled_functions import FlatFunctions
+from .coupled_panels import NODES, graded, totals
 from .coupled_tables import chopped, summed
 
 Array = NDArray[np.float64]
 
-GROWTH = 2.0  # a panel's length over its distance from the singularity; with NODES that is 1e-13
-NODES = 12
-FAR = 1e300  # stands for no singularity
 NEAREST = 1e-17  # of the half-width, to a singularity of P' that x may be on
 
 
@@ -42,7 +40,9 @@ NEAREST = 1e-17  # of the half-width, to a singularity of P' that x may be on
 class GrowthPanel:
     """P'(s) = (s - origin - lo)^power Σ c_k T_k for lo <= s - origin <= hi.
 
-    From the origin, the half-width of a flat base, short panels keep their digits.
+    From the origin, the half-width of a flat base, short panels keep their digits. The series is
+    one in the logarithm of the distance from a place `behind` the panel where P' is not smooth; if
+    that is infinite, one in s.
     """
 
     origin: float
@@ -50,37 +50,63 @@ class GrowthPanel:
     hi: float
     power: float
     series: Array = field(repr=False)
+    behind: float = math.inf
 
     def __call__(self, ahead: Array) -> Array:
         """P' at s = origin + lo + ahead."""
-        values = summed(self._chopped, 2.0 / (self.hi - self.lo) * ahead - 1.0)
+        values = summed(self._chopped, self.variable(ahead))
         return values * ahead**self.power if self.power else values
+
+    def variable(self, ahead: Array) -> Array:
+        """That of the series."""
+        length, behind = self.hi - self.lo, self.behind
+        if behind == math.inf:
+            return 2.0 / length * ahead - 1.0
+        return 2.0 / math.log1p(length / behind) * np.log1p(ahead / behind) - 1.0
 
     @cached_property
     def _chopped(self) -> Array:
         return chopped(self.series)
 
+    def nodes(self, part: Array | float) -> Any:
+        """s - origin - lo at parts of the panel in that variable."""
+        length, behind = self.hi - self.lo, self.behind
+        if behind == math.inf:
+            return length * part
+        return behind * np.expm1(math.log1p(length / behind) * part)
+
+    def rule(self, length: float, n: int, shift: float = 0.0) -> tuple[Array, Array]:
+        """Places ahead of lo and weights of ds on a first part of the panel, for P' (s - lo)^shift
+        times a smooth function.
+        """
+        x, _, w = with_weight(n, 0.0, self.power + shift)
+        if self.behind == math.inf:
+            return length * x, length * w
+        log = math.log1p(length / self.behind)
+        ahead = self.behind * np.expm1(log * x)
+        return ahead, log * (self.behind + ahead) * w
+
     @cached_property
     def places(self) -> tuple[Array, Array]:
         """s - origin and P' ds of a Gauss rule over the panel."""
-        length = self.hi - self.lo
-        x, _, w = with_weight(len(self.series), 0.0, self.power)
-        return self.lo + length * x, length * w * self(length * x)
+        ahead, weight = self.rule(self.hi - self.lo, max(len(self.series), NODES))
+        return self.lo + ahead, weight * self(ahead)
 
     def load(self, ahead: float) -> float:
         """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
         beyond.
         """
-        return self._whole if ahead >= self.hi else self._load(max(ahead - self.lo, 0.0))
+        if ahead <= self.lo:
+            return 0.0
+        return self._whole if ahead >= self.hi else self._load(ahead - self.lo)
 
     @cached_property
     def _whole(self) -> float:
         return self._load(self.hi - self.lo)
 
     def _load(self, length: float) -> float:
-        x, _, w = gauss_jacobi(len(self.series) // 2 + 2, 0.0, self.power)
-        c = chebyshev.evaluate(self.series, 2.0 / (self.hi - self.lo) * (length * x) - 1.0)
-        return float(length ** (1.0 + self.power) * (w @ (c + 0.0 * x)))
+        ahead, weight = self.rule(length, max(len(self.series), NODES))
+        return float(weight @ self(ahead))
 
 
 Function = Callable[[Array, Array, Array], Array]
@@ -191,10 +217,12 @@ class Superposition:
     def _sum(self, kernels: tuple[Kernel, ...], x: Array, b: Array, over_s: bool) -> Array:
         total = np.zeros(len(x))
         for kernel in kernels:
+            alike: dict[tuple[float, float], list[tuple[GrowthPanel, Part]]] = {}
             for panel in self.growth:
                 for part in self._parts(kernel, panel, x, b):
-                    integral = self._integral(kernel, panel, part, x[part.which], over_s)
-                    total[part.which] += integral
+                    alike.setdefault(part.powers, []).append((panel, part))
+            for powers, parts in alike.items():
+                total += self._integral(kernel, powers, parts, x, over_s)
         return total
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
@@ -233,12 +261,12 @@ class Superposition:
         length = x * kernel.span if own_start and own_end else hi - lo
         if own_start:
             from_x = x * kernel.above
-            before = from_x if kernel.above else x
-            if panel.power:
-                before = np.minimum(before, np.maximum(from_lo, nearest))
+            to_kink = from_lo if panel.power else from_lo + panel.behind
+            before = np.minimum(from_x if kernel.above else x, np.maximum(to_kink, nearest))
         else:
             from_x = (origin - x) + lo
             before = np.maximum((origin - x / kernel.pole) + lo, nearest)
+            before = np.minimum(before, panel.behind)
         if kernel.hi == c:
             to_c = np.zeros(len(x)) if own_start else np.maximum((origin - x / c) + lo, 0.0)
         else:
@@ -250,65 +278,25 @@ class Superposition:
         return Part(which, from_x, from_lo, length, to_c, before, after, powers)
 
     def _integral(
-        self, kernel: Kernel, panel: GrowthPanel, part: Part, x: Array, over_s: bool
+        self,
+        kernel: Kernel,
+        powers: tuple[float, float],
+        parts: list[tuple[GrowthPanel, Part]],
+        x: Array,
+        over_s: bool,
     ) -> Array:
-        """∫ P' kernel ds, or ds/s, for each interval of the part."""
-        owner, start, length, left, kind = _graded(part.length, part.before, part.after)
-        z, rest, w = _rules(*part.powers)
-        ahead = start[:, None] + length[:, None] * z[kind]
-        to_c = part.to_c[owner][:, None]
-        to_c = (
-            to_c + ahead
-            if kernel.hi == self.flat.c
-            else to_c + (left[:, None] + length[:, None] * rest[kind])
-        )
-        from_x = part.from_x[owner][:, None] + ahead
-        at = x[owner][:, None]
+        """∫ P' kernel ds, or ds/s, over all intervals with these powers, for each x."""
+        columns = zip(*(part[:-1] for _, part in parts), strict=True)
+        which, from_x, from_lo, length, to_c, before, after = map(np.concatenate, columns)
+        owner, ahead, left, weight = graded(length, before, after, powers)
+        to_c = to_c[owner][:, None] + (ahead if kernel.hi == self.flat.c else left)
+        from_x, from_lo = from_x[owner][:, None] + ahead, from_lo[owner][:, None] + ahead
+        at = x[which[owner]][:, None]
         s = at + from_x
-        values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s))
-        values *= panel(part.from_lo[owner][:, None] + ahead)
+        values = kernel.value(at / s, from_x / s, to_c * (self.flat.c / s)) * weight
+        ends = np.searchsorted(owner, np.cumsum([0, *(len(part.which) for _, part in parts)]))
+        for (panel, _), (lo, hi) in zip(parts, itertools.pairwise(ends.tolist()), strict=True):
+            values[lo:hi] *= panel(from_lo[lo:hi])
         if over_s:
             values /= s
-        integral = length * (values * w[kind]).sum(axis=1)
-        total: Array = np.bincount(owner, integral, minlength=len(x)).astype(float)
-        return total
-
-
-@lru_cache(maxsize=64)
-def _rules(at_start: float, at_end: float) -> tuple[Array, Array, Array]:
-    """Rows of nodes, their distances from 1 and weights: at the start, between, at the end."""
-    rules = with_weight(NODES, 0.0, at_start), with_weight(NODES, 0.0, 0.0)
-    x, rest, w = (
-        np.array(rows) for rows in zip(*rules, with_weight(NODES, at_end, 0.0), strict=True)
-    )
-    return x, rest, w
-
-
-def _graded(length: Array, before: Array, after: Array) -> tuple[Array, ...]:
-    """Panels of intervals: whose, beginning, length, what is left behind them, and which of
-    `_rules`.
-
-    From either end they grow in proportion to the distance from the singularity beyond it.
-    """
-    first = np.where(np.isinf(after), length, 0.5 * length)
-    owner, k, start, size = _geometric(first, before)
-    backwards, j, behind, back = _geometric(length - first, after)
-    return (
-        np.concatenate((owner, backwards)),
-        np.concatenate((start, length[backwards] - behind - back)),
-        np.concatenate((size, back)),
-        np.concatenate((length[owner] - start - size, behind)),
-        np.concatenate((np.minimum(k, 1), np.where(j == 0, 2, 1))),
-    )
-
-
-def _geometric(length: Array, scale: Array) -> tuple[Any, ...]:
-    """(owner, number, beginning, length) of panels that grow with the distance from -scale."""
-    scale = np.minimum(scale, FAR)
-    folds = np.log1p(length / scale)
-    count = np.ceil(folds / math.log1p(GROWTH)).astype(np.intp)
-    owner = np.repeat(np.arange(len(count)), count)
-    k = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    ratio, scale = (folds / np.maximum(count, 1))[owner], scale[owner]
-    start = scale * np.expm1(k * ratio)
-    return owner, k, start, scale * np.expm1((k + 1) * ratio) - start
+        return totals(which[owner], values, len(x))

@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie.contact.known_contact import Edges
-from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
@@ -31,7 +30,7 @@ from sie.profiles.base import Profile
 from sie.traction.base import on_line, zero_or_nan
 from sie.traction.on_panels import SlidingDensity
 
-from .coupled_gradient import SlipGradient
+from .coupled_gradient import RESOLVED, SlipGradient
 from .coupled_integral import RATIO, Integral, integral, towards_ends
 from .coupled_tangential import TangentialSearch, Trial
 from .coupled_traction import Panels, resolved_panels
@@ -221,11 +220,15 @@ class ShearedContact:
     @property
     def least_gain(self) -> float:
         """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
-        law.
+        law, and 0 where it is less than the error of γ.
         """
         left, right = self._gained
         gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
-        return float(gained.min()) / float(np.abs(gained).max())
+        longest = max(float(np.ptp(zone.cuts)) for zone in (left, right))
+        least = float(gained.min())
+        if least > -RESOLVED * self.search.stress * longest:
+            return max(least, 0.0)
+        return least / float(np.abs(gained).max())
 
     def _gain(self, u: Array) -> Array:
         """γ - that under P alone, in slip."""
@@ -257,15 +260,6 @@ class ShearedContact:
             return self.turn * g
 
         return on_line(value, x)
-
-    @property
-    def energy(self) -> float:
-        """Not known: raises ContactError."""
-        raise ContactError(
-            "the energy that dissimilar bodies (β != 0) dissipate under a tangential load is not "
-            "solved: it is a sum over all states on the way to the last one, which alone is found; "
-            "set tangential_load = 0 for that of the normal load, or give dundurs = 0 to neglect β"
-        )
 
     # -- beside the contact ------------------------------------------------------------------------
 
@@ -353,6 +347,13 @@ class ShearedContact:
         power = a1 if side == self.flip else a2
         own = tuple((lambda y, f=f: f(at + side * y)) for f in functions)
         return resolved_panels(own, tuple(sorted(ends)), power)
+
+    @property
+    def frame_marks(self) -> tuple[float, ...]:
+        """The same in the frame."""
+        return tuple(
+            sorted({*self.trial.zones, *(self.flip * (x - self.axis) for x in self.marks)})
+        )
 
     @cached_property
     def marks(self) -> tuple[float, ...]:

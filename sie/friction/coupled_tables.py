@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +14,9 @@ from sie.numerics import chebyshev
 
 Array = NDArray[np.float64]
 
-DEGREE = 20  # of a panel as far from every singularity as it is long: (3 + sqrt(8))^-20 is rounding
-LEAST = 1e-320
-ROUNDING = 1e-9  # of a panel: no shorter one ends a table
+LENGTH, DEGREE = 1.0, 14  # of a panel of v, and of its series: (2 π + 6.4)^-14 is rounding
+STRAIGHT = 0.5  # no longer in v, one panel is straight
+APART = 1e17  # times its length, from an interval: there a singularity is none
 CHOP = 2e-17  # of the largest coefficient
 
 
@@ -35,39 +37,83 @@ def joined(*parts: Points) -> Points:
     return Points(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
+def stretched(length: Any, before: Any, after: Any, grown: Array, left: Array) -> tuple[Any, ...]:
+    """Places of an interval by v = ln((B + y)/(C + L - y)), where `grown` of v lies behind and
+    `left` ahead: the distances y and L - y from its ends, and dy/dv.
+
+    A function that is singular at y = -B and y = C + L, and nowhere else on the line beside the
+    interval, is analytic in v for |Im v| < π.
+    """
+    ratio, growth = before / (after + length), np.exp(grown)
+    below = 1.0 + ratio * growth
+    ahead = before * np.expm1(grown) / below
+    to_end = after * np.expm1(left) / (1.0 + after / (before + length) * np.exp(left))
+    return ahead, to_end, before * growth * (1.0 + ratio) / (below * below)
+
+
 class Table:
-    """Chebyshev series on panels of t, given t and e = 1 - t: relative to the distance from both
-    ends.
+    """Chebyshev series of a function of t and e = 1 - t from one place to another, both given so.
+
+    The function may be singular before the first and after the last place, by these distances; the
+    panels are equally long in v of `stretched`. It keeps the relative distances from both.
     """
 
     def __init__(
-        self, cuts: list[tuple[float, float]], function: Callable[[Array, Array], Array]
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        singular: tuple[float, float],
+        function: Callable[[Array, Array], Array],
     ) -> None:
-        ends = np.array(cuts)
-        lo, hi = ends[:-1], ends[1:]
-        self._in_t = hi[:, 0] <= 0.5
-        self._keys = _key(lo[:, 0], lo[:, 1])
-        column = np.where(self._in_t, 0, 1)
-        rows = np.arange(len(lo))
-        self._start, self._scale = lo[rows, column], 2.0 / (hi - lo)[rows, column]
+        self._start, self._end = start, end
+        length = self._ahead(*end)
+        before, after = (min(distance, APART * length) for distance in singular)
+        whole = math.log1p(length / before) + math.log1p(length / after)
+        n = math.ceil(whole / LENGTH) if whole > STRAIGHT else 1
         part = 0.5 * (1.0 + chebyshev.points(DEGREE))
-        t, e = (lo[:, [k]] + (hi - lo)[:, [k]] * part for k in (0, 1))
-        series = chebyshev.transform(function(t.ravel(), e.ravel()).reshape(t.shape))
-        self.series = [chopped(row) for row in series]
+        grown = (np.arange(n)[:, None] + part).ravel() / n
+        left = grown[::-1]
+        self._singular = (before, after) if whole > STRAIGHT else None
+        self._per_panel, self._first = n / whole, math.log(before / (after + length))
+        if self._singular:
+            grown, left, _ = stretched(length, before, after, whole * grown, whole * left)
+        else:
+            grown, left, self._per_panel = length * grown, length * left, 1.0 / length
+        values = function(start[0] + grown, end[1] + left)
+        self.series = _in_powers() @ chebyshev.transform(values.reshape(n, DEGREE)).T
 
     def __call__(self, t: Array, e: Array) -> Array:
-        if len(self.series) == 1:
-            return self._on(0, t if self._in_t[0] else e)
-        k = np.searchsorted(self._keys, _key(t, e), side="right") - 1
-        values = np.empty(k.shape)
-        k = np.maximum(k, 0)
-        for j in np.unique(k).tolist():
-            here = k == j
-            values[here] = self._on(j, (t if self._in_t[j] else e)[here])
+        place = self._ahead(t, e)
+        if self._singular:
+            (before, after), (t1, e1) = self._singular, self._end
+            left = e - e1 if e1 < 0.5 else t1 - t
+            place = np.log((before + place) / (after + left)) - self._first
+        place = self._per_panel * place
+        k = np.clip(place.astype(np.intp), 0, self.series.shape[1] - 1)
+        place -= k
+        place *= 2.0
+        place -= 1.0
+        values = self.series[-1][k]
+        for c in self.series[-2::-1]:
+            values *= place
+            values += c[k]
         return values
 
-    def _on(self, k: int, place: Array) -> Array:
-        return summed(self.series[k], self._scale[k] * (place - self._start[k]) - 1.0)
+    def _ahead(self, t: Any, e: Any) -> Any:
+        """The distance from the start."""
+        return t - self._start[0] if self._start[0] < 0.5 else self._start[1] - e
+
+
+@lru_cache(maxsize=1)
+def _in_powers() -> Array:
+    """The matrix that takes a Chebyshev series to powers: of few terms, which decay, no digits are
+    lost.
+    """
+    rows = [np.polynomial.chebyshev.cheb2poly(row) for row in np.eye(DEGREE)]
+    matrix = np.zeros((DEGREE, DEGREE))
+    for n, row in enumerate(rows):
+        matrix[: len(row), n] = row
+    return matrix
 
 
 def chopped(c: Array) -> Array:
@@ -91,31 +137,3 @@ def summed(c: Array, y: Array) -> Array:
     high -= higher
     high += c[0]
     return high
-
-
-def _key(t: Array, e: Array) -> Array:
-    """A function that grows with t and keeps the relative distances from 0 and 1."""
-    low = t < 0.5
-    size = np.log2(np.maximum(np.where(low, t, e), LEAST))
-    key: Array = np.where(low, size, -size)
-    return key
-
-
-def panel_cuts(
-    start: tuple[float, float],
-    end: tuple[float, float],
-    longest: Callable[[float, float], float],
-) -> list[tuple[float, float]]:
-    """Ends of panels from start to end as (t, 1 - t), one of them at 1/2, no longer than `longest`
-    at their start.
-    """
-    cuts = [start]
-    while cuts[-1] != end:
-        t, e = cuts[-1]
-        length = longest(t, e)
-        if t < 0.5:
-            length = min(length, 0.5 - t)
-        t, e = (t + length, 1.0 - (t + length)) if t < 0.5 else (1.0 - (e - length), e - length)
-        left = end[0] - t if end[0] <= 0.5 else e - end[1]
-        cuts.append((t, e) if left > ROUNDING * length else end)
-    return cuts

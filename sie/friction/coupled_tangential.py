@@ -31,7 +31,7 @@ from sie.contact.edge_integrals import edge_integrals
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
-from sie.problem.coverage import refuse_corners
+from sie.problem.coverage import refuse_corners, refused_load
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
 from sie.profiles.slope import Slope
@@ -49,11 +49,12 @@ Array = NDArray[np.float64]
 NEARLY = 1e-9  # of the half-width, from the ends of what the zones may be
 # Where values are wanted: panels shrink to such parts of the half-width next to kinks, if they are
 # few, and of the stick zone at its ends; growth
-DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-15, 3.0
+DEEP, FEW, APART, DEEPEST, RATIO = 1e-12, 8, 1e-9, 1e-17, 3.0
 NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.99, 0.9, 0.5, 0.1)  # parts of f P from which the load is followed
-STRIDE, SHORTEST = 0.25, 1e-3  # of the angle whose sine squared is Q/(f P)
+STRIDE, SHORTEST = 0.25, 1e-3  # of the angle whose sine squared is Q/(f P); and in parts of it
+LEAVING = 0.1  # of the slip zone, to the end of the contact under P: a stick zone that leaves it
 
 
 def sliding_pressure(
@@ -115,6 +116,11 @@ class TangentialSearch:
         """f P."""
         return self.friction * self.normal.load
 
+    @property
+    def stress(self) -> float:
+        """The mean of f p under P alone."""
+        return 0.5 * self.limit / self.normal.b
+
     @cached_property
     def resolved_slope(self) -> Slope:
         """h' on straight pieces and series, as far as any contact may reach."""
@@ -140,7 +146,7 @@ class TangentialSearch:
                 lambda y: self.friction * any_pressure(-y),
             ),
             state.marks,
-            0.5 * self.limit / b,
+            self.stress,
         )
 
     def H(self, x: Array) -> Array:
@@ -200,17 +206,26 @@ class TangentialSearch:
     def found(self, Q: float) -> Trial:
         """The state under Q. Raises ContactError where none has these zones."""
         answer = self._newton(self._start(Q), Q)
-        if answer is None:
-            answer = self._followed(Q)
-        if answer is None:
-            raise ContactError(
-                f"dissimilar bodies with β f = {self.beta * self.friction:.3g} under |Q| = {Q:.6g} "
-                f"= {Q / self.limit:.3g} f P: no stick zone was found that lies inside the contact "
-                "of the normal load alone. Beyond it stick surfaces that came into contact under "
-                "Q; the slip gradient that they keep depends on every state before and is not "
-                "solved; change Q, lower the friction, or give dundurs = 0 to neglect β"
-            )
-        return answer
+        if answer is not None:
+            return answer
+        least, leaves = math.inf, self._last_stick[0] == self._looked_at[0]
+        if leaves:  # surfaces beside the contact of P alone are the last to slip
+            least = self.limit
+        for part in FIRST:
+            load = part * self.limit
+            if leaves or Q < least <= load:  # from there one arrives where one has been
+                continue
+            first = self._newton(self._start(load), load)
+            if first is not None:
+                now, load = self._followed(first, load, Q)
+                if load == Q:
+                    return now
+                least, leaves = min(least, load), self._leaves(now)
+        raise refused_load(self.beta * self.friction, (Q, least, self.limit), leaves)
+
+    def _leaves(self, trial: Trial) -> bool:
+        """Whether the stick zone nearly reaches the end of the contact under P alone."""
+        return trial.zones.e1 + self.normal.b < LEAVING * (trial.zones.e1 - trial.zones.x1)
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
@@ -219,6 +234,13 @@ class TangentialSearch:
         """
         return -self.normal.b, self.normal.c
 
+    @property
+    def _looked_at(self) -> Array:
+        """Places that the stick zone may reach in a contact that slides."""
+        lo, hi = self._bounds
+        x: Array = np.linspace(lo, min(hi, self.widest[1]), 203)[1:-1]
+        return x
+
     @cached_property
     def _last_stick(self) -> tuple[float, float]:
         """x0 and l, in a contact that slides."""
@@ -226,8 +248,7 @@ class TangentialSearch:
         contact = Interval(*self.widest)
         G, P = self.normal.half_modulus, self.normal.load
         sliding = sliding_pressure(self.resolved_slope, contact, G, -self.theta, P)
-        lo, hi = self._bounds
-        x = np.linspace(lo, min(hi, contact.x2), 203)[1:-1]
+        x = self._looked_at
         slips = f * self.H(x) + beta * (1.0 + f * f) * sliding(x) - self.gamma(x)
         k = int(np.argmax(slips > 0.0)) if (slips > 0.0).any() else len(x) - 1
         k = max(k, 1)
@@ -276,35 +297,26 @@ class TangentialSearch:
             ]
         )
 
-    def _followed(self, Q: float) -> Trial | None:
-        """The state under Q, from those under other loads."""
-        for part in FIRST:
-            found = self._newton(self._start(part * self.limit), part * self.limit)
-            if found is not None:
-                answer = self._follow(np.array(found.zones), part, Q)
-                if answer is not None:
-                    return answer
-        return None
-
-    def _follow(self, edges: Array, part: float, Q: float) -> Trial | None:
-        """The state under Q, in steps of the load from a part of f P."""
-        angle, end = (math.asin(math.sqrt(p)) for p in (part, Q / self.limit))
+    def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float]:
+        """The state under Q, in steps of the load from that of another; else the last one that was
+        found, with its load.
+        """
+        angle, end = (math.asin(math.sqrt(q / self.limit)) for q in (load, Q))
         stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)
-        while abs(stride) > SHORTEST:
+        while abs(stride) > SHORTEST * min(angle, 1.0):
             last = abs(end - angle) <= abs(stride)
             to = end if last else angle + stride
-            load = Q if last else self.limit * math.sin(to) ** 2
-            found = None
-            for guess in (edges + change * (to - angle), edges):
-                found = found or self._newton(guess, load)
+            aim = Q if last else self.limit * math.sin(to) ** 2
+            found = self._newton(now.edges + change * (to - angle), aim)
+            found = found or self._newton(now.edges, aim)
             if found is None:
-                stride *= 0.5
+                stride = 0.5 * (to - angle)
                 continue
+            change = (found.edges - now.edges) / (to - angle)
+            now, angle, load = found, to, aim
             if last:
-                return found
-            change = (np.array(found.zones) - edges) / (to - angle)
-            edges, angle = np.array(found.zones), to
-        return None
+                break
+        return now, load
 
 
 def tangential_search(

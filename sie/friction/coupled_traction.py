@@ -33,6 +33,8 @@ Array = NDArray[np.float64]
 DEGREE = 16
 RESOLVED = 2e-14  # of the largest traction: the last coefficients of a panel
 FAINT = 1e-15  # of the largest traction times b: what a short panel may miss
+# Tails below ROUGH that a cut leaves above SAME of what they were are rounding
+ROUGH, SAME = 1e-8, 0.8
 LEAST = 1e-300  # of a panel, to an edge where the traction may be infinite
 NEAR = 3.0  # the Bernstein ellipse inside which the recurrence replaces Gauss-Legendre
 TOGETHER = 2**18  # entries of a matrix that are computed at once
@@ -347,11 +349,11 @@ def resolved_panels(
     b = marks[-1]
     part = 0.5 * (1.0 + chebyshev.points(DEGREE))
     ends = (0.0, *marks)
-    open_ = [(lo, hi) for lo, hi in itertools.pairwise(ends) if hi > lo]
+    open_ = [(lo, hi, math.inf) for lo, hi in itertools.pairwise(ends) if hi > lo]
     done: list[tuple[float, float, Array]] = []
     largest = np.zeros(len(values))
     while open_:
-        lo, hi = (np.array(column) for column in zip(*open_, strict=True))
+        lo, hi, before = (np.array(column) for column in zip(*open_, strict=True))
         y = lo[:, None] + (hi - lo)[:, None] * part
         f = np.stack([v(y.ravel()).reshape(y.shape) for v in values])
         largest = np.maximum(largest, np.abs(f[..., 1:-1]).max(axis=(1, 2), initial=0.0))
@@ -360,11 +362,13 @@ def resolved_panels(
         series = chebyshev.transform(f)
         tail = np.abs(series[..., -2:]).max(axis=2) / largest[:, None]
         settled = ((tail <= RESOLVED) | (tail * (hi - lo) <= FAINT * b)).all(axis=0)
+        tail = tail.max(axis=0)
+        settled |= (tail < ROUGH) & (tail > SAME * before)
         done += [(lo[k], hi[k], series[:, k]) for k in np.flatnonzero(settled)]
         open_ = []
         for k in np.flatnonzero(~settled).tolist():
             middle = 0.5 * (lo[k] + hi[k])
-            open_ += [(lo[k], middle), (middle, hi[k])]
+            open_ += [(lo[k], middle, tail[k]), (middle, hi[k], tail[k])]
     done.sort(key=lambda panel: panel[0])
     lo, hi = (np.array([panel[j] for panel in done]) for j in (0, 1))
     series = np.stack([panel[2] for panel in done], axis=1)

@@ -32,16 +32,17 @@ from numpy.typing import NDArray
 
 from sie.numerics.elliptic import elliptic_functions, modulus_of
 from sie.numerics.gauss_jacobi import with_weight
+from sie.numerics.interval import EPS
 
-from .coupled_flat import NEARER, SPARE
-from .coupled_functions import ACROSS
-from .coupled_profile import _geometric
+from .coupled_flat import ACROSS, NEARER, SPARE
+from .coupled_panels import geometric
 
 Array = NDArray[np.float64]
 
 NODES = 12
 CLOSE = 1e-3  # of a panel: nearer to a node a difference quotient has lost digits
 MOST_NODES = 400
+ROUNDINGS = 1e3  # of the edges: cuts that are nearer to each other are one
 TOGETHER = 2**20  # entries of a matrix that are computed at once
 
 
@@ -88,9 +89,12 @@ def stick_rule(zones: Zones, exponents: tuple[float, float], cuts: Array, neares
         )
     ):
         ahead = np.sort(cuts - end if side == 0 else end - cuts)
-        ends = np.concatenate(([0.0], ahead[(ahead > 0.0) & (ahead < half)], [half]))
+        # Nodes of a panel a few roundings long would coincide
+        least = ROUNDINGS * EPS * max(abs(zones.e1), abs(zones.e2))
+        ahead = ahead[np.diff(ahead, prepend=0.0) > least]
+        ends = np.concatenate(([0.0], ahead[(ahead > least) & (ahead < half - least)], [half]))
         scale = np.append(min(beside, nearest), ends[1:-1])
-        owner, _, start, size = _geometric(np.diff(ends), scale)
+        owner, _, start, size = geometric(np.diff(ends), scale)
         start = ends[owner] + start
         x, _, w = with_weight(NODES, 0.0, 0.0)
         at, mass = start[:, None] + size[:, None] * x, size[:, None] * w
@@ -201,10 +205,20 @@ class Answer(NamedTuple):
 
 
 class StickProblem:
-    """p_d/β in a contact with these zones, for γ_d at the places of the rule; Φ/β at the nodes."""
+    """p_d/β in a contact with these zones, for γ_d at the places of the rule; Φ/β at the nodes.
+
+    poles       of Φ at y = -1 and 1, for states that are infinite at the ends of the stick zone
+    """
 
     def __init__(
-        self, zones: Zones, beta: float, friction: float, rule: Rule, gamma: Array
+        self,
+        zones: Zones,
+        beta: float,
+        friction: float,
+        rule: Rule,
+        gamma: Array,
+        *,
+        poles: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self.beta, self.friction, self.rule, self.gamma = beta, friction, rule, gamma
         self.map = Map(zones, math.atan(beta * friction) / math.pi)
@@ -215,6 +229,7 @@ class StickProblem:
         own = m.kernel(s, nodes) * m.weight
         below, above, mass = m.of_rule(rule)
         source = -(m.kernel(s, (below, above)) @ (mass * gamma)) / (1.0 - beta * beta)
+        source += m.kernel(s, (np.array([0.0, 2.0]), np.array([2.0, 0.0]))) @ np.array(poles)
         n = len(m.weight)
         whole = own @ own[:n] / ((1.0 - beta * beta) * math.pi**2)
         # ∫p_d = 0 is asked of Φ, and what the equations then miss is an unknown: next to β = 0 a

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import Interval
-from sie.problem.load_limit import refuse_corner, refuse_sliding
+from sie.problem.load_limit import refuse_corner, refuse_sliding, remaining
 from sie.traction.base import on_line
 from sie.traction.combination import Combination
 
@@ -300,9 +300,18 @@ class GoodmanSlip(GrownSlip):
             rest = self.flat.modulus.rest * self.contact.r if continues else self.contact.r
             edge = None if continues else edge_frame(self.step.pressure, self.step.slope, side)
             breaks = tuple(d for d in distances if d > SMALL * self.contact.r)
-            frames.append(DeficitFrame(self.deficit, self.friction, side, rest, breaks, edge))
+            frames.append(
+                DeficitFrame(self.deficit, self.friction, side, rest, breaks, edge, self._narrow)
+            )
         interval = Interval(x1, c2) if self.along > 0.0 else Interval(c1, x2)
         return (frames[0], frames[1]), interval
+
+    @property
+    def _narrow(self) -> float:
+        """A part of the contact that is shorter than the stick zone: half of sqrt(1 - Q/(f P))."""
+        step = self.step
+        left = remaining(self.friction, step.normal_load, step.Q) / step.normal_load
+        return 0.5 * math.sqrt(max(left, 0.0))
 
     def under_tangential_load(self) -> GoodmanSlip:
         """The state after Q."""
@@ -312,7 +321,7 @@ class GoodmanSlip(GrownSlip):
         length = FIRST_ZONE * part * interval.r
         found = slip_zones(frames, interval, drive, (length, length))
         left, right = (
-            frame.zone(zone.length, NEAREST)
+            replace(frame, nearest=NEAREST).zone(zone.length)
             for frame, zone in zip(frames, (found.left, found.right), strict=True)
         )
         return replace(self, zones=replace(found, left=left, right=right))

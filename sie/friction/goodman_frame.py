@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from sie.numerics.gauss_jacobi import gauss_jacobi
 
-from .coupled_profile import NEAREST, _graded
+from .coupled_panels import shrinking
+from .coupled_profile import NEAREST
 from .slip_zones import EdgeFrame, SlipZone
 
 Array = NDArray[np.float64]
@@ -26,6 +27,7 @@ class DeficitFrame:
     friction    f
     scale       distance beyond the end to the next place where it is not smooth
     breaks      distances of such places inside, ascending
+    nearest     the width of the stick zone, as a part of a zone's length
     """
 
     deficit: Callable[[Array, DeficitFrame], Array]
@@ -34,8 +36,9 @@ class DeficitFrame:
     scale: float
     breaks: tuple[float, ...]
     edge: EdgeFrame | None
+    nearest: float
 
-    def zone(self, length: float, nearest: float = 1.0) -> SlipZone:
+    def zone(self, length: float) -> SlipZone:
         """A rule for the zone of this length, in roots at its ends.
 
         It is graded towards the breaks, and towards the stick zone as far as a part `nearest`.
@@ -47,8 +50,8 @@ class DeficitFrame:
         width = np.diff(ends)
         before = np.full(len(width), NEAREST * length)
         before[0] = self.scale
-        after = np.append(before[1:], nearest * width[-1])
-        owner, first, size, left, kind = _graded(width, np.minimum(before, width), after)
+        after = np.append(before[1:], self.nearest * width[-1])
+        owner, first, size, left, kind = shrinking(width, np.minimum(before, width), after)
         x, _, w = gauss_jacobi(NODES, 0.0, 0.0)
         places = np.array([x * x, x, 1.0 - x * x])
         weights = np.array([2.0 * x * w, w, 2.0 * x * w])

@@ -12,7 +12,6 @@ leaves powers of (r - lo)^(1/2), so that the series are in v, r = lo + (hi - lo)
 from __future__ import annotations
 
 import itertools
-import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
@@ -134,15 +133,18 @@ class ContactTable:
         if self.search.axis is not None:
             m = self.search.axis
             return m, self.search.integrals(Interval(m - r, m + r))
-        m = near
+        # The weighted mean I0 of the slope rises with m: 0 lies between two contacts of this width
+        # that both hold the place of first touch
+        m, lo, hi = near, self.first_centre - r, self.first_centre + r
         for _ in range(NEWTONS):
+            m = m if lo <= m <= hi else 0.5 * (lo + hi)
             k = self.search.integrals(Interval(m - r, m + r))
-            if not (k.JL > 0.0 and k.JR > 0.0):
-                break
-            step = -2.0 * k.I0 / (k.JL + k.JR)
-            step = math.copysign(min(abs(step), r), step)
+            lo, hi = (m, hi) if k.I0 < 0.0 else (lo, m)
+            # Where all of the contact is straight there is no tangent
+            tangent = k.JL > 0.0 and k.JR > 0.0
+            step = -2.0 * k.I0 / (k.JL + k.JR) if tangent else 0.5 * (lo + hi) - m
             m += step
-            if abs(step) <= SETTLED * (r + abs(m)):
+            if tangent and abs(step) <= SETTLED * (r + abs(m)):
                 return m, k
         raise self._unsteady(r)
 

@@ -25,7 +25,8 @@ from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import gauss_jacobi
 from sie.numerics.interval import EPS
 
-from .coupled_profile import NEAREST, _graded
+from .coupled_panels import shrinking
+from .coupled_profile import NEAREST
 from .goodman_functions import GoodmanFlat
 from .goodman_growth import ContactTable, Panel
 
@@ -151,7 +152,7 @@ class GoodmanGrowth:
         next_behind = [np.where(d > 0.0, d, length) for d in (behind, lo - panel.lo)]
         scale = np.maximum(np.minimum(*next_behind), NEAREST * panel.hi)
         after = length if to_stick else np.full(len(y), np.inf)
-        owner, first, size, _, kind = _graded(length, scale, after)
+        owner, first, size, _, kind = shrinking(length, scale, after)
         x, _, w = gauss_jacobi(NODES, 0.0, 0.0)
         # In the root of the distance from a start or an end of its own
         places = np.array([x * x, x, 1.0 - x * x])

@@ -16,6 +16,8 @@ class KnownZones:
 
     def add(self, depth: float, contact: Interval) -> None:
         k = bisect_left(self._depths, depth)
+        if k < len(self._depths) and self._depths[k] == depth:
+            return
         self._depths.insert(k, depth)
         self._contacts.insert(k, contact)
 

@@ -34,7 +34,8 @@ def turning_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turnin
                 f"Q of point {k} = {loads.Q:g} without friction: a frictionless contact carries "
                 "none; give friction > 0"
             )
-        named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
+        if abs(loads.Q) > f * loads.P:
+            named(k, loads, partial(refuse_sliding, f, loads.P, loads.Q))
     start = points[0]._replace(Q=0.0, sigma=0.0)
     state = TurningPoint(start, LoadMemory(contacts.level(start)))
     for k, loads in enumerate(points):
@@ -75,7 +76,9 @@ def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turning
     start = TurningPoint(first, LoadMemory(contacts.level(first)))
     there = Step(contacts, start, second, rise, pull)
     back = Step(contacts, replace(start, loads=second), first, -rise, -pull)
-    if not (rise or pull) or there.sticks or back.sticks:
+    upright = not (rise.imag or pull.imag)  # contacts are nested by their loads, in any patches
+    sticks = abs(pull) <= abs(rise) if upright else there.sticks or back.sticks
+    if not (rise or pull) or sticks:
         return start, TurningPoint(second, LoadMemory(contacts.level(second))), start
     turned = not rise and there.opposite
     s = -math.copysign(1.0, pull.imag if turned else pull.real)
@@ -85,7 +88,8 @@ def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turning
     for k, loads in ((1, second), (2, last)):
         sign, before = s if k == 2 else -s, found[-1]
         step = Step(contacts, before, loads, *((rise, pull) if k == 1 else (-rise, -pull)))
-        found.append(named(k, loads, partial(step.reversed, sign)))
+        turned_back = step.upright if upright else partial(step.reversed, sign)
+        found.append(named(k, loads, turned_back))
     return tuple(found)
 
 

@@ -171,6 +171,9 @@ class LoadMemory:
         may be slower: where the edges catch up with it, all slipped zones have left the contact,
         and the same two cases hold for the layer below.
         """
+        if sign and not rise:
+            memory, _, event = self._followed(sign, 0.0, shear, within)
+            return memory, (event,) if event.layers else ()
         memory, left = self, 1.0
         slips: list[SlipEvent] = []
         while left > NOTHING:
@@ -242,7 +245,8 @@ class LoadMemory:
             if caught < time:
                 passes, time = False, caught
                 taken = min(((caught - start) * pull / jump).real, taken.real)
-            done.append(SlippedLayer(depth, depth + taken, jump, (-rise * start, -rise * time)))
+            surface = (-rise * start, -rise * time) if rise else (0.0, 0.0)
+            done.append(SlippedLayer(depth, depth + taken, jump, surface))
             depth += taken
             rest = thickness - taken
             if layer and (passes or (rise and abs(rest) <= NOTHING * abs(self.level))):
@@ -252,10 +256,11 @@ class LoadMemory:
             if time == caught:
                 depth = -rise * time
                 break
-        on_top = depth + rise * time
+        raised = rise * time if rise else 0.0
+        on_top = depth + raised
         top = _laid(on_top, sign, layer) if on_top else layer
-        moved = tuple([o.moved(rise * time) for o in done if o.lower != o.upper])
-        return LoadMemory(self.level + rise * time, top), time, SlipEvent(sign, moved, timed)
+        moved = tuple([o.moved(raised) for o in done if o.lower != o.upper])
+        return LoadMemory(self.level + raised, top), time, SlipEvent(sign, moved, timed)
 
 
 def _passed(

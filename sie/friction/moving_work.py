@@ -14,48 +14,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from sie.numerics import chebyshev
+from sie.numerics.halving import integral
+from sie.numerics.interval import Interval
 
 from .slip_state import Slip, Slipping
 
-# In time, on each part of a step: a rule, and the one that it is judged by.
-NODES, FEWER = 10, 7
-# of the work: what the two rules may differ by, of which the error of the better one is 1e-3
-SETTLED = 1e-9
-MOST_HALVINGS = 6
 
-
-def work(state: Callable[[float], Slip], dP: float, strain: float) -> float:
+def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval], float]) -> float:
     """∫∫ f p d|g| dx while the states follow each other from time 0 to 1.
 
-    Meanwhile P changes by dP and E*/2 times the tilt by `strain`.
+    Meanwhile P changes by dP and E*/2 times the tilt at the rate `strain` of the contact.
     """
     whole = _held(state(1.0)) - _held(state(0.0))
 
     def rate(time: float) -> float:
         found = state(time)
-        return found.work_of(dP, strain) if isinstance(found, Slipping) else 0.0
+        return found.work_of(dP, strain(found.contact)) if isinstance(found, Slipping) else 0.0
 
-    return whole - _integral(rate, 0.0, 1.0, abs(whole), MOST_HALVINGS)
+    return whole - integral(rate, abs(whole))
 
 
 def _held(state: Slip) -> float:
     return state.work if isinstance(state, Slipping) else 0.0
-
-
-def _integral(
-    rate: Callable[[float], float], start: float, end: float, scale: float, halvings: int
-) -> float:
-    """∫ rate dt, by halves until two rules agree."""
-    known, judge = (
-        (end - start) * sum(b * rate(start + (end - start) * a) for a, b in zip(g, w, strict=True))
-        for g, w in (
-            (x.tolist() for x in chebyshev.gauss_legendre(nodes)) for nodes in (NODES, FEWER)
-        )
-    )
-    if not halvings or abs(known - judge) <= SETTLED * scale:
-        return known
-    middle = 0.5 * (start + end)
-    return _integral(rate, start, middle, scale, halvings - 1) + _integral(
-        rate, middle, end, scale, halvings - 1
-    )

@@ -12,36 +12,33 @@ from numpy.typing import NDArray
 from sie.errors import ContactError
 from sie.numerics.interval import Interval
 from sie.numerics.zones import left_over, within
-from sie.problem.scene import Scene
 from sie.traction.base import ZERO, Density
 from sie.traction.combination import superposed
 
+from . import changing_contact
+from .changing_contact import ChangingContact
 from .slip_state import Slip
-from .turning_point import Loads, TurningPoint
+from .turning_point import Loads
 
 Array = NDArray[np.float64]
 
 
-class Followed(Protocol):
+class Followed(changing_contact.Followed, Protocol):
     """A path that was followed, and its contacts.
 
-    turning_points   the layers after each step
     period           of the profile
-    shear            S of loads
     first_loading    the state of a contact that was never sheared before S rose to a depth
     plain            the solution under P and a tilt, without shear
     patches          the patches of contact under P and a tilt
+    shift_of_step    the shift that slip adds in one step
     """
-
-    scene: Scene
-    turning_points: tuple[TurningPoint, ...]
 
     @property
     def period(self) -> float: ...
-    def shear(self, loads: Loads) -> complex: ...
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def plain(self, P: float, turn: float) -> Any: ...
     def patches(self, P: float, turn: float) -> tuple[tuple[float, float], ...]: ...
+    def shift_of_step(self, index: int) -> float: ...
 
 
 class PathSlip(Slip):
@@ -57,7 +54,7 @@ class PathSlip(Slip):
         self.state = history.turning_points[index]
         self.normal = self.state.loads.normal
         self.friction = history.scene.friction
-        if self.state.straight:
+        if self.state.straight and isinstance(self.state.memory.total, complex):
             self._refuse_retreat()
 
     def _refuse_retreat(self) -> None:
@@ -184,10 +181,12 @@ class PathSlip(Slip):
         for index, (before, state) in enumerate(pairwise((past[0], *past))):
             if state.loads.P == 0.0:
                 continue
-            if state.slips and index:
-                self._refuse_new(x, index, before.loads, state.loads)
-            stayed = self._touches(x, before.loads) & self._touches(x, state.loads)
+            touches = self._touches(x, state.loads)
+            stayed = self._touches(x, before.loads) & touches
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
+            new = touches & ~stayed
+            if state.slips and index and new.any():
+                total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
         return total
 
     def _touches(self, x: Array, loads: Loads) -> NDArray[np.bool_]:
@@ -195,33 +194,33 @@ class PathSlip(Slip):
             return np.zeros(x.shape, dtype=bool)
         return within(x, self.history.plain(*loads.normal).patches, self.history.period)
 
-    def _refuse_new(self, x: Array, index: int, before: Loads, loads: Loads) -> None:
-        new = self._touches(x, loads) & ~self._touches(x, before)
-        if new.any():
-            raise ContactError(
-                f"step {index} of the path brings x = {float(x[new][0]):.6g} into contact while "
-                "it slips: how far it slipped since is not covered; ask for points within the "
-                f"contact under P = {before.P:.6g}",
-                step=index,
-            )
-
     def slip_now(self, x: Array) -> Array:
         return step_slip(self.history, self.index, x)
 
     @cached_property
     def shift(self) -> float:
         past = self.history.turning_points[: self.index + 1]
-        loads = [
-            (state.loads.normal, before.loads.normal)
-            for before, state in pairwise((past[0], *past))
-            if state.memory.top
-        ]
-        if any(normal != self.normal for pair in loads for normal in pair):
-            raise ContactError(
-                "the rigid-body shift is counted against a contact of constant width: P changed "
-                "while it was sheared"
-            )
-        return sum(weight * loading.shift for weight, loading in self._terms)
+        if all(state.loads.normal == self.normal for state in past):
+            return sum(weight * loading.shift for weight, loading in self._terms)
+        return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
+
+
+def step_shift(history: Followed, index: int) -> float:
+    """The shift that slip adds in one step."""
+    state = history.turning_points[index]
+    if any(any(o.surface) for event in state.slips for o in event.layers):
+        return ChangingContact(history, index).shift
+
+    def until(depth: complex) -> float:
+        return (
+            history.first_loading(state.loads.normal, depth, state.turned).shift if depth else 0.0
+        )
+
+    return sum(
+        event.sign * o.jump * (until(o.lower) - until(o.upper))
+        for event in state.slips
+        for o in event.layers
+    )
 
 
 def step_slip(history: Followed, index: int, x: Array) -> Array:

@@ -53,7 +53,7 @@ LEVELS = 26
 ROWS = 4096  # abscissae at a time
 GATHERED = 22  # terms of 1/(d + s), 0 <= s <= length <= d: they fall like (3 + sqrt 8)^-n
 MAX_SWEEPS = 60
-SETTLED = 8.0 * EPS
+SETTLED, STALLED = 8.0 * EPS, 1e-12
 
 
 # -- the contact seen from one of its edges --------------------------------------------------------
@@ -245,7 +245,10 @@ def slip_zones(
         for k in (0, 1):
             lengths[k] = _length(frames, contact.r, drive, lengths, k)
         change = max(abs(new - old) / new for new, old in zip(lengths, before, strict=True))
-        if change <= SETTLED or (change >= 0.5 * previous and change < 1e-12):
+        # Of a narrow stick zone the width is a difference of the lengths
+        stuck = max(2.0 * contact.r - sum(lengths), EPS * contact.r)
+        rounding = max(STALLED, SETTLED * contact.r / stuck)
+        if change <= SETTLED or (change >= 0.5 * previous and change < rounding):
             break
         previous = change
     else:

@@ -4,6 +4,10 @@ CSV has four comment lines (#): title and version; scene; units; edges and load.
 line x,p,gap and one row for each point; with shear there are also the columns q and slip. It is
 read by pandas.read_csv(file, comment="#") and numpy.loadtxt(file, delimiter=",", skiprows=5).
 
+CSV of a load path has these rows for every turning point with P > 0, each after the number of the
+point and its loads: point,P,Q,sigma, tilt or moment if the path has them, then x,p,gap,q,slip.
+A cell of slip that is not known is empty.
+
 JSON always holds
 
     sie, title, units {length, force, stress, moment}
@@ -23,7 +27,8 @@ and, where they are wanted,
     stress      {x, xx, yy, xy: [..]} on the surface
     yield       {ratio P/(bk), load P/k, sqrt_j2, places [[x, y], ..], criterion}
     tension     {value, x}
-    path        of load paths: [{normal_load, tangential_load, bulk_stress, stick, energy_lost}, ..]
+    path        of load paths: [{normal_load, tangential_load, bulk_stress, tilt or moment if the
+                 path has them, stick, energy_lost if known}, ..]
     traces      with check, of measured traces: [{points, smoothing, averaged, separated, misfit,
                  outliers [[x, off], ..], gaps [{lo, hi, missing}, ..],
                  mended {left_out, averaged, sorted}, tilt, aside,
@@ -44,8 +49,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import __version__
-from sie.history import PathSolution
+from sie.history import History, PathSolution
 from sie.problem.request import POINTS
+from sie.problem.scene import Scene
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
@@ -54,27 +60,63 @@ from .scene_file import SceneFile
 
 Array = NDArray[np.float64]
 
+TRACTIONS = ("x", "p", "gap", "q", "slip")  # columns of CSV, those of ...
+STRESSES, LENGTHS = ("p", "q"), ("x", "gap", "slip")
+
 
 def csv_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:
     """x, pressure and gap, always, as the module's docstring describes."""
+    (x1, x2), load = solution.edges, solution.normal_load
+    where = f"contact from x1 = {x1!r} to x2 = {x2!r}, load {load!r}"
+    return _csv(solution.scene, where, file, [_columns(solution, points)])
+
+
+def history_text(history: History, file: SceneFile, points: int = POINTS) -> str:
+    """The tractions, the gap and the slip at every turning point of a load path, as CSV."""
+    tables = []
+    turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
+    for k, (state, solution) in enumerate(zip(history.turning_points, history, strict=True)):
+        if state.loads.P == 0.0:
+            continue
+        columns = _columns(solution, points)
+        count = len(columns["x"])
+        names = ("P", "Q", "sigma", *turned)
+        loads = dict(zip(names, state.loads, strict=False))
+        sheared = {"q": np.zeros(count), "slip": np.full(count, np.nan)} | columns
+        tables.append(
+            {name: np.full(count, value) for name, value in ({"point": k} | loads).items()}
+            | {name: sheared[name] for name in TRACTIONS}
+        )
+    where = f"{len(history)} points of a load path, sigma in {file.units.stress}"
+    return _csv(history.scene, where, file, tables)
+
+
+def _columns(solution: Solution, points: int) -> dict[str, Array]:
     x = abscissae(solution, points)
-    units, (x1, x2) = file.units, solution.edges
     columns = {"x": x, "p": solution.pressure(x), "gap": solution.gap(x)}
     if solution.carries_shear:
         columns |= {"q": solution.shear(x)} | slip_of(solution, x)
+    return columns
+
+
+def _csv(scene: Scene, where: str, file: SceneFile, tables: list[dict[str, Array]]) -> str:
+    units, names = file.units, list(tables[0])
     stresses, lengths = (
-        " and ".join(name for name in columns if (name in "pq") is stress)
-        for stress in (True, False)
+        " and ".join(name for name in names if name in kind) for kind in (STRESSES, LENGTHS)
     )
     head = (
         f"# {file.title or 'plane contact'} (sie {__version__})",
-        f"# {solution.scene!r}",
+        f"# {scene!r}",
         f"# {lengths} in {units.length}, {stresses} in {units.stress}, load in {units.force}",
-        f"# contact from x1 = {x1!r} to x2 = {x2!r}, load {solution.normal_load!r}",
-        ",".join(columns),
+        f"# {where}",
+        ",".join(names),
     )
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
-    return "\n".join((*head, *(",".join(map(repr, row)) for row in rows))) + "\n"
+    rows = (
+        ",".join("" if math.isnan(value) else repr(value) for value in row)
+        for table in tables
+        for row in zip(*(column.tolist() for column in table.values()), strict=True)
+    )
+    return "\n".join((*head, *rows)) + "\n"
 
 
 def json_text(solution: Solution, file: SceneFile, points: int = POINTS) -> str:

@@ -167,15 +167,19 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
-    head = ("P", "Q", "σ", "stick from", "to", f"energy lost ({units.moment})")
-    lines = ["".join(f"{name:>14}" for name in head[:-1]) + f"   {head[-1]}"]
-    for point in solution.history.rows():
+    rows = solution.history.rows()
+    turned = [name for name in ("tilt", "moment") if name in rows[0]]
+    head = ("P", "Q", "σ", *turned, "stick from", "to")
+    lines = [f"{_cells(head)}   energy lost ({units.moment})"]
+    for point in rows:
+        loads = [point[name] for name in ("normal_load", "tangential_load", "bulk_stress", *turned)]
         zones = point["stick"] or [("-", "-")]
-        cells = (point["normal_load"], point["tangential_load"], point["bulk_stress"], *zones[0])
-        lines.append(f"{_cells(cells)}   {_number(point['energy_lost'])}")
-        lines += [_cells(("", "", "", *zone)) for zone in zones[1:MANY_ZONES]]
+        energy = _number(point["energy_lost"]) if "energy_lost" in point else "not known"
+        lines.append(f"{_cells((*loads, *zones[0]))}   {energy}")
+        none = [""] * len(loads)
+        lines += [_cells((*none, *zone)) for zone in zones[1:MANY_ZONES]]
         if len(zones) > MANY_ZONES:
-            lines.append(_cells(("", "", "", f"and {len(zones) - MANY_ZONES}", "more")))
+            lines.append(_cells((*none, f"and {len(zones) - MANY_ZONES}", "more")))
     return "\n".join(lines)
 
 

@@ -18,8 +18,9 @@
                         leaves β q out of the normal equation
     [load]              normal_load | half_width, tilt | moment, friction,
                         tangential_load | sliding, bulk_stress; or, in place of the loads,
-                        path = [[P, Q, σ], ...], turning points, σ may be left out: the scene is
-                        that of the last one
+                        path = [[P, Q, σ], ...], turning points, σ may be left out, or a file,
+                        "cycle.csv"; columns = ["P", "Q", "sigma", "tilt"] says what the numbers of
+                        each row are (`path_table`); the scene is that of the last point
 
 `sie example` lists commented files to start from. A mistake is refused in one sentence, a
 `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
@@ -53,6 +54,7 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
+from .path_table import path_of
 from .profile_tables import profile_of
 from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
 from .toml_values import text, texts
@@ -90,8 +92,6 @@ EXAMPLES = resources.files("sie.examples")
 HERE = pathlib.Path()
 # A trace of 1e4 points has 0.4 MB as x and h; longer ones belong in a file of their own.
 MOST_BYTES = 10**6
-# Each point is solved and listed, all of them within seconds.
-MOST_POINTS = 2000
 # Names in a dotted key. The time and memory of TOML's reader grow with their square, and a scene
 # needs three.
 DEEPEST = 20
@@ -107,12 +107,14 @@ _DEEP_KEY = re.compile(rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEEPEST
 class SceneFile:
     """The content of a scene file.
 
-    scene    the contact problem; of a path that of its last point
-    title    one line of text
-    units    labels
-    want     the quantities to be answered, empty if the file names none
-    path     turning points (P, Q, σ)
-    reads    the files that it names
+    scene        the contact problem; of a path that of its last point, without what the path adds
+                 to its tilt or moment
+    title        one line of text
+    units        labels
+    want         the quantities to be answered, empty if the file names none
+    path         turning points (P, Q, σ), empty without a path
+    tilt, moment what the path adds to the scene's at each point, empty for nothing
+    reads        the files that it names
     """
 
     scene: Scene
@@ -120,7 +122,14 @@ class SceneFile:
     units: Units = UNITS
     want: tuple[str, ...] = ()
     path: tuple[tuple[float, float, float], ...] = ()
+    tilt: tuple[float, ...] = ()
+    moment: tuple[float, ...] = ()
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
+
+    @property
+    def load_path(self) -> Path | None:
+        """The load path, None without one."""
+        return Path(self.path, self.tilt, self.moment) if self.path else None
 
 
 # -- reading -------------------------------------------------------------------------------------
@@ -234,40 +243,45 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
     loads = values_of("load", top["load"])
-    path = _path(loads)
+    named = loads.get("path")
+    path = _path(loads, folder)
     return SceneFile(
         scene=Scene(profile=profile_of(top["profile"], folder), **_bodies(top), **loads),
         title=text("title", top.get("title", "")),
         units=Units(**values_of("units", top.get("units", {}))),
         want=wants("want", texts("want", top.get("want", []))),
-        path=path,
+        path=path.points if path else (),
+        tilt=path.tilt if path else (),
+        moment=path.moment if path else (),
         reads=tuple(
-            folder / term["path"]
-            for term in (top["profile"], *top["profile"].get("plus", ()))
-            if "path" in term
+            folder / name
+            for name in (
+                *(term.get("path") for term in (top["profile"], *top["profile"].get("plus", ()))),
+                named,
+            )
+            if isinstance(name, str)
         ),
     )
 
 
-def _path(loads: dict[str, Any]) -> tuple[tuple[float, float, float], ...]:
-    """The turning points of [load] path; in `loads` the last of them takes its place."""
+def _path(loads: dict[str, Any], folder: pathlib.Path) -> Path | None:
+    """The path of [load]; in `loads` its last point takes its place."""
+    columns = loads.pop("columns", None)
     if "path" not in loads:
-        return ()
+        if columns is not None:
+            raise ValueError("[load] has columns without a path: give path = [[P, Q, σ], ...]")
+        return None
     both = [name for name in LOADS if name in loads]
     if both:
         raise ValueError(
             f"[load] has both path and {both[0]}: path is the loads, as [P, Q] or [P, Q, σ]; "
             f"leave {both[0]} out"
         )
-    if len(loads["path"]) > MOST_POINTS:
-        raise ValueError(
-            f"[load] path has {len(loads['path'])} points, more than {MOST_POINTS}: "
-            "follow it in Python, by sie.follow"
-        )
     with Naming("[load]"):
-        points = Path(loads.pop("path")).points
-    loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), points[-1], strict=True))
-    return points
+        path = path_of(loads.pop("path"), columns, folder)
+    last = path.points[-1]
+    loads |= dict(zip(("normal_load", "tangential_load", "bulk_stress"), last, strict=True))
+    return path
 
 
 def _bodies(top: dict[str, Any]) -> dict[str, Any]:

@@ -31,8 +31,10 @@ from .toml_values import (
     number_or_text,
     numbers,
     rows,
+    rows_or_text,
     table_of,
     text,
+    texts,
     whole,
 )
 
@@ -83,7 +85,8 @@ TABLES: dict[str, Mapping[str, Reader]] = {
     "body": BODY,
     "indenter": BODY,
     "pair": {"modulus": number, "dundurs": number, "poisson": number, "coupling": text},
-    "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number) | {"path": rows},
+    "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number)
+    | {"path": rows_or_text, "columns": texts},
 }
 TOP: tuple[str, ...] = ("title", "want", "profile", *TABLES)
 MODIFIERS: dict[str, Reader] = {

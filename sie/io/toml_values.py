@@ -6,7 +6,7 @@ Each returns the value of the entry that `where` names, or raises ValueError wit
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NoReturn
 
 from sie.messages import shortened
 
@@ -66,6 +66,11 @@ def numbers(where: str, value: Any) -> tuple[float, ...]:
 def rows(where: str, value: Any) -> tuple[tuple[float, ...], ...]:
     """A list of lists of numbers."""
     return tuple(numbers(f"{where}[{k}]", v) for k, v in enumerate(listed(where, value)))
+
+
+def rows_or_text(where: str, value: Any) -> tuple[tuple[float, ...], ...] | str:
+    """A list of lists of numbers, or a text."""
+    return text(where, value) if isinstance(value, str) else rows(where, value)
 
 
 def texts(where: str, value: Any) -> tuple[str, ...]:
@@ -136,3 +141,13 @@ def shown(value: Any) -> str:
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))
+
+
+def refuse_unread(path: str, problem: OSError, remedy: str) -> NoReturn:
+    """Raise ValueError for a file that a scene names and that cannot be read."""
+    absent = isinstance(problem, FileNotFoundError)
+    why = "there is no such file" if absent else problem.strerror
+    raise ValueError(
+        f'path = "{shortened(path)}" is not read, {why}: '
+        f"give {remedy}, from where the scene file is"
+    ) from None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from sie.errors import ContactError, LoadError
 from sie.numerics.interval import Interval
 from sie.problem.scene import Scene
 from sie.profiles.base import Derived, Profile
-from sie.profiles.row import Row
+from sie.profiles.row import Periodic, Row
 from sie.profiles.slope import Slope
 
 from .certificate import certificate
@@ -34,12 +34,14 @@ class SeveralPatches:
 
     edges      of the outermost two edges, and load, moment and tilt of all patches
     pressure   on all of them
+    notes      sentences on the profile
     """
 
     edges: Edges
     pressure: PatchPressure = field(compare=False, repr=False)
     problem: Problem = field(compare=False, repr=False)
     found: Found = field(compare=False, repr=False)
+    notes: tuple[str, ...] = ()
     symmetric: bool = False
 
     def slope(self, profile: Profile) -> Slope:
@@ -67,7 +69,8 @@ class SeveralPatches:
         return gap_volume(self.found.operator)
 
     def certificate(self, tol: float) -> PatchCertificate:
-        return certificate(self.found, self.pressure, self.problem.given, tol)
+        found = certificate(self.found, self.pressure, self.problem.given, tol)
+        return replace(found, notes=found.notes + self.notes)
 
 
 def asks_for_patches(profile: Profile) -> bool:
@@ -127,14 +130,16 @@ def answered(problem: Problem, found: Found, scene: Scene) -> SeveralPatches:
         0.0,
         found.steps,
     )
-    return SeveralPatches(edges, pressure, problem, found)
+    profile = scene.profile
+    notes = (profile.joint,) if isinstance(profile, Periodic) and profile.joint else ()
+    return SeveralPatches(edges, pressure, problem, found, notes)
 
 
 def _refuse_uncovered(scene: Scene) -> None:
     if scene.normal_load is None:
         raise ContactError(
-            f"half_width = {scene.half_width:g} of contact in several patches is not covered: "
-            "give normal_load"
+            f"half_width = {scene.half_width:g} does not say of which of several patches, nor at "
+            "which load they all press: give normal_load"
         )
     if scene.epsilon or scene.bonded:
         what = "bonded surfaces" if scene.bonded else "dissimilar bodies that slide"

@@ -18,7 +18,8 @@ Array = NDArray[np.float64]
 NODES = 8  # on a part of a panel
 DEEPEST = 30  # halvings
 TENSION = 1e-13  # of the largest D: rounding
-CLOSED = 1e-12  # half-widths of its patch: the gap at a concave corner is not told from none
+# half-widths of the narrower patch beside it: a gap that edges in doubles do not tell from none
+CLOSED = 2.5e-11
 
 
 @lru_cache(maxsize=8)

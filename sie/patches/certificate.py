@@ -10,37 +10,38 @@ condition     relative change of the narrowest patch per relative change of the 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
 
+from .chord import Points
 from .density import PatchPressure
-from .newton import conditions
+from .newton import Linear, conditions
 from .operator import Found, Operator
-from .panels import PatchPanels
-from .result import GRADING, LEAST, PatchCertificate
+from .panels import LONG, PatchPanels
+from .result import LEAST, PatchCertificate
 from .state import Given, State
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-NODES = 12  # on a part of a panel
-# (panels, levels): where there are no more panels, their parts shrink towards the ends so often
-LEVELS = ((24, 32), (60, 18))
-BENT = 24  # nodes on a whole panel where there are more, or on its parts
+# nodes on a part of a panel: of those that are graded slowly, and of those of many breaks
+NODES, FEWER = 40, 24
 STEEP = 4.0  # a panel that is so much longer than its neighbour is cut towards that one
+DEEP = 26  # cuts towards a jump of H, each STEEP times nearer: p is infinite there like a logarithm
+BESIDE = 5  # cuts towards edges, where there are few panels: down to SHORT
 SHORT = 1e-3  # of a panel: on shorter parts the equation is not measured
+# ulp of an edge: closer to it the edge's own rounding changes p by a part of 1e-6
+APART = 5e5
 PLACES = 120  # at which it is, about
 TOGETHER = 32  # of them at once
-EXPLAINED = 16.0  # times an ulp of x
-MOST = 1e-3  # of the peak: where an ulp of x can do more nothing is certified
+EXPLAINED = 16.0  # times what half an ulp of the edges changes
+MOST = 1e-3  # of the peak: where that is more nothing is certified
 JUMP = 1e-9  # of H: less is rounding
-# what the sum on whole panels may miss where H jumps and p is infinite at their ends
-ROUGH = 1e-7
 CLOSE = 1e4  # condition from which a patch is about to appear, or two to merge
 
 
@@ -48,39 +49,31 @@ def certificate(
     found: Found, pressure: PatchPressure, given: Given, tol: float
 ) -> PatchCertificate:
     """Measure an answer; `given` is what was asked, in units of E*/2."""
-    o, P = found.operator, found.operator.patches
-    rule = _measure(o.panels, pressure)
-    x, weight = rule.x, rule.weight
-    p = pressure(x)
-    p = np.where(np.isfinite(p), p, 0.0)
-    peak = float(pressure(rule.at).max())
-    residual = _residual(pressure, rule, p)
-    load = float(weight @ p)
-    hull = 0.5 * float(P.b[-1] - P.a[0])
-    middle = 0.5 * float(P.b[-1] + P.a[0])
-    asked = pressure.half_modulus * given.load
+    o, P, G = found.operator, found.operator.patches, pressure.half_modulus
+    rule, places = _measure(pressure)
+    p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
+    p = np.where(np.isfinite(p), p, 0.0)  # as of a part that is shorter than the doubles are apart
+    peak = float(at.max())
+    load = float(rule.weight @ p)
+    hull, middle = 0.5 * float(P.b[-1] - P.a[0]), 0.5 * float(P.b[-1] + P.a[0])
+    asked = G * given.load
     moment = 0.0
     if given.moment is not None:
-        moment = abs(
-            float(weight @ (p * (x - middle)))
-            + load * middle
-            - pressure.half_modulus * given.moment
-        ) / (asked * hull)
-    f = found.findings
-    condition = conditioning(found.state, o.pieces, given)
+        found_moment = float(rule.weight @ (p * (rule.points.x - middle))) + load * middle
+        moment = abs(found_moment - G * given.moment) / (asked * hull)
+    linear = conditions(found.state, o.pieces, given)[1]
+    condition = conditioning(found.state, linear, given)
     return PatchCertificate(
-        residual=residual / peak,
+        residual=_residual(pressure, (rule, p), (places, at)) / peak,
         force=abs(load - asked) / asked,
         moment=moment,
-        lowest_pressure=min(f.lowest, 0.0),
+        lowest_pressure=min(found.findings.lowest, 0.0),
         patches=P.number,
         condition=condition,
-        measured_to=max(
-            ROUGH if _misses_jumps(o) else LEAST, min(EXPLAINED * _rounding(rule, p) / peak, MOST)
-        ),
+        measured_to=max(LEAST, min(EXPLAINED * _rounding(o, linear, asked / G, peak / G), MOST)),
         tol=tol,
-        tension=tuple((t.lo, t.hi) for t in f.tension),
-        overlap=tuple((v.lo, v.hi) for v in f.overlap),
+        tension=tuple((t.lo, t.hi) for t in found.findings.tension),
+        overlap=tuple((v.lo, v.hi) for v in found.findings.overlap),
         notes=_notes(condition),
     )
 
@@ -95,9 +88,8 @@ def _notes(condition: float) -> tuple[str, ...]:
     return (sentence,)
 
 
-def conditioning(state: State, pieces: Any, given: Given) -> float:
+def conditioning(state: State, linear: Linear, given: Given) -> float:
     """|d ln r / d ln P| of the patch for which it is largest."""
-    _, linear = conditions(state, pieces, given)
     size = np.abs(linear.matrix).max(axis=1)
     N = state.patches.number
     right = np.zeros(2 * N + 1)
@@ -111,59 +103,79 @@ def conditioning(state: State, pieces: Any, given: Given) -> float:
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
 
+def _rounding(o: Operator, linear: Linear, load: float, peak: float) -> float:
+    """What changes where all smooth edges move by half an ulp, as if at random, and the slope by
+    its rounding: the largest of p over its peak, and of the load, these two in units of E*/2.
+
+    An edge that moves is a point charge, which the conditions of the patches and of the load miss.
+    """
+    P, N = o.patches, o.patches.number
+    charge = 0.25 * linear.intensity * np.spacing(np.abs(P.edges))
+    missed = np.sqrt(((linear.matrix[:, : 2 * N] * charge) ** 2).sum(axis=1))
+    beside = o.others(np.arange(N), Points(P.c[:, None], np.zeros((N, 1))))[:, 0]
+    terms = np.abs(o.pieces.series[o.panels.piece]).sum(axis=1)
+    return max(
+        float((missed[:N] * beside).max()) / (np.pi * peak),
+        float(missed[2 * N - 1]) / load,
+        float(np.spacing(terms.max(initial=0.0))) / (2.0 * peak),
+    )
+
+
 class Measure(NamedTuple):
-    """Places x with weights dx and their patches; and places between them, on patches, where the
-    equation is measured.
-    """
+    """Points on patches, the pieces of H that they are on, and weights dx."""
 
-    x: Array
-    weight: Array
+    points: Points
     patch: Index
-    at: Array
-    own: Index
+    piece: Index
+    weight: Array
 
 
-def _misses_jumps(o: Operator) -> bool:
-    """Whether H jumps on a patch and panels are not cut into parts."""
-    k, pieces = o.panels, o.pieces
-    if len(k.lo) <= LEVELS[-1][0]:
-        return False
-    x = pieces.ends[1:-1]
-    patch = np.maximum(np.searchsorted(o.patches.a, x) - 1, 0)
-    inner = np.flatnonzero((x > o.patches.a[patch]) & (x < o.patches.b[patch]))
-    below, above = (pieces.value(inner + m, x[inner], 0.0) for m in (0, 1))
-    size = np.maximum(np.abs(below), np.abs(above))
-    return bool((np.abs(above - below) > JUMP * size).any())
+def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
+    """A composite rule on the panels of an operator, and places between its points where the
+    equation is measured.
 
-
-def _measure(k: PatchPanels, pressure: PatchPressure) -> Measure:
-    """A composite rule that is finer towards the ends of panels, where p' may be infinite and p
-    too. At an edge p is smooth in the angle.
-
-    The parts of few panels shrink towards such an end. Many are taken whole, or nearly, with the
-    variable bent there: p has breaks like s² ln s where H' of a spline has, and s^8 ln s is easy.
+    The variable is bent at the ends of panels: p has breaks like s² ln s where H' of a spline has,
+    and s^8 ln s is easy. At an edge p is smooth in the angle.
     """
-    levels = next((level for most, level in LEVELS if len(k.lo) <= most), 0)
-    at_edge = k.lo == 0.0
-    if not levels:
-        parts = _cut_towards_shorter(k)
-        return _placed(k, pressure, parts, _bent(parts[1] == 0.0))
-    graded = GRADING ** np.arange(1.0, levels + 1.0)
-    cuts = (np.array([0.0, 0.5]), graded, 1.0 - graded[::-1], np.ones(1))
-    lows, lengths, panels = [], [], []
-    for chosen, kept in ((~at_edge, cuts), (at_edge, cuts[:1] + cuts[2:])):
-        part = np.unique(np.concatenate(kept))
-        extent = (k.hi - k.lo)[chosen, None]
-        lows.append((k.lo[chosen, None] + extent * part[:-1]).ravel())
-        lengths.append((extent * np.diff(part)).ravel())
-        panels.append(np.repeat(np.flatnonzero(chosen), len(part) - 1))
-    lo, length, panel = (np.concatenate(v) for v in (lows, lengths, panels))
-    return _placed(k, pressure, (panel, lo, length), chebyshev.gauss_legendre(NODES))
+    o = pressure.operator
+    k = o.panels
+    nodes = NODES if k.angle.shape[1] == LONG.nodes else FEWER
+    panel, lo, length = _cut(k, _jumps_at_ends(o))
+    g, w = _bent(lo == 0.0, nodes)
+    rule = _at_angles(k, pressure, panel, lo[:, None] + length[:, None] * g)
+    rule = rule._replace(weight=(length[:, None] * w).ravel() * rule.weight)
+    r, edge = o.patches.r[k.patch[panel]], k.points.anchor[panel, 0]
+    far = 2.0 * r * np.sin(0.5 * (lo + 0.25 * length)) ** 2 >= np.minimum(
+        APART * np.spacing(np.abs(edge)), 0.1 * r
+    )
+    some = np.flatnonzero((length > SHORT * (k.hi - k.lo)[panel]) & far)
+    some = some if some.size else np.arange(len(lo))
+    some = some[:: max(len(some) // PLACES, 1)]
+    number = -(-PLACES // len(some))
+    # not close to the ends of parts, between which a place makes the kernel as steep as it is close
+    part = 0.25 + 0.5 * (np.arange(number) + 0.5) / number
+    angle = lo[some, None] + length[some, None] * part
+    return rule, _at_angles(k, pressure, panel[some], angle)
 
 
-def _cut_towards_shorter(k: PatchPanels) -> tuple[Index, Array, Array]:
-    """Parts (panel, lowest angle, length) of the panels: whole, but beside a much shorter panel no
-    longer than STEEP times their distance from there.
+def _jumps_at_ends(o: Operator) -> Mask:
+    """Whether H jumps at the end k.lo and at the end k.hi of each panel, (2, p)."""
+    k, pieces = o.panels, o.pieces
+    inner = np.arange(1, len(pieces.origin))
+    with np.errstate(invalid="ignore"):  # walls have no length
+        below, above = (pieces.value(inner - m, pieces.ends[inner], 0.0) for m in (1, 0))
+    jump = np.zeros(len(pieces.ends), dtype=bool)
+    jump[inner] = np.abs(above - below) > JUMP * np.maximum(np.abs(below), np.abs(above))
+    ends = np.stack(o.ends)
+    closest = pieces.ends[k.piece + np.array([[0], [1]])]
+    reached = np.abs(ends - closest) <= SHORT * (ends[1] - ends[0])
+    left, right = reached & jump[k.piece + np.array([[0], [1]])]
+    return np.where(k.right, (right, left), (left, right)) & (np.stack((k.lo, k.hi)) > 0.0)
+
+
+def _cut(k: PatchPanels, jumps: Mask) -> tuple[Index, Array, Array]:
+    """Parts (panel, lowest angle, length) of the panels: whole, but beside a much shorter panel,
+    and at a jump of H, no longer than STEEP times their distance from there.
 
     At a place on the shorter one the kernel is as steep as its length.
     """
@@ -175,6 +187,9 @@ def _cut_towards_shorter(k: PatchPanels) -> tuple[Index, Array, Array]:
     right[order[:-1]] = np.where(meet, length[order[1:]], np.inf)
     neighbours = np.where(k.right, (right, left), (left, right))  # towards k.lo and k.hi
     times = np.ceil((np.log(length) - np.log(neighbours)) / np.log(STEEP) - 1.0).clip(0.0)
+    times = np.where(jumps, DEEP, times)
+    if len(length) < PLACES:
+        times[0, k.lo == 0.0] = BESIDE
     panels, lows, lengths = [], [], []
     for towards_lo, towards_hi in np.unique(times, axis=1).T.astype(int).tolist():
         chosen = np.flatnonzero((times[0] == towards_lo) & (times[1] == towards_hi))
@@ -187,77 +202,52 @@ def _cut_towards_shorter(k: PatchPanels) -> tuple[Index, Array, Array]:
     return np.concatenate(panels), np.concatenate(lows), np.concatenate(lengths)
 
 
-def _bent(at_edge: Mask) -> tuple[Array, Array]:
+def _bent(at_edge: Mask, nodes: int) -> tuple[Array, Array]:
     """Gauss' nodes and weights on [0, 1] in a variable whose cube the distance from an end is; from
     the upper end only where the lower one is an edge.
     """
-    g, w = chebyshev.gauss_legendre(BENT)
+    g, w = chebyshev.gauss_legendre(nodes)
     both = g**3 * (10.0 - 15.0 * g + 6.0 * g * g), 30.0 * w * (g * (1.0 - g)) ** 2
     upper = 1.0 - (1.0 - g) ** 3, 3.0 * w * (1.0 - g) ** 2
     place, weight = (np.where(at_edge[:, None], u, b) for u, b in zip(upper, both, strict=True))
     return place, weight
 
 
-def _placed(
-    k: PatchPanels,
-    pressure: PatchPressure,
-    parts: tuple[Index, Array, Array],
-    rule: tuple[Array, Array],
-) -> Measure:
-    """The rule on [0, 1], laid on parts (panel, lowest angle, length)."""
-    P = pressure.operator.patches
-    (panel, lo, length), (g, w) = parts, rule
-    patch, right = k.patch[panel], k.right[panel]
-    edge, away = (
-        np.where(right, P.b[patch], P.a[patch])[:, None],
-        np.where(right, -1.0, 1.0)[:, None],
+def _at_angles(k: PatchPanels, pressure: PatchPressure, panel: Index, angle: Array) -> Measure:
+    """Points at angles (m, n) on panels (m,), with dx/d(angle) as weights."""
+    r = pressure.operator.patches.r[k.patch[panel], None]
+    inward = 2.0 * r * np.sin(0.5 * angle) ** 2
+    offset = np.where(k.right[panel, None], -inward, inward)
+    anchor = np.broadcast_to(k.points.anchor[panel], offset.shape)
+    patch, piece = (np.repeat(v[panel], angle.shape[1]) for v in (k.patch, k.piece))
+    return Measure(
+        Points(anchor.ravel(), offset.ravel()), patch, piece, (r * np.sin(angle)).ravel()
     )
 
-    def inward(angle: Array) -> Array:
-        return np.asarray(2.0 * P.r[patch, None] * np.sin(0.5 * angle) ** 2)
 
-    angle = lo[:, None] + length[:, None] * g
-    weight = length[:, None] * w * P.r[patch, None] * np.sin(angle)
-    meant = inward(angle)
-    x = edge + away * meant
-    # the pressure is that of the double x, and goes like the root of its distance from the edge
-    ratio = np.abs(x - edge) / meant
-    sharp = pressure.operator.Y[2 * patch + right] != 0.0
-    weight *= np.where(
-        sharp[:, None], np.sqrt(ratio), 1.0 / np.sqrt(np.where(ratio > 0.0, ratio, 1.0))
-    )
-    chosen = np.flatnonzero(length > SHORT * (k.hi - k.lo)[panel])
-    chosen = chosen[:: max(len(chosen) // PLACES, 1)]
-    middles = (edge + away * inward((lo + 0.5 * length)[:, None]))[chosen, 0]
-    everywhere = np.repeat(patch, angle.shape[1])
-    return Measure(x.ravel(), weight.ravel(), everywhere, middles, patch[chosen])
-
-
-def _rounding(rule: Measure, p: Array) -> float:
-    """The change of p by an ulp of x where the equation is measured."""
-    order = np.argsort(rule.x, kind="stable")
-    x, p = rule.x[order], p[order]
-    k = np.clip(np.searchsorted(x, rule.at), 1, len(x) - 1)
-    apart = np.maximum(x[k] - x[k - 1], np.spacing(np.abs(x[k])))
-    return float((np.abs(p[k] - p[k - 1]) / apart * np.spacing(np.abs(x).max())).max(initial=0.0))
-
-
-def _residual(pressure: PatchPressure, rule: Measure, p: Array) -> float:
-    """The largest residual at the chosen places."""
+def _residual(
+    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Measure, Array]
+) -> float:
+    """The largest residual at places with their pressures, by a rule with its own."""
     o = pressure.operator
     P, chord = o.patches, o.patches.chord
-    at, own = rule.at, rule.own
-    values = pressure(at)
-    total = values * np.log(chord.apart(at - P.a[own]) / chord.apart(P.b[own] - at))
-    for k in range(0, len(at), TOGETHER):
+    (by, p), (at, values) = rule, places
+    x = at.points
+    own, (left, right) = (
+        at.patch,
+        (chord.apart(x.anchor - e[at.patch], x.offset) for e in (P.a, P.b)),
+    )
+    total = values * np.log(left / -right)
+    for k in range(0, len(own), TOGETHER):
         some = slice(k, k + TOGETHER)
-        distance = at[some, None] - rule.x
-        distance[distance == 0.0] = np.nan
+        distance = chord.difference(
+            x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset
+        )
+        distance[distance == 0.0] = np.inf
         kernel = 1.0 / distance
         if chord.periodic:
             kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
-        kernel[np.isnan(kernel)] = 0.0
-        taken_out = np.where(rule.patch == own[some, None], values[some, None], 0.0)
-        total[some] += ((p - taken_out) * kernel) @ rule.weight
-    H = o.pieces.value(o.pieces.locate(at), at, 0.0) + pressure.tilt
+        taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
+        total[some] += ((p - taken_out) * kernel) @ by.weight
+    H = o.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
     return float(np.abs(total / np.pi - pressure.half_modulus * H).max(initial=0.0))

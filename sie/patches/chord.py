@@ -51,7 +51,7 @@ class Chord:
             return step + offset
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
-        return (self.period / np.pi) * _parity(turns) * np.sin(angle)
+        return ((self.period / np.pi) * _parity(turns)) * np.sin(angle)
 
     def sign(self, step: Any) -> Any:
         """-1 where `difference` takes an odd number of periods out of a step; 1 elsewhere."""
@@ -66,6 +66,18 @@ class Chord:
         turns = np.rint(step / self.period)
         angle = (np.pi / self.period) * ((step - turns * self.period) + offset)
         return _parity(turns) * np.cos(angle)
+
+    def beyond(self, t: Points, x: Points) -> Any:
+        """d(t, x) of sources (m, s) that share an anchor (m, 1) and places (m, n) farther from that
+        than they are: (m, n, s). The addition theorem takes a sine of each, not of each pair.
+        """
+        step = t.anchor - x.anchor
+        if not self.periodic:
+            return (step - x.offset)[:, :, None] + t.offset[:, None, :]
+        angle = (np.pi / self.period) * t.offset
+        far = np.stack((self.apart(step, -x.offset), self.cosine(step, -x.offset)), axis=2)
+        near = np.stack((np.cos(angle), (self.period / np.pi) * np.sin(angle)), axis=1)
+        return far @ near
 
     def difference(self, step: Any, offset: Any = 0.0) -> Any:
         """x - y, less whole periods of the anchors' difference."""

@@ -168,17 +168,23 @@ class PatchPressure(Density):
         piece = o.pieces.locate(points.x)
         at_end = points.x == o.patches.b[k]
         piece = np.where(at_end, o.pieces.locate(points.x, "left"), piece)
-        at = blocks(k, points.x)
-        T, _ = o.root(k[at[:, 0]], points[at])
-        p = np.empty(x.shape)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            D = on_patches(o, k[at[:, 0]], points[at], piece[at])
-            p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
+        p = self.at_points(points, k, piece)
         edges = points.offset == 0.0
         if edges.any():
             at = 2 * k[edges] + (points.anchor[edges] == o.patches.b[k[edges]])
             p[edges] = np.where(o.Y[at] != 0.0, np.inf, 0.0)
         return np.asarray(p)
+
+    def at_points(self, points: Points, k: Index, piece: Index) -> Array:
+        """p at points (m,) on patches k and pieces of the slope; no place is rounded."""
+        o = self.operator
+        at = blocks(k, points.x)
+        T, _ = o.root(k[at[:, 0]], points[at])
+        p = np.empty(points.offset.shape)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            D = on_patches(o, k[at[:, 0]], points[at], piece[at])
+            p[at] = (self.half_modulus / np.pi) * np.abs(T) * D
+        return p
 
     def hilbert(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)

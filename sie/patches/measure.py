@@ -27,8 +27,8 @@ from numpy.typing import NDArray
 from .chord import Points
 from .panels import Patches, PatchPanels, patch_panels
 from .pieces import Pieces
-from .sums import Groups, far_sums, multiply, parts, steps
-from .tree import Level, Separation, Tree
+from .sums import Groups, far_sums, multiply, parts
+from .tree import Level, Tree
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -76,13 +76,9 @@ class Measure:
         if N == 1:
             return out
         groups = self.groups(i, x, np.arange(len(i)) if group is None else group)
-        if np.iscomplexobj(out):
-            every = np.arange(len(groups.i))
-            near = Separation([], np.tile(np.arange(N), len(every)), np.repeat(every, N))
-        else:
-            chord, extent = self.patches.chord, groups.wide
-            near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
-            out *= np.exp(far_sums(self.patches.chord, groups, near, x, self._logarithms)[..., 0])
+        chord, extent = self.patches.chord, groups.wide
+        near = self._tree_of_roots.separated(chord, groups.i, extent, extent)
+        out *= np.exp(far_sums(chord, groups, near, x, self._logarithms)[..., 0])
         block, pair = groups.blocks(near.group)
         for some in parts(len(block), out.shape[1]):
             multiply(out, block[some], self._factor(near.row[pair[some]], i, x, block[some]))
@@ -90,8 +86,13 @@ class Measure:
 
     def _logarithms(self, level: Level, node: Index, i: Index, x: Points) -> Any:
         """ln S of far nodes at places, (m, n, 1)."""
-        step = steps(self.patches.chord, level.points(node), x)
-        return np.log(np.abs(step, out=step), out=step) @ level.charges[0, node, :, None]
+        q = level.points(node)
+        step = self.patches.chord.beyond(q, x)
+        if np.iscomplexobj(step):  # the charges add to zero: any branch that no point crosses
+            step *= np.where(step[..., :1].real < 0.0, -1.0, 1.0)
+        else:
+            np.abs(step, out=step)
+        return np.log(step, out=step) @ level.charges[0, node, :, None]
 
     def _factor(self, j: Index, i: Index, x: Points, block: Index) -> Any:
         """What patch j contributes to S_i at blocks."""
@@ -245,12 +246,23 @@ class Targets(NamedTuple):
         return Targets(self.i[block], self.group[block], x[block, place], *values)
 
 
+def _inward(o: Measure, panel: Index, x: Points) -> Any:
+    """Places (m, n) as they are counted inwards from the edge of panels (m,), in the period in
+    which they are nearer to the panel.
+    """
+    k, chord = o.panels, o.patches.chord
+    step = x.anchor - k.points.anchor[panel]
+    if chord.periodic:  # a patch may be longer than half a period
+        middle = k.points.offset[panel, k.points.offset.shape[1] // 2, None]
+        step = step - chord.period * np.rint((step + np.real(x.offset) - middle) / chord.period)
+    inward = step + x.offset
+    return np.where(k.right[panel, None], -inward, inward)
+
+
 def close(o: Measure, panel: Index, x: Points) -> NDArray[np.bool_]:
     """Whether places (m, n) are close to the panels (m,)."""
     k, P = o.panels, o.patches
-    right = k.right[panel, None]
-    inward = P.chord.difference(x.anchor - k.points.anchor[panel], x.offset)
-    inward = np.where(right, -inward, inward)
+    inward = _inward(o, panel, x)
     if not np.iscomplexobj(inward):
         lo, hi = o.beside
         return np.asarray((lo[panel, None] < inward) & (inward < hi[panel, None]))
@@ -284,7 +296,7 @@ def integrals(o: Measure, panel: Index, nu: Array, t: Targets) -> Any:
     beyond = np.maximum(np.maximum(lo - real, real - hi), np.abs(np.imag(x.offset)))
     counts = (beyond <= o.pieces.reach[own[other]]) & (residue != 0.0)
     # not beside a repetition of the panel: of one patch per period both sides of a gap are it
-    here = np.abs(x.anchor - points.anchor[:, 0]) <= 0.5 * o.patches.chord.period
+    here = np.abs(real - points.x[:, 0]) <= 0.5 * o.patches.chord.period
     counts &= here & (k.patch[q] == t.owner[other])
     if counts.any():
         q, x, residue, at = q[counts], x[counts], residue[counts], other[counts]
@@ -332,8 +344,7 @@ def _pole(o: Measure, panel: Index, x: Points) -> Any:
     """∫_panel dt/(W_k(t) d(t, x)), a principal value on the panel."""
     P, k = o.patches, o.panels
     patch, right = k.patch[panel], k.right[panel]
-    inward = P.chord.difference(x.anchor - k.points.anchor[panel, 0], x.offset)
-    inward = np.where(right, -inward, inward)
+    inward = _inward(o, panel, x[:, None])[:, 0]
     near, far = P.chord.apart(0.0, inward), P.chord.apart(2.0 * P.r[patch], -inward)
     t1, t2 = o.tau[0][panel], o.tau[1][panel]
     square = near / far

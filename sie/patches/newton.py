@@ -15,22 +15,26 @@ charge itself.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .bounds import CLOSED
+from .gap_rows import across_gaps
 from .measure import edge_ratio
 from .operator import Operator, at_edges, gap_values
 from .panels import Patches
 from .pieces import Pieces
+from .repairs import after
 from .state import Event, Given, State
-from .sums import add, parts
 
 Array = NDArray[np.float64]
 
 # The most that an edge moves out: half-widths of its patch, widths of its gap
 OUTWARD, INTO_GAP = 2.0, 0.4
+TO_CORNER = 0.9  # of the way to a concave corner
 INWARD, WIDTHS = 0.4, 4.0  # most that it moves in: half-widths, widths of its gap
 SMALL = 1e-3  # of the mean: no intensity counts for less
 TINY = 1e-200
@@ -43,7 +47,6 @@ NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
 GROWTH = 3.0  # of moves after one that went too far: slower after every such one, so that it ends
-CLOSED = 1e-10  # of the narrowest half-width: a gap that edges in doubles do not tell from none
 TOGETHER = 4  # steps in a row: both edges of a patch or of a gap ask for more
 INSISTS = 12  # steps in a row that a damped edge asks for more: an event
 
@@ -103,21 +106,7 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     width = np.bincount(k.gap, k.dx.sum(axis=1), N - 1)
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
     K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
-    return K, -across_gaps(o, T * k.dx) * ratio[: N - 1] / np.pi
-
-
-def across_gaps(o: Operator, weight: Array) -> Array:
-    """Σ weight/d(x, e) over the nodes x of each gap and all edges e, (N - 1, 2N)."""
-    P, k = o.patches, o.gaps
-    e = P.edges
-    out = np.zeros((P.number - 1, len(e)))
-    for some in parts(len(k.gap), k.dx.shape[1] * len(e)):
-        step = P.chord.apart(
-            k.points.anchor[some, :, None] - e[:, None], k.points.offset[some, None, :]
-        )
-        sums = np.reciprocal(step, out=step) @ weight[some, :, None]
-        add(out, k.gap[some], sums[..., 0])
-    return out
+    return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
 
 
 class Damping(NamedTuple):
@@ -134,13 +123,14 @@ class Damping(NamedTuple):
     insists: Array
     turns: Array
 
-    def limited(self, state: State, asked: Array) -> Damping:
+    def limited(self, state: State, asked: Array, corners: Array) -> Damping:
+        """Those after a step that asks for moves; no edge moves out over a concave corner."""
         P, outward = state.patches, state.outward
         r = np.repeat(P.r, 2)
         gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
         most = np.where(
             asked * outward > 0.0,
-            np.minimum(OUTWARD * r, INTO_GAP * gaps),
+            np.minimum(np.minimum(OUTWARD * r, INTO_GAP * gaps), TO_CORNER * room(P, corners)),
             np.minimum(INWARD * r, WIDTHS * gaps),
         )
         back = (asked * self.moved < 0.0) & (np.abs(asked) > 0.5 * np.abs(self.moved))
@@ -151,6 +141,29 @@ class Damping(NamedTuple):
         insists = np.where((np.abs(asked) > most) & ~back, self.insists + 1, 0)
         return Damping(trust, np.clip(asked, -allowed, allowed), insists, turns)
 
+    def carried(self, before: State, after: State) -> tuple[Damping, State]:
+        """The same, and the charges, of the edges that were there before; others begin anew."""
+        old, edges = before.patches.edges, after.patches.edges
+        k = np.minimum(np.searchsorted(old, edges), len(old) - 1)
+        same = old[k] == edges
+        new = Damping.none(len(edges))
+        charge = np.where(same & after.sharp, before.charge[k], 0.0)
+        return Damping(*(np.where(same, v[k], w) for v, w in zip(self, new, strict=True))), replace(
+            after, charge=charge
+        )
+
+    @classmethod
+    def none(cls, n: int) -> Damping:
+        return cls(np.full(n, np.inf), *np.zeros((3, n)))
+
+
+def room(patches: Patches, corners: Array) -> Array:
+    """The distances of the edges (2N,) from the next corner outwards; inf where there is none."""
+    lower, upper = np.append(-np.inf, corners), np.append(corners, np.inf)
+    behind = patches.a - lower[np.searchsorted(corners, patches.a)]
+    ahead = upper[np.searchsorted(corners, patches.b, side="right")] - patches.b
+    return np.stack((behind, ahead), axis=1).ravel()
+
 
 def solve(
     state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
@@ -159,29 +172,35 @@ def solve(
     number of steps. `accuracy`: half-widths that the last step may have, and the most steps.
     """
     enough, most = accuracy
-    ends = pieces.solid_around(state.patches.c)
-    none = np.zeros(2 * state.patches.number)
-    damping = Damping(none + np.inf, none, none, none)
+    damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(most):
+    for step in range(most + MOST_STEPS * state.patches.number):
+        if len(sizes) == most:
+            break
         _, linear = conditions(state, pieces, given)
         y = linear.solution
         asked = wished(state, linear, y, damping.turns)
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
-        damping = damping.limited(state, none if unknown else asked)
+        damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
         size = relative_size(state, y, asked)
-        state, clipped = moved(state, damping.moved, y, (ends, given.moment is not None))
+        limits = pieces.solid_around(state.patches.c), given.moment is not None
+        state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
-        if _settled(sizes, enough):
+        if _settled(sizes, enough, state.sharp.any()):
             wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
             return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
         event = _event(state, asked, damping.insists, pieces)
         if event is not None:
-            return state, event, step + 1
-        if damping.insists.max() >= INSISTS:
+            fewer = after(event, state, pieces)
+            if fewer.patches.number >= state.patches.number:
+                return state, event, step + 1
+            # what the other edges ask for is not changed by an event far from them
+            damping, state = damping.carried(state, fewer)
+            sizes = sizes[:-1] if most < MOST_STEPS else []
+        elif damping.insists.max() >= INSISTS:
             damping.insists[:] = 0
-    return state, Event("stall", -1), most
+    return state, Event("stall", -1), step + 1
 
 
 def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
@@ -231,14 +250,15 @@ def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tupl
     return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
 
 
-def _settled(sizes: list[float], enough: float) -> bool:
+def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
     """Whether the last step is small enough, what follows is by the steps' quadratic decrease, or
-    only rounding is left.
+    only rounding is left. Beside sharp edges a move is wrong as far as the charges before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
     if last < enough:
         return True
-    decreased = last < QUADRATIC and before < QUADRATIC and last * (last / before) ** 2 < enough
+    rate = before if sharp else (last / before) ** 2
+    decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
     return decreased or (last < SETTLED and last >= 0.5 * before)
 
 
@@ -254,7 +274,7 @@ def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event 
     closing = growing[1::2] & np.roll(growing[::2], -1)
     outward = single & out
     closing |= outward[1::2] | np.roll(outward[::2], -1)
-    closed = P.gaps < CLOSED * P.r.min()
+    closed = P.gaps < CLOSED * np.minimum(P.r, np.roll(P.r, -1))
     if not P.chord.periodic:
         closing[-1] = closed[-1] = False
     kept = np.flatnonzero(closing & ~closed)

@@ -98,7 +98,7 @@ class Operator(Measure):
     def _charges_at(self, level: Level, node: Index, i: Index, x: Points) -> Any:
         """Σ H dν_i/d(t, x) and Σ dν_i/d(t, x) of far nodes, (m, n, 2)."""
         q, charge = self._far_measure(level, node, i)
-        kernel = 1.0 / steps(self.patches.chord, q, x)
+        kernel = 1.0 / self.patches.chord.beyond(q, x)
         return kernel @ charge
 
     def _far_measure(self, level: Level, node: Index, i: Index) -> tuple[Points, Array]:

@@ -37,7 +37,7 @@ class Rule(NamedTuple):
     growth: float
 
 
-LONG, SHORT = Rule(16, 1.5, 4.0), Rule(8, 0.5, 2.0)
+LONG, SHORT = Rule(16, 1.5, 4.0), Rule(10, 0.5, 2.0)
 FINE = Rule(16, 0.5, 2.0)  # where values between the nodes are asked for as well
 SLACK = 1.3  # the last panel of a graded row is longer than the others by no more
 MANY = 6.0  # breaks on a patch, on average: short panels from there on
@@ -78,7 +78,8 @@ class Patches:
 
     def rule(self, pieces: Pieces) -> Rule:
         inside = np.searchsorted(pieces.ends, self.b) - np.searchsorted(pieces.ends, self.a)
-        return SHORT if inside.sum() > MANY * self.number else LONG
+        many = inside.sum() > MANY * self.number and not pieces.series.any()
+        return SHORT if many else LONG
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,8 +230,19 @@ def gap_panels(
     far = np.sqrt(np.minimum(np.maximum(stop, 0.0), farthest * (b[-1] - a[0])))
     nearest = np.where(inner, 2.0 * np.arcsinh(np.sqrt(size / width)), np.sqrt(size))
     end = np.where(inner, 0.5 * np.pi, far)
-    inwards = 2.0 * np.arcsin(np.sqrt(np.minimum(followed / np.where(inner, width, 1.0), 1.0)))
-    limit = np.where(inner, inwards, np.sqrt(followed))
+
+    def as_parameter(distance: Array) -> Array:
+        inwards = np.sqrt(np.minimum(distance / np.where(inner, width, 1.0), 1.0))
+        return np.where(inner, 2.0 * np.arcsin(inwards), np.sqrt(distance))
+
+    limit = as_parameter(followed)
+    # waves of the pressure show beside an edge, and so does a kink of H close to it
+    inward = edge - pieces.ends[piece + at_right]
+    bent = pieces.bends(piece, at_right) & (np.abs(inward) < size)
+    near = np.sqrt(np.abs(inward) / np.where(inner, width, 1.0))
+    kink = np.where(bent, np.where(inner, 2.0 * np.arcsinh(near), near), np.inf)
+    wave = as_parameter(pieces.plain[piece]) / rule.first
+    nearest = np.minimum(np.minimum(nearest, kink), wave)
     first = np.where(rule.first * nearest < end / SLACK, rule.first * nearest, end)
     shorter = np.flatnonzero(limit < first)
     row, lo, hi = _graded(rule, nearest, end, (shorter, limit[shorter]))

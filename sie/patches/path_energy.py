@@ -13,40 +13,27 @@ from typing import Protocol
 
 import numpy as np
 
-from sie.errors import ContactError
+from sie.friction import changing_contact
+from sie.friction.changing_contact import ChangingContact
 from sie.friction.dissipation import Dissipation, dissipated
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
 from sie.friction.slip_state import Slip
-from sie.friction.turning_point import Loads, TurningPoint
-from sie.problem.scene import Scene
+from sie.friction.turning_point import TurningPoint
+from sie.numerics.interval import Interval
 
 from .dissipation import PatchDissipation
 
 
-class Followed(Protocol):
+class Followed(changing_contact.Followed, Protocol):
     """A path that was followed, and its contacts.
 
-    turning_points   the layers after each step
-    in_one_patch     whether the contact is one patch under every load
-    curved           whether the tilt follows from a moment
-    level            Λ of loads
     first_loading    the state of a contact that was never sheared before S rose to a depth
-    on_the_way       the same between two turning points
     dissipation      the energy of layers at one tilt, in one patch
     work_in_patches  the same in several patches
     """
 
-    scene: Scene
-    turning_points: tuple[TurningPoint, ...]
-
-    @property
-    def in_one_patch(self) -> bool: ...
-    @property
-    def curved(self) -> bool: ...
-    def level(self, loads: Loads) -> complex: ...
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
-    def on_the_way(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def dissipation(self, turn: float) -> Dissipation: ...
     def work_in_patches(self, turn: float) -> PatchDissipation: ...
 
@@ -76,7 +63,7 @@ class PathEnergy:
                 for o in event.layers:
                     depths = o.upper, o.lower, *o.surface
                     if state.turned or path.curved or any(depth.imag for depth in depths):
-                        lost[k] += o.jump * self._of_states(k, o, event.timed)
+                        lost[k] += o.jump * self._of_states(k, o, event.sign)
                         continue
                     upright.setdefault(state.loads.turn, []).append((k, o))
         for turn, fronts in upright.items():
@@ -88,45 +75,25 @@ class PathEnergy:
                 lost[k] += o.jump * done
         return list(lost.values())
 
-    def _of_states(self, index: int, o: SlippedLayer, timed: bool) -> float:
+    def _of_states(self, index: int, o: SlippedLayer, sign: float) -> float:
         """The energy that an overwritten layer dissipated, per jump, on a path with bulk stress or
         tilt.
         """
         path, state = self.path, self.path.turning_points[index]
         if not any(o.surface):
             return self._of_depth(state, o.lower) - self._of_depth(state, o.upper)
-        self._refuse(index, timed)
-        start, end = path.turning_points[index - 1].loads, state.loads
-        rise = path.level(end) - path.level(start)
-        first, last = (1.0 - (surface / rise).real for surface in o.surface)
-        part = last - first
+        step = ChangingContact(path, index)
+        step.refuse("the energy lost meanwhile depends on the way; the state at its end does not")
+        first, last = step.shares(o)
+        load = (last - first) * (state.loads.P - path.turning_points[index - 1].loads.P)
 
-        def on_the_way(share: float) -> Slip:
-            surface = o.surface[0] + share * (o.surface[1] - o.surface[0])
-            depth = o.upper + share * (o.lower - o.upper) - surface
-            loads = start.towards(end, first + share * part)
-            return path.on_the_way(loads.normal, depth, state.turned)
+        def on_the_way(time: float) -> Slip:
+            return step.state_at(o, sign, first + time * (last - first))
 
-        strain = 0.5 * path.scene.Estar * (end.turn - start.turn)
-        return work(on_the_way, part * (end.P - start.P), part * strain)
+        def strain(contact: Interval) -> float:
+            return (last - first) * step.strain(contact)
 
-    def _refuse(self, index: int, timed: bool) -> None:
-        """Refuse steps in which the energy depends on more than the loads at both ends."""
-        problem = ""
-        if not timed:
-            problem = (
-                "one end of the stick zone is held up or passes an earlier one before the other "
-                "while P or the tilt changes, and the energy lost meanwhile depends on the way; "
-                "the state at its end does not"
-            )
-        elif self.path.curved:
-            problem = (
-                "the tilt follows from the moment, and the energy lost while it changes is not "
-                "covered; give tilt in place of moment"
-            )
-        if problem:
-            loads = self.path.turning_points[index].loads
-            raise ContactError(f"step {index} of the path, to {loads}: {problem}", step=index)
+        return work(on_the_way, load, strain)
 
     def _of_depth(self, state: TurningPoint, depth: complex) -> float:
         """The energy of a first loading to a depth at constant P and tilt."""

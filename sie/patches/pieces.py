@@ -210,14 +210,29 @@ class Pieces:
         return starts[k], stops[k]
 
     @cached_property
-    def never_closed(self) -> Array:
-        """Places that no contact covers: walls, and concave corners, where H jumps down."""
+    def concave(self) -> Array:
+        """Concave corners, where H jumps down between two pieces of the indenter."""
         k = np.arange(len(self.origin) - 1)
         x = self.ends[1:-1]
         with np.errstate(invalid="ignore"):
             below, above = self.value(k, x, 0.0), self.value(k + 1, x, 0.0)
         down = below - above > CORNER * np.maximum(np.abs(below), np.abs(above))
-        return np.asarray(x[down | self.void[:-1] | self.void[1:]])
+        return np.asarray(x[down & ~(self.void[:-1] | self.void[1:])])
+
+    @cached_property
+    def never_closed(self) -> Array:
+        """Places that no contact covers: walls, and concave corners."""
+        walls = self.ends[1:-1][self.void[:-1] | self.void[1:]]
+        return np.union1d(self.concave, walls)
+
+    def bends(self, k: Index, above: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether H' jumps at the upper ends of pieces, or at the lower ones."""
+        other = np.clip(np.where(above, k + 1, k - 1), 0, len(self.origin) - 1)
+        x = self.ends[k + above]
+        with np.errstate(invalid="ignore"):
+            own, theirs = self.curvature(k, x), self.curvature(other, x)
+            jump = np.abs(own - theirs) > CORNER * np.maximum(np.abs(own), np.abs(theirs))
+        return np.asarray(jump & np.isfinite(x))
 
     def curvature(self, k: Any, x: Any) -> Any:
         """H' of the pieces k at x."""

@@ -23,7 +23,7 @@ class PatchCertificate:
     lowest_pressure   the lowest bound of p over its root, relative to the largest, 0 if positive
     patches           how many there are
     condition         relative change of the narrowest patch per relative change of the load
-    measured_to       what the measuring sum itself may miss
+    measured_to       what the rounding of the edges to doubles changes in them
     tol               what was asked for
     tension, overlap  intervals where p < 0 in contact, gap < 0 beside it: () if verified by bounds
     notes             sentences

@@ -28,7 +28,7 @@ from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
-from .state import Event, Findings, State
+from .state import Event, Findings, Given, State
 from .tension import tensions
 
 Array = NDArray[np.float64]
@@ -42,14 +42,21 @@ NEARLY = 1e-7
 LIGHTEST = 10  # quarters of the load, one of another, of which one has to lead somewhere
 FIRST = 2.0  # the first step of the load, as a factor
 FINEST = 1.0 + 1e-4  # a step of the load; ...
-LEAST_TURN = 1e-4  # ... and of the moment, of what is left to go
-STEPS = 200
+LEAST_TURN = 1e-4  # ... and of the moment, of the whole way
+# Steps that succeed double, those that fail are halved: from the lightest load 20 lead to the load.
+# Where patches merge or appear 13 halvings to the finest step come on top, and as many doublings:
+# three times at most.
+STEPS = 20 + 3 * 2 * 13
+# what a search from one start may end with
+ASTRAY = (ContactError, ArithmeticError, np.linalg.LinAlgError)
 
 Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
-NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits
+NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
+# ... where the slope is resolved to rounding of its largest value there
+FITTED = 0.18
 COARSE = 512  # cells of the grid on which the window is sought
 WINDOWS = 200
 WIDENED = 12  # times a window is widened, before the slope is said to rise too little
@@ -90,8 +97,7 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 
     def start(asked: Problem) -> State:
         state = touched(asked, tilt, cells)
-        moment, load, P = problem.given.moment, problem.given.load, state.patches
-        if moment is None or P.a[0] < moment / load < P.b[-1]:
+        if _balances(state, problem.given):
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
         both = [touched(asked, t, COARSE).patches for t in tilts]
@@ -100,11 +106,11 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 
     try:
         found = settled(start(problem), pieces, problem)
-    except ContactError:
+    except ASTRAY:
         cells = min(FINER * cells, MOST_CELLS)
         try:
             found = settled(start(problem), pieces, problem)
-        except ContactError:
+        except ASTRAY:
             found = continued(problem, pieces, start, tilt)
     refuse_unknown_ends(found.state, problem)
     return found
@@ -190,7 +196,7 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         if stalls > STALLS:
             break
         if event is not None and (round_ >= early or event.kind != "stall"):
-            state = _after(event, state, pieces)
+            state = _after(event, state, pieces, problem.given)
             if round_ >= early:
                 continue
         o = Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0))
@@ -207,11 +213,18 @@ def settled(state: State, pieces: Pieces, problem: Problem) -> Found:
         state = mended(state, found.findings, pieces)
     if nearly is not None:
         return nearly
-    raise LoadError(
-        f"the patches of contact do not settle within {ROUNDS} rounds at normal_load over E*/2 = "
-        f"{problem.given.load:.6g}: "
-        "two of them are about to merge, or one to appear; change the load a little",
-        patches=state.patches.number,
+    raise _unsettled(problem, state.patches.number)
+
+
+def _unsettled(problem: Problem, patches: int, reached: float = 0.0) -> LoadError:
+    """The refusal of a load; `reached` is the largest under which patches were found on the way."""
+    load, other = problem.given.load, problem.given.moment is not None
+    so_far = f" (they do at {reached:.6g})" if 0.0 < reached < load else ""
+    return LoadError(
+        f"the patches of contact do not settle at normal_load over E*/2 = {load:.6g}{so_far}: two "
+        "of them are about to merge, or one to appear; change the load"
+        f"{' or the moment' * other} a little",
+        patches=patches,
     )
 
 
@@ -228,12 +241,20 @@ def _rounded(state: State) -> tuple[object, ...]:
     return state.tilt, state.sharp.tobytes(), np.rint(P.edges / digits).tobytes()
 
 
-def _after(event: Event, state: State, pieces: Pieces) -> State:
+def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
     if event.kind == "smooth":  # a cut may leave the end without pull
         found = findings(Operator(state.patches, pieces, np.where(state.sharp, state.charge, 0.0)))
         if found.tension:
             return mended(state, found, pieces)
-    return after(event, state, pieces)
+    left = after(event, state, pieces)
+    # no pressure on what is left has the moment: the patches that shrink go on to shrink
+    return left if _balances(left, given) else state
+
+
+def _balances(state: State, given: Given) -> bool:
+    """Whether the given load acts between the outermost edges, as that of a pressure does."""
+    P = state.patches
+    return given.moment is None or bool(P.a[0] < given.moment / given.load < P.b[-1])
 
 
 # -- continuation ----------------------------------------------------------------------------------
@@ -242,56 +263,57 @@ def _after(event: Event, state: State, pieces: Pieces) -> State:
 def continued(problem: Problem, pieces: Pieces, start: Start, tilt: float) -> Found:
     """The contact of a problem, from those of smaller loads at this tilt. Raises ContactError."""
     level = changed(problem, tilt=tilt, moment=None)
-    found, load = _light(level, pieces, start)
-    factor = FIRST
+    found, load = _light(problem, level, pieces, start)
+    target, factor = problem.given.load, FIRST
     for _ in range(STEPS):
-        if load >= problem.given.load:
-            break
-        wanted = min(load * factor, problem.given.load)
+        wanted = min(load * factor, target)
         try:
             found = settled(found.state, pieces, changed(level, load=wanted))
-        except ContactError:
+        except ASTRAY:
             factor **= 0.5
             if factor < FINEST:
-                raise
+                break
         else:
             load, factor = wanted, min(factor**2, FIRST)
-    return found if problem.given.moment is None else _turned(problem, pieces, found)
+            if load == target:
+                return _turned(problem, pieces, found)
+    raise _unsettled(problem, found.state.patches.number, load)
 
 
-def _light(problem: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
+def _light(problem: Problem, level: Problem, pieces: Pieces, start: Start) -> tuple[Found, float]:
     """The contact of the largest load, by quarters, that is found from a start of its own."""
     load = problem.given.load
     for _ in range(LIGHTEST):
         load *= 0.25
-        lighter = changed(problem, load=load)
+        lighter = changed(level, load=load)
         try:
             return settled(start(lighter), pieces, lighter), load
-        except ContactError as error:
-            last = error
-    raise last
+        except ASTRAY:
+            continue
+    raise _unsettled(problem, 0)
 
 
 def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
     """The contact under the moment of a problem, from one of the same load, by steps of it."""
     asked = problem.given.moment
-    assert asked is not None
+    if asked is None:
+        return found
     o = found.operator
     now = float((o.b * (o.H + o.H0 + found.state.tilt) * o.panels.points.x).sum())
-    step = asked - now
+    step = whole = asked - now
     for _ in range(STEPS):
         wanted = asked if abs(asked - now) <= abs(step) else now + step
         try:
             found = settled(found.state, pieces, changed(problem, moment=wanted))
-        except ContactError:
+        except ASTRAY:
             step *= 0.5
-            if abs(step) < LEAST_TURN * abs(asked - now):
-                raise
+            if abs(step) < LEAST_TURN * abs(whole):
+                break
         else:
             if wanted == asked:
-                break
+                return found
             now, step = wanted, 2.0 * step
-    return found
+    raise _unsettled(problem, found.state.patches.number, problem.given.load)
 
 
 # -- the window ------------------------------------------------------------------------------------
@@ -302,14 +324,15 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
     if problem.chord.periodic:
         return problem.domain[0], problem.domain[0] + problem.chord.period
     lo, hi = _first_window(problem)
-    # the contact gets there by a tilt, and possibly by another indenter than the lowest
+    # the contact gets to the load by a tilt, and possibly by another indenter than the lowest
     centre = None
     if problem.given.moment is not None:
         centre = problem.given.moment / problem.given.load
         size = hi - lo
         lo = max(min(lo, centre - size), problem.domain[0]) if centre < lo else lo
         hi = min(max(hi, centre + size), problem.domain[1]) if centre > hi else hi
-    widened = 0
+    fitted = problem.by_slope and centre is None
+    widened, narrowest = 0, FITTED if fitted else NARROWEST
     for _ in range(WINDOWS):
         height = problem.tilted(problem.given.tilt, (lo, hi))
         grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
@@ -325,11 +348,10 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
                 break
             lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
             lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
-        elif b - a < NARROWEST * (hi - lo) and a <= (b if centre is None else centre) <= b:
-            margin = 2.0 * (b - a)
-            lo, hi = max(lo, a - margin), min(hi, b + margin)
-        else:
+            continue
+        if b - a >= narrowest * (hi - lo) or not a <= (b if centre is None else centre) <= b:
             return lo, hi
+        lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
     raise LoadError(
         f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
         f"{hi:.6g}]: "

@@ -20,7 +20,7 @@ from .state import Tension
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-HALVED = 42  # times the distance from a concave corner is: less than CLOSED
+HALVED = 42  # times the distance from a concave corner is
 
 
 def tensions(o: Operator) -> tuple[tuple[Tension, ...], float]:
@@ -76,7 +76,9 @@ def _at_corners(o: Operator) -> tuple[list[tuple[int, float, float, float, float
         widths.append(np.where(D < 0.0, width, 0.0).max(axis=1))
         deepest = np.minimum(deepest, D.min(axis=1))
     left, right = widths
-    open_ = np.maximum(left, right) > CLOSED * P.r[patch]
+    # D < 0 on half of the gap that opens there, of which a quarter at least is found
+    narrower = 0.5 * np.minimum(corners - P.a[patch], P.b[patch] - corners)
+    open_ = left + right > CLOSED * narrower
     lo, hi = corners - left, corners + right
     runs = [
         (int(patch[k]), float(lo[k]), float(lo[k]), float(hi[k]), float(hi[k]))

@@ -80,7 +80,7 @@ class Tree:
             shape = (len(middle), -1)
             anchor, offset = points.anchor.reshape(shape), points.offset.reshape(shape)
             u = ((anchor - middle[:, None]) + offset) / half[:, None]
-            charges = _gathered(u, charges.reshape(len(charges), *shape))
+            charges = gathered(u, charges.reshape(len(charges), *shape))
             self.levels.append(Level(middle, half, first, last, charges))
             if len(middle) == 1:
                 return
@@ -124,7 +124,7 @@ def _again(v: Index) -> Index:
     return np.append(v, v[-1])
 
 
-def _gathered(u: Array, charges: Array) -> Array:
+def gathered(u: Array, charges: Array) -> Array:
     """Charges (sets, nodes, CHARGES) with the moments of charges (sets, nodes, n) at u."""
     out = np.empty((*charges.shape[:2], CHARGES))
     size = max(CHUNK // (u.shape[1] * CHARGES), 1)

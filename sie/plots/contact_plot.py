@@ -27,7 +27,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from sie.history import PathSolution, follow
+from sie.history import History, PathSolution, follow
 from sie.io.answers import slip_of
 from sie.io.sample_points import abscissae, ceiling, full, peak, reach, summits
 from sie.io.scene_file import UNITS, Units
@@ -35,6 +35,8 @@ from sie.problem.load_path import Path
 from sie.solution import Solution
 
 from . import style
+from .loop_plot import Loop, loop_of
+from .loop_plot import draw as draw_loop
 
 Array = NDArray[np.float64]
 
@@ -48,8 +50,6 @@ ARROW = {
     "shrinkB": 0,
     "mutation_scale": 6,
 }
-# From one turning point to the next; a power of two, so that steps up and down have the same loads.
-LOOP_POINTS = 16
 GROUND = 0.28  # thickness of the half-plane in the lower panel, relative to the height above it
 
 
@@ -61,10 +61,10 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     """
     view = _View(solution, units)
     sheared = solution.carries_shear and not solution.scene.bonded  # q between ± f p
-    looped = _has_loop(solution)
+    loop = _loop(solution)
     draw = [_draw_pressure, _draw_gap, *[_draw_shear] * sheared]
     draw += [_draw_slip] * (sheared and bool(view.slip.any()))
-    count = len(draw) + looped
+    count = len(draw) + (loop is not None)
     figure = Figure(figsize=(style.WIDTH, HEIGHT * count), dpi=style.DPI, layout="constrained")
     grid = figure.add_gridspec(count, 1, height_ratios=[1.2, *[1.0] * (count - 1)])
     upper = figure.add_subplot(grid[0])
@@ -72,10 +72,10 @@ def picture(solution: Solution, units: Units = UNITS, title: str = "") -> Figure
     panels = [upper, *lower]
     for axes, drawn in zip(panels, draw, strict=True):
         drawn(axes, view)
-    if looped:
-        loop = figure.add_subplot(grid[-1])
-        _draw_loop(loop, solution, units)
-        style.plain(loop)
+    if loop is not None:
+        below = figure.add_subplot(grid[-1])
+        draw_loop(below, loop, units)
+        style.plain(below)
     for axes in panels:
         if not full(solution):
             style.edge_lines(axes, solution.patches, view.factor, zorder=2.5)
@@ -249,33 +249,16 @@ def _shade_stick(axes: Axes, view: _View) -> None:
         axes.axvspan(*ends, color=style.PALE_BLUE, linewidth=0.0, zorder=0, label=label)
 
 
-def _has_loop(solution: Solution) -> bool:
-    """Whether there is a path of more than one point at constant P, over which something slips."""
-    if not isinstance(solution, PathSolution) or len(solution.history) < 2 or not solution.sheared:
-        return False
-    loads = solution.history.path.points
-    return len({P for P, _, _ in loads}) == 1 and any(Q != 0.0 for _, Q, _ in loads)
-
-
-def _draw_loop(axes: Axes, solution: Solution, units: Units) -> None:
-    assert isinstance(solution, PathSolution)
+def _loop(solution: Solution) -> Loop | None:
+    """The loop of Q over the shift along the path of a solution, None without one."""
+    if not isinstance(solution, PathSolution) or not solution.sheared:
+        return None
     history = solution.history
-    start = (history.path.points[0][0], 0.0, 0.0)
-    path = Path([start, *history.path.points]).subdivided(LOOP_POINTS)
-    solutions = follow(history.scene, path, history.tol, history.economy)
-    shift, Q = np.array([one.shift for one in solutions]), np.array(path.points)[:, 1]
-    along, length = style.scaled(float(np.abs(shift).max()) or 1.0, units.length)
-    up, force = style.scaled(float(np.abs(Q).max()), units.force)
-    style.zero_line(axes)
-    axes.axvline(0.0, color=style.INK, linewidth=0.6, zorder=1)
-    style.curve(axes, shift * along, Q * up, style.BLUE, 1.2, zorder=3)
-    dots = slice(LOOP_POINTS, None, LOOP_POINTS)
-    axes.plot(shift[dots] * along, Q[dots] * up, "o", color=style.BLUE, markersize=2.2, zorder=4)
-    axes.plot(
-        shift[-1:] * along, Q[-1:] * up, "o", color=style.VERMILLION, markersize=3.0, zorder=5
-    )
-    axes.set_xlabel(f"shift of the indenter by slip ({length})", fontproperties=style.font())
-    axes.set_ylabel(f"$Q$ ({force})", fontproperties=style.font())
+
+    def along(path: Path) -> History:
+        return follow(history.scene, path, history.tol, history.economy)
+
+    return loop_of(history.path, history.turning_points, along)
 
 
 def _draw_surface(

@@ -60,10 +60,39 @@ def _refuse_dissimilar(scene: Scene) -> None:
         refuse_corners(scene)
 
 
+def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool) -> ContactError:
+    """The ContactError: under Q there are no zones that depend on Q alone, or none were found.
+
+    `loads` are |Q|, the least one that such zones were followed to, and f P; `spreads` tells that
+    below it surfaces stick which came into contact under Q.
+    """
+    Q, least, limit = loads
+    if spreads:
+        why = (
+            "the contact spreads so fast that surfaces stick which came into contact under Q, as "
+            f"far as |Q| = {least:.6g} = {least / limit:.4g} f P. The slip gradient that they keep "
+            "depends on every state before and is not solved; "
+        ) + ("give a larger |Q| up to f P" if least < limit else "let the bodies slide")
+    elif Q < least < math.inf:
+        why = (
+            "the zones of stick and slip that larger loads leave were followed down to |Q| = "
+            f"{least:.6g} = {least / limit:.4g} f P, where they end; what is below it is not "
+            "solved; give a larger |Q| up to f P"
+        )
+    else:
+        why = "no zones of stick and slip were found; change Q"
+    return ContactError(
+        f"dissimilar bodies with β f = {kappa:.3g} under |Q| = {Q:.6g} = {Q / limit:.3g} f P: "
+        f"{why}, lower the friction, or give dundurs = 0 to neglect β"
+    )
+
+
 def refuse_corners(scene: Scene) -> NoReturn:
     """Raises ContactError: under Q the contact would end at a corner of the indenter."""
+    # A bonded edge oscillates with this exponent, over distances from the edge up to a few
+    # half-widths; the sense of slip turns where its phase has passed that of f and a right angle
     eta = math.atanh(abs(scene.beta)) / math.pi
-    width = math.exp(-(0.5 * math.pi + math.atan(scene.friction)) / eta)
+    width = 8.0 * math.exp(-(0.5 * math.pi + math.atan(scene.friction)) / eta)
     raise ContactError(
         f"dissimilar bodies (β = {scene.beta:.4g}) with friction = {scene.friction:g} under "
         f"tangential_load = {scene.tangential_load:g}: the contact reaches a corner of the "

@@ -169,14 +169,14 @@ def _at_probes(n: int) -> Array:
 def rounding_noise(function: Callable[[Array], Array], lo: float, hi: float) -> float:
     """Roughness of the function's values on [lo, hi] by its own rounding, as of exp(x) - 1 near 0.
 
-    No series can be more accurate. It is the residual of a parabola through the values at
+    No series can be more accurate. It is the residual of a quintic through the values at
     NEIGHBOURS points very close together, as the median over several places.
     """
     middle = 0.5 * (lo + hi) + 0.5 * (hi - lo) * PROBES
     s = chebyshev.points(NEIGHBOURS)
     values = function(middle[:, None] + CLOSE * (hi - lo) * s)
     refuse_non_finite(middle[:, None] + 0.0 * s, values)
-    left = values - chebyshev.transform(values)[:, :3] @ chebyshev.polynomials(3, s)
+    left = values - chebyshev.transform(values)[:, :6] @ chebyshev.polynomials(6, s)
     # Not np.median: it imports numpy.ma, which takes longer than a solve.
     return sorted(np.abs(left).max(axis=1).tolist())[len(PROBES) // 2]
 

@@ -271,6 +271,22 @@ class Periodic(Profile):
             found.append((hi, hi))
         return tuple(found)
 
+    @property
+    def joint(self) -> str:
+        """A sentence on a trace whose ends do not meet where it is repeated, or ""."""
+        lo, hi = self.pieces.domain
+        if not any(a == hi for a, _ in self.walls) or all(self.repeated.ends_are_corners):
+            return ""
+        first, last = self.repeated.height(np.array([lo, hi])).tolist()
+        rise = f"{abs(first - last):.4g} {'higher' if first > last else 'lower'}"
+        left = self.start + self.repeats - hi
+        between = f" beyond {left:.4g} without indenter" if left > WHOLE * self.repeats else ""
+        return (
+            f"note: the trace begins {rise} than it ends, and repeats at x = {hi:.6g}{between}: "
+            "that is a corner, and contact there has an infinite pressure; cut the trace between "
+            "two places of one height and slope"
+        )
+
     def within(self, x: Array) -> Array:
         """The same places in the period that begins at `start`."""
         return x - self.repeats * np.floor((x - self.start) / self.repeats)

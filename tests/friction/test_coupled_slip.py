@@ -13,9 +13,11 @@ import pytest
 import sie
 from analytic import goodman
 from sie.certificate.coupled_check import coupled_certificate
+from sie.friction import coupled_flat
 from sie.friction.coupled_flat import flat_punch
 from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_growth import power_law_moment
+from sie.friction.coupled_traction import on_panels, resolved_panels
 
 # Half-width of the stick zone and b p(0)/P of a flat punch, and P R/(E* b²) M of a parabola, in 32
 # digits of another formulation (mpmath) and by collocation of the printed equations on graded
@@ -128,6 +130,71 @@ def test_slip_zone_remains_under_any_friction_of_very_dissimilar_bodies():
         flat_punch(0.5, 1e6).modulus.rest, rel=1e-4
     )
     assert flat_punch(0.5, 1e9).modulus.rest > 1e-3
+
+
+def test_panels_of_a_traction_end_at_its_rounding():
+    places = []
+
+    def rough(y):
+        places.append(y.size)
+        return np.sqrt(1.0 - y) * (1.0 + 1e-10 * np.sin(1e12 * y))
+
+    (panels,) = resolved_panels((rough,), (1.0,), 0.5)
+    assert sum(places) < 1e4
+    assert on_panels(panels, np.array([0.3])) == pytest.approx(math.sqrt(0.7), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("beta", "friction"),
+    [(0.49, 0.01), (0.45, 10.0), (0.3, 0.3), (0.05, 0.5), (0.01, 0.1), (0.02, 0.9), (0.001, 10.0)],
+)
+def test_stick_zone_takes_few_eigenvalues(beta, friction, monkeypatch):
+    calls = []
+    solve = coupled_flat._at_ratio
+
+    def counted(*args):
+        calls.append(args)
+        return solve(*args)
+
+    monkeypatch.setattr(coupled_flat, "_at_ratio", counted)
+    coupled_flat.flat_punch.__wrapped__(beta, friction)
+    assert len(calls) <= 8
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.05, 0.5), (0.001, 10.0)])
+@pytest.mark.parametrize("half_flat", [0.05, 0.5])
+def test_load_of_a_rounded_flat_takes_few_panels_however_narrow_the_slip_zone(
+    half_flat, beta, friction
+):
+    state = solved(sie.RoundedFlat(half_flat, 1.0), beta, friction).coupled[1]
+    assert state.flat.rest < 1e-11
+    assert len(state.growth) <= 16
+
+
+@pytest.mark.parametrize("name", ["rounded flat", "parabola", "kinked"])
+@pytest.mark.parametrize(("beta", "friction"), [(0.3, 0.3), (0.05, 0.5)])
+def test_values_between_marks_are_those_of_the_integrals(name, beta, friction):
+    state = solved(PROFILES[name], beta, friction).coupled[1]
+    ends = np.array((0.0, *state.marks))
+    part = 10.0 ** np.array([-5.5, -4.2, -3.1, -2.0, -0.9, -0.4])
+    y = np.concatenate([ends[:-1, None] + np.diff(ends)[:, None] * np.append(part, 1.0 - part)])
+    y = y.ravel()
+    sums, whole = state.superposition, np.full(y.size, state.ahead)
+    for function in (sums.pressure, sums.shear_deficit, sums.slip):
+        direct = function(y, whole)
+        assert state._of(function, y) == pytest.approx(direct, abs=1e-12 * np.abs(direct).max())
+
+
+@pytest.mark.parametrize(("beta", "friction"), [(0.001, 10.0), (0.1, 5.0)])
+def test_tractions_in_full_stick_are_those_of_a_bonded_punch(beta, friction):
+    t = np.linspace(0.05, 0.95, 10)
+    eta = math.atanh(beta) / math.pi
+    phase = eta * np.log((1.0 + t) / (1.0 - t))
+    size = math.cosh(math.pi * eta) / math.pi / np.sqrt((1.0 - t) * (1.0 + t))
+    solution = solved(sie.Flat(1.0), beta, friction)
+    p, q = size * np.cos(phase), size * np.sin(phase)
+    assert solution.pressure(t) == pytest.approx(p, rel=1e-11)
+    assert solution.shear(t) == pytest.approx(q, abs=1e-11 * friction * p.max())
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.001, 0.5), (0.1, 10.0)])
@@ -449,6 +516,20 @@ def test_what_is_not_solved_is_refused_with_what_to_do(changes, words):
 def test_an_unsymmetric_profile_is_refused():
     with pytest.raises(sie.ContactError, match="not symmetric"):
         _ = solved(sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.1))).edges
+
+
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        (sie.Row([sie.Parabola(1.0).shifted(x) for x in (-2.0, 2.0)]), "in 2 patches"),
+        (sie.Periodic(sie.Parabola(1.0), 4.0), "without its period"),
+        (sie.Polynomial((0.0, 0.0, -0.5, 0.0, 0.5)), "patches"),
+    ],
+)
+def test_contact_in_several_patches_is_refused(profile, words):
+    scene = sie.Scene(profile=profile, modulus=2.0, dundurs=0.3, friction=0.3, normal_load=0.01)
+    with pytest.raises(sie.ContactError, match=words):
+        _ = sie.solve(scene).edges
 
 
 def test_a_path_of_dissimilar_bodies_is_refused():

@@ -104,8 +104,6 @@ def test_a_step_in_parts_ends_in_the_same_state(end, scene):
         assume(False)
     x = inside(whole, 23)
     assert parts.shear(x) == pytest.approx(whole.shear(x), abs=1e-13)
-    x1, x2 = sie.solve(scene).edges
-    x = x[(x > x1) & (x < x2)]  # what came into contact while it slips has no known slip
     assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-12)
     assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-10, abs=1e-15)
 
@@ -351,6 +349,107 @@ def test_a_path_with_tilt_is_a_value():
         sie.follow(replace(HERTZ, moment=0.0), path)
 
 
+# -- slip and shift while the contact changes ----------------------------------------------------
+
+GROWING = [(1, 0, 0), (1.3, 0.7, 0.1)]
+
+
+def slip_rate(x, share):
+    """The rate of slip at x on GROWING, R = E* = 1: that of the gap of the reduced contact, whose
+    load is P - Q/f and whose centre moves with the bulk stress; 0 before x touches.
+    """
+    level, centre = 1.0 + share * (0.3 - 0.7), 0.5 * 0.1 * share
+    away, r = x - centre, np.sqrt(level)
+    v = np.maximum(np.abs(away) / r, 1.0)
+    load, turn = P0 * (0.7 - 0.3), -0.5 * 0.1
+    rate = f * (2.0 / np.pi * load * np.arccosh(v) + turn * np.sign(away) * r * np.sqrt(v * v - 1))
+    return np.where(np.abs(x) <= np.sqrt(1.0 + 0.3 * share), rate, 0.0)
+
+
+def gauss(lo, hi, n=60):
+    """Nodes and weights from lo to hi, dense at both ends."""
+    x, w = np.polynomial.legendre.leggauss(n)
+    t, weight = 0.5 * (1.0 + x), 0.5 * w
+    return lo + (hi - lo) * t * t * (3.0 - 2.0 * t), (hi - lo) * 6.0 * t * (1.0 - t) * weight
+
+
+def test_points_slip_from_when_they_touch():
+    solution = followed(HERTZ, GROWING)[1]
+    for x in (1.005, 1.05, 1.1, 1.14, -1.02, -1.13):
+        share, weight = gauss((x * x - 1.0) / 0.3, 1.0)
+        expected = float(weight @ slip_rate(x, share))
+        assert solution.slip(x) == pytest.approx(expected, abs=1e-13)
+
+
+def test_the_shift_is_the_mean_slip_under_a_flat_punch_on_the_contact_of_the_time():
+    total = 0.0
+    for share, weight in zip(*gauss(0.0, 1.0, 30), strict=True):
+        a, r, centre = np.sqrt(1.0 + 0.3 * share), np.sqrt(1.0 - 0.4 * share), 0.05 * share
+        for zone in (gauss(-a, centre - r), gauss(centre + r, a)):
+            x, w = zone
+            total += weight * float(w @ (slip_rate(x, share) / np.sqrt(a * a - x * x))) / np.pi
+    assert followed(HERTZ, GROWING)[1].shift == pytest.approx(total, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["hertz", "lopsided"])
+def test_the_loop_of_shear_over_shift_encloses_the_energy_while_the_normal_load_changes(scene):
+    """∮Q dδ with dδ = dshift - 2/(π E*) ln r dQ, which the elastic compliance adds; by Simpson."""
+    n = 41
+    angle = np.linspace(0.0, np.pi, n)
+    weight = np.where(np.arange(n) % 2, 4.0, 2.0) * 0.5 * np.sin(angle) * np.pi / (n - 1) / 3.0
+    A, B = scaled([(1.2, 0.55, 0.0), (0.9, -0.3, 0.0)])
+    corners, area = [A, B, A, B, A], 0.0
+    for k in (2, 3):
+        a, b = corners[k : k + 2]
+        branch = [tuple(np.add(a, t * np.subtract(b, a))) for t in 0.5 * (1.0 - np.cos(angle))]
+        states = sie.follow(scene, sie.Path([*corners[:k], *branch]))[k:]
+        Q, shift, r = (
+            np.array([getattr(s, name) for s in states])
+            for name in ("tangential_load", "shift", "half_width")
+        )
+        elastic = -2.0 / np.pi * Q * np.log(r)
+        area += Q[-1] * shift[-1] - Q[0] * shift[0]
+        area += (b[1] - a[1]) * float(weight @ (elastic - shift))
+    history = sie.follow(scene, sie.Path(corners))
+    assert area == pytest.approx(history[4].energy_lost - history[2].energy_lost, rel=1e-5)
+
+
+def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contact():
+    A, B = scaled([(1.2, 0.55, 0.0), (0.9, -0.3, 0.0)])
+    steady = sie.steady_cycle(HERTZ, A, B)
+    x = np.array([0.5, 0.9, 0.94, 0.95, 1.0, 1.05, 1.09, -0.95, -1.05])
+    period = sie.follow(HERTZ, sie.Path([A, B, A, B, A]).subdivided(8))[16:]
+    slip = np.array([solution.slip(x) for solution in period])
+    assert steady.slip_range(x) == pytest.approx(slip.max(axis=0) - slip.min(axis=0), abs=1e-12)
+    work = sie.Cycle(steady).friction_work(x)
+    assert (work[1:] > 0.0).all() and steady.slip_range(1.2) == 0.0
+
+
+@pytest.mark.parametrize("moments", [(0.0, 0.02), (0.0, 0.0)], ids=["given", "none"])
+def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it(moments):
+    """A path of so many straight parts in the tilt is off by their square: extrapolated."""
+    points = scaled([(1, 0, 0), (1.2, 0.6, 0.05)])
+    path = sie.Path(points, moment=moments)
+    whole = sie.follow(replace(LOPSIDED, moment=0.0), path)
+    found = []
+    for n in (4, 8):
+        parts = path.subdivided(n)
+        tilts = [solution.tilt for solution in sie.follow(whole.scene, parts)]
+        last = sie.follow(LOPSIDED, sie.Path(parts.points, tilt=tilts))[-1]
+        found.append((last.energy_lost, last.shift))
+    (coarse, fine), last = np.array(found), whole[-1]
+    expected = (4.0 * fine - coarse) / 3.0
+    assert (last.energy_lost, last.shift) == pytest.approx(tuple(expected), rel=1e-6)
+
+
+def test_slip_is_the_same_with_the_path_in_parts():
+    scene, points = LOPSIDED, [(1, 0, 0, 0), (1.2, 0.6, 0.1, 0.01)]
+    whole, parts = (followed(scene, points, n)[-1] for n in (1, 4))
+    x = np.linspace(*whole.edges, 41)
+    assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-13)
+    assert parts.shift == pytest.approx(whole.shift, abs=1e-13)
+
+
 # -- a mesh ---------------------------------------------------------------------------------------
 
 GENERAL = {
@@ -390,3 +489,20 @@ def test_the_energy_of_a_history_agrees_with_a_mesh_to_its_error(case):
     ]
     errors = [abs(state.energy / lost - 1.0) for state in found]
     assert errors[1] < 0.75 * errors[0] < 1.5e-2
+
+
+@pytest.mark.parametrize("case", ["growing", "reversed while it grows", "tilt"])
+def test_the_slip_of_a_history_agrees_with_a_mesh_to_its_error(case):
+    """Away from the edges of all turning points, where one element decides."""
+    cases = {"growing": GROWING, "reversed while it grows": [(0.8, 0.55, 0), (1.3, -0.9, 0)]}
+    scene, points = GENERAL[case] if case == "tilt" else (HERTZ, cases[case])
+    points = [(*point, 0.0)[:4] for point in points]
+    history, errors = followed(scene, points), []
+    for n, increments in ((80, 10), (160, 40)):
+        mesh = Mesh((-1.5, 1.5), n, 1.0)
+        last = on_a_mesh(mesh, scene.profile.height, f, scaled(points), increments)[-1]
+        away = [np.abs(mesh.x - edge) > 0.05 for state in history for edge in state.edges]
+        x = mesh.x[np.all(away, axis=0)]
+        exact, found = history[-1].slip(x), last.slip[np.all(away, axis=0)]
+        errors.append(float(np.abs(found - exact).mean() / np.abs(exact).mean()))
+    assert errors[1] < 0.75 * errors[0] and errors[1] < 0.03

@@ -71,6 +71,12 @@ def test_certificate_holds_where_the_contact_is_not_symmetric(name):
     assert certificate.shear.residual < 1e-11
 
 
+@pytest.mark.parametrize("part", [0.0, 0.5])
+def test_contact_that_begins_at_a_corner_of_a_tilted_flat_is_answered(part):
+    given = {"friction": 0.2, "tilt": 0.005, "normal_load": 1.0, "tangential_load": 0.2 * part}
+    assert solved(sie.RoundedFlat(0.5, 1.0), **given).check().ok
+
+
 def test_certificate_is_not_ok_for_another_mismatch():
     state = solved(sie.RoundedFlat(0.5, 1.0)).tangential
     wrong = replace(state, step=replace(state.step, scene=replace(state.step.scene, dundurs=0.11)))
@@ -87,7 +93,7 @@ def test_certificate_holds_under_tangential_load(part):
     assert solution.shear.resultant == 0.1 * part
 
 
-@pytest.mark.parametrize("part", [1e-6, 0.99, -0.99])
+@pytest.mark.parametrize("part", [1e-6, 0.99, -0.99, 1.0 - 1e-6, 1.0 - 1e-9])
 def test_small_and_large_tangential_loads_are_answered(part):
     certificate = solved(tangential_load=0.1 * part).check()
     assert certificate.ok

@@ -232,8 +232,26 @@ def test_the_plan_of_several_patches_speaks_of_patches(profile):
     assert "both edges" not in plan and "DCT" not in plan
 
 
-def test_a_cycle_of_a_contact_that_repeats_is_refused_as_such():
+def test_a_cycle_of_bulk_stress_in_a_contact_that_repeats_is_refused_as_such():
     wave = sie.Periodic(sie.FromFunction(lambda x: 0.01 * np.sin(np.pi * x)), period=2.0)
     scene = sie.Scene(profile=wave, modulus=1.0, normal_load=1e-3, friction=0.5)
     with pytest.raises(sie.ContactError, match="a contact that repeats"):
-        sie.steady_cycle(scene, (1e-3, 1e-4, 0.0), (1e-3, -1e-4, 0.0))
+        sie.steady_cycle(scene, (1e-3, 1e-4, 1e-4), (1e-3, -1e-4, 0.0))
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if SCENES[name].moment is None])
+def test_a_steady_cycle_of_patches_is_that_of_the_path_that_settles(name):
+    scene = SCENES[name]
+    P, fP = scene.normal_load, scene.friction * scene.normal_load
+    A, B = (P, 0.5 * fP), (0.85 * P, -0.3 * fP)
+    steady, path = sie.steady_cycle(scene, A, B), sie.follow(scene, sie.Path([A, B, A, B, A]))
+    assert steady.energy == pytest.approx(path[4].energy_lost - path[2].energy_lost, rel=1e-9)
+    (x1, x2) = path[3].patches[0]
+    x = np.linspace(x1, x2, 21)[1:-1]
+    change = path[4].shear(x) - path[3].shear(x)
+    assert steady.shear_range(x) == pytest.approx(np.abs(change), abs=1e-12)
+    assert steady.slip_range(x) == pytest.approx(
+        np.abs(path[4].slip(x) - path[3].slip(x)), abs=1e-12
+    )
+    held = np.array([0.5 * (lo + hi) for lo, hi in steady.stick])
+    assert (steady.slip_range(held) == 0.0).all()

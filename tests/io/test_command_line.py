@@ -345,6 +345,52 @@ def test_a_path_is_followed_to_its_last_point_with_a_table_of_all(tmp_path, monk
     assert found["shear"]["resultant"] == pytest.approx(0.0, abs=1e-12)
 
 
+RIG = """t,P (N/mm),Q (N/mm),sigma (MPa),tilt
+0,500,0,0,0
+1,600,250,60,1e-4
+2,450,-100,-40,-1e-4
+3,600,250,60,1e-4
+"""
+
+
+@pytest.fixture
+def rig(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("rig.csv").write_text(RIG)
+    before, _ = scene_file.example("fretting-cycle").split("path = [")
+    Path("rig.toml").write_text(before + 'path = "rig.csv"\n')
+    file = scene_file.read("rig.toml")
+    return sie.follow(file.scene, file.load_path)
+
+
+def test_the_turning_points_of_a_rig_are_a_table_with_its_tilts(rig, capsys):
+    assert main(["solve", "rig.toml", "--want", "shear"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()][-len(rig) - 1 :]
+    assert rows[0][:4] == ["P", "Q", "σ", "tilt"]
+    for row, point, loads in zip(rows[1:], rig, rig.path.points, strict=True):
+        (stick,) = point.stick
+        expected = (*loads, point.scene.tilt, *stick, point.energy_lost)
+        assert [float(cell) for cell in row] == pytest.approx(expected, rel=1e-5, abs=1e-12)
+
+
+def test_every_turning_point_is_written_with_its_tractions(rig, capsys):
+    assert main(["solve", "rig.toml", "--history", "all.csv", "--points", "20"]) == 0
+    written = [line for line in Path("all.csv").read_text().splitlines() if line[0] != "#"]
+    rows = list(csv.DictReader(written))
+    for k, point in enumerate(rig):
+        mine = [row for row in rows if row["point"] == str(k)]
+        loads = [float(mine[0][name]) for name in ("P", "Q", "sigma", "tilt")]
+        assert loads == [*rig.path.points[k], rig.path.tilt[k]]
+        x = np.array([float(row["x"]) for row in mine])
+        assert [float(row["p"]) for row in mine] == point.pressure(x).tolist()
+        assert [float(row["q"]) for row in mine] == point.shear(x).tolist()
+
+
+def test_a_history_of_a_scene_without_a_path_is_refused(scene, capsys):
+    assert main(["solve", scene, "--history", "all.csv"]) == 2
+    assert "give [load] path" in sentence(capsys) and not Path("all.csv").exists()
+
+
 def test_a_path_that_is_not_covered_is_refused_by_plan_and_solve(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     Path("bad.toml").write_text(

@@ -225,6 +225,28 @@ def test_after_a_path_the_loop_goes_through_its_turning_points():
     )
 
 
+LOOPS = {
+    "constant normal load": [(1e3, 300.0), (1e3, -300.0), (1e3, 100.0), (1e3, -400.0)],
+    "normal load in phase": [(1e3, 300.0), (8e2, -200.0), (1e3, 300.0)],
+}
+
+
+@pytest.mark.parametrize("points", LOOPS.values(), ids=LOOPS)
+def test_the_loop_is_smooth_at_any_zoom(points):
+    """Between the points that are solved the drawn curve passes through points that are not."""
+    scene = sie.Scene(**PRESSED | {"normal_load": 1e3}, profile=sie.Parabola(1.0))
+    history = sie.follow(scene, sie.Path(points))
+    curve = plot.picture(history[-1]).axes[-1].patches[0].get_path()
+    factor, _ = style.scaled(max(abs(s.shift) for s in history), "mm")
+    start, end = np.array(points[-2]), np.array(points[-1])
+    for k in (-4, -16):  # the end of a piece, each of three points
+        drawn = np.array([1.0, 3.0, 3.0, 1.0]) / 8.0 @ curve.vertices[k : k + 4 or None]
+        share = (drawn[1] - start[1]) / (end - start)[1]
+        between = sie.follow(scene, sie.Path([*points[:-1], tuple(start + share * (end - start))]))
+        width = np.ptp(curve.vertices[:, 0])
+        assert between[-1].shift * factor == pytest.approx(drawn[0], abs=1e-4 * width)
+
+
 @pytest.mark.parametrize("solution", SHEARED.values(), ids=SHEARED)
 def test_a_picture_of_shear_can_be_written(solution):
     assert style.picture_bytes(plot.picture(solution, title="A title"), "png").startswith(
@@ -292,8 +314,8 @@ def test_the_slip_is_drawn_below_the_shear(scene):
 
 
 def test_slip_that_a_path_does_not_determine_is_not_drawn():
-    scene = sie.Scene(profile=sie.Parabola(1.0), body=STEEL, normal_load=1e3, friction=0.4)
-    solution = sie.follow(scene, sie.Path([(1e3, 300.0), (2e3, 750.0)]))[-1]
+    scene = sie.Scene(**PRESSED | {"normal_load": 1e3}, profile=ROW.profile)
+    solution = sie.follow(scene, sie.Path([(1e3, 300.0), (2e3, 950.0)]))[-1]
     with pytest.raises(sie.ContactError):
         solution.slip(np.linspace(*solution.edges, 101))
     assert len(plot.picture(solution).axes) == 3

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import sie
-from sie.io.scene_file import MOST_POINTS, SceneFileError, example, parse, read
+from sie.io.path_table import MOST_POINTS
+from sie.io.scene_file import SceneFileError, example, parse, read
 from sie.profiles import kinds
 
 KINDS = list(kinds.KINDS)
@@ -449,6 +450,78 @@ def test_a_path_longer_than_a_report_can_list_is_refused():
     most = [[1.0, 0.1 * (-1) ** k] for k in range(MOST_POINTS)]
     assert len(parse(text.format(most)).path) == len(most)
     assert "follow it in Python" in refusal(text.format([*most, [1.0, 0.0]]))
+
+
+def read_beside(tmp_path, load, cycle, name="cycle.csv"):
+    (tmp_path / name).write_text(cycle, encoding="utf-8")
+    (tmp_path / "scene.toml").write_text(PAIR + PARABOLA + "[load]\nfriction = 0.5\n" + load)
+    return read(tmp_path / "scene.toml")
+
+
+CYCLE = sie.Path([(2.0, 0.5, 0.1), (1.5, -0.25, 0.0)], tilt=(0.0, 0.01))
+WRITTEN = {
+    "a header in another order": (
+        'path = "cycle.csv"',
+        "time,Q (N/mm),sigma [MPa],P,tilt\n0,0.5,0.1,2,0\n1,-0.25,0,1.5,0.01\n",
+    ),
+    "names of scenes": (
+        'path = "cycle.csv"',
+        "normal_load;tangential_load;bulk_stress;tilt\n2;0,5;0,1;0\n1,5;-0,25;0;0,01\n",
+    ),
+    "names in the scene file": (
+        'path = "cycle.csv"\ncolumns = ["", "P", "Q", "sigma", "tilt"]',
+        "# a rig\nt  Fn  Ft  S  angle\n0  2  0.5  0.1  0\n1  1.5  -0.25  0  0.01\n",
+    ),
+    "rows": (
+        'path = [[0.0, 2, 0.5, 0.1], [0.01, 1.5, -0.25, 0]]\ncolumns = ["tilt", "P", "Q", "σ"]',
+        "",
+    ),
+}
+
+
+@pytest.mark.parametrize(("load", "cycle"), WRITTEN.values(), ids=WRITTEN)
+def test_a_load_path_is_read_from_columns(load, cycle, tmp_path):
+    assert read_beside(tmp_path, load, cycle).load_path == CYCLE
+
+
+def test_columns_without_a_header_are_the_three_loads_in_order(tmp_path):
+    file = read_beside(tmp_path, 'path = "cycle.csv"', "2,0.5,0.1\n1.5,-0.25,0\n")
+    assert file.load_path == sie.Path(CYCLE.points)
+
+
+def test_a_moment_along_a_path_is_read(tmp_path):
+    file = read_beside(tmp_path, 'path = "cycle.csv"', "P,Q,moment\n2,0.5,0.1\n1.5,-0.25,0.2\n")
+    assert file.load_path == sie.Path([(2.0, 0.5), (1.5, -0.25)], moment=(0.1, 0.2))
+
+
+def test_the_file_of_a_load_path_is_among_those_that_are_read(tmp_path):
+    file = read_beside(tmp_path, 'path = "cycle.csv"', "P,Q\n2,0.5\n")
+    assert file.reads == (tmp_path / "cycle.csv",)
+
+
+@pytest.mark.parametrize(
+    ("load", "cycle", "said"),
+    [
+        ('path = "none.csv"', "", "there is no such file"),
+        ('path = "cycle.csv"', "", "no line with two numbers"),
+        ('path = "cycle.csv"', "t,Fn,Ft\n0,2,0.5\n", "header names t, fn, ft"),
+        ('path = "cycle.csv"', "1,2,3,4\n", "no header"),
+        ('path = "cycle.csv"', "P,Q\n2,0.5\n2,\n", "lacks a value in line 3"),
+        ('path = "cycle.csv"', "P,Q\n2,0.5\n2,x\n", "text where a number is wanted, in line 3"),
+        ('path = "cycle.csv"', "P,Q\n2,0.5\n-2,0\n", "P of point 1 = -2 is not positive"),
+        ('path = "cycle.csv"', "P,Q\n" + "2,0.5\n" * (MOST_POINTS + 1), "the loads turn"),
+        ('path = "cycle.csv"\ncolumns = ["P", "T"]', "2,0.5\n", '"T" is not known'),
+        ('path = "cycle.csv"\ncolumns = ["P", "P"]', "2,0.5\n", "two columns are named P"),
+        ('path = "cycle.csv"\ncolumns = ["P", ""]', "2,0.5\n", "no column Q"),
+        ('path = "cycle.csv"\ncolumns = ["P", "Q", "tilt"]', "2,0.5\n", "has 2"),
+        ('path = "cycle.csv"', "P,Q,tilt,moment\n2,0.5,0,0\n", "both tilt and moment"),
+        ('path = [[2, 0.5]]\ncolumns = ["P", "Q", "tilt"]', "", "2 numbers for 3 columns"),
+        ('normal_load = 1.0\ncolumns = ["P", "Q"]', "", "columns without a path"),
+    ],
+)
+def test_a_table_that_makes_no_load_path_is_refused(load, cycle, said, tmp_path):
+    with pytest.raises(SceneFileError, match=said):
+        read_beside(tmp_path, load, cycle)
 
 
 # -- traces ----------------------------------------------------------------------------------------

@@ -7,7 +7,8 @@ Events: on h = x²/2 + cos(12x + 0.7)/20 a patch appears and grows like the squa
 beyond that (up to a logarithm), and the gap between two vanishes like the square root of the load
 that is left; next to an event the certificate states the conditioning. Wave: Westergaard's from
 first touch to full contact. Rough: a self-affine profile against codes that work on grids
-(`validation.rivals.rough_profile`).
+(`validation.rivals.rough_profile`). Growth: waves that shorten with the spacing of the points
+keep the density of patches.
 
 The error of edges is relative to the narrowest patch, that of pressures to their peak.
 """
@@ -19,6 +20,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,7 @@ import sie
 from analytic import flat_row, hertz, parabola_row, two_flats, two_parabolas, wavy
 from validation.harness.measures import apart, largest, mp
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
-from validation.rivals.rough_profile import roughness
+from validation.rivals.rough_profile import MEAN, SEED, roughness
 
 TITLE = "Contact in several patches"
 SECONDS = (15.0, 60.0)
@@ -41,6 +43,8 @@ NEARER = 4  # times, towards an event
 # The distance of the exponent of a square root from 1/2: of a patch that appears r² has a factor
 # ln(1/r)
 ROOT = 0.05
+SIZES = ((300, 1000, 3000), (1000, 3000, 10_000))  # points at a fixed density of patches
+GROWTH = 1.3
 
 
 # -- closed forms ---------------------------------------------------------------------------------
@@ -320,9 +324,57 @@ def apart_of_hertz(case: Case) -> float:
     return apart(p, [case.pressure(v) for v in x.tolist()])
 
 
+# -- growth ---------------------------------------------------------------------------------------
+
+
+def shortening(points: int) -> sie.Profile:
+    """A rough profile, repeated with period 2, whose waves are as long as 4 to 50 spacings."""
+    rng = np.random.default_rng(SEED)
+    k = np.arange(points // 50, points // 4)
+    spectrum = np.zeros(points // 2 + 1, dtype=complex)
+    spectrum[k] = k**-1.3 * np.exp(2j * np.pi * rng.uniform(size=len(k)))
+    h = np.fft.irfft(spectrum, points)
+    h = np.roll(h, -int(np.argmax(h))) * 10.0 / (points * h.std())
+    x = np.linspace(0.0, 2.0, points + 1)
+    return sie.Periodic(sie.Sampled(x, np.append(h, h[0])), 2.0)
+
+
+def growing(quick: bool) -> Iterator[Record]:
+    sizes = SIZES[not quick]
+    rows = []
+    for points in sizes:
+        yield Doing(f"growth, {points} points")
+        scene = sie.Scene(profile=shortening(points), modulus=1.0, normal_load=MEAN)
+        start = process_time()
+        solution = sie.solve(scene)
+        number = len(solution.patches)
+        seconds = process_time() - start
+        certificate: Any = solution.check()
+        allowed = max(certificate.tol, certificate.measured_to)
+        rows.append((points, number, 1e3 * seconds, certificate.error / allowed))
+    n, times = np.array(sizes, dtype=float), np.array([row[2] for row in rows])
+    worst = max(row[3] for row in rows)
+    yield Claim(
+        "exponent of the time in the number of points, at a fixed density of patches", BY,
+        exponent(n, times.tolist()), exponent(n, (n * n).tolist()), "every pair of points",
+        high=GROWTH,
+    )  # fmt: skip
+    yield Claim(
+        "rough profiles of those sizes: error over what the certificate allows", "certificate",
+        worst, 1e3 * worst, "a thousand times the error", high=1.0,
+    )  # fmt: skip
+    yield Curve("growth", "this package", n, times / 1e3, "both")
+    yield Table(
+        "Points of a rough profile at a fixed density of patches",
+        ("points", "patches", "time [ms]", "error / certified"), rows,
+        "The time is that of the patches and their edges, on one processor.",
+    )  # fmt: skip
+
+
 def compute(quick: bool) -> Iterator[Record]:
     yield from closed_forms()
     yield from gaps(quick)
     yield from events()
     yield from waves(quick)
     yield from roughness(quick)
+    yield from growing(quick)

@@ -3,7 +3,9 @@
 The stick ratio c/b depends on β and f alone. It is compared with values of another formulation in
 32 digits, the tractions with both equations by quadrature that the solver did not use, and the
 loads with the printed equations on a grid. Goodman's approximation leaves β q out of (1); how far
-it is from the coupled answer is measured, and so are its own equations, under Q too.
+it is from the coupled answer is measured, and so are its own equations, under Q too. Under Q at
+constant P the coupled equations hold from small loads to incipient sliding, the edges are those of
+two other formulations, and the energy is the work of friction on the slip between two loads.
 """
 
 from __future__ import annotations
@@ -17,7 +19,9 @@ import numpy as np
 import sie
 from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
+from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.certificate.shear_check import goodman_certificate
+from sie.friction.coupled_sheared import ShearedContact
 from sie.friction.goodman import GoodmanSlip
 from validation.harness.measures import largest, smallest
 from validation.harness.records import Claim, Curve, Doing, Map, Record, Table
@@ -35,6 +39,14 @@ REFERENCES = {
     (0.5, 0.2): (0.04084680342861, 0.4068002623182),
     (0.5, 1.0): (0.8895859253767, 0.3739542976491),
 }
+# x1, e1, e2, x2 of a parabola, R = E*/2 = 1, P = π/2, by (β, f, Q/(f P)): two formulations
+EDGES = {
+    (0.3, 0.3, 0.9): (-1.0519254056, -0.6097293963, -0.244163237, 0.9472096729),
+    (0.3, 0.3, 0.3): (-1.0057559987, -0.8926580288, 0.158912098, 0.9647789599),
+    (0.2, 0.3, 0.5): (-1.01532322015, -0.83988900820, 0.20122605354, 0.97285851730),
+    (0.5, 0.5, 0.5): (-1.07217272827, -0.8194328666, -0.029391648, 0.89252781776),
+}
+UNDER_Q = 1e-10, 1e-9  # as EQUATIONS and SHEAR, under Q
 SAME = 5e-11  # digits of the references
 EQUATIONS, SHEAR = 1e-11, 1e-10  # of the largest pressure in (1), of the largest shear in (12)
 OFF = 1e-3  # relative change of β that every checker must detect
@@ -64,9 +76,14 @@ def compute(quick: bool) -> Iterator[Record]:
     yield from equations((0.2, 0.9) if quick else SHARES)
     yield Doing("the grid")
     yield from grids(CELLS[:2] if quick else CELLS)
+    yield Doing("both equations under Q")
+    yield from edges_under_tangential_load()
+    parts = (0.1, 0.9) if quick else (0.01, 0.1, 0.3, 0.6, 0.9, 0.99)
+    yield from coupled_under_tangential_load(parts)
+    yield from work()
     yield Doing("Goodman's approximation")
     yield from approximation((0.02, 0.1, 0.5) if quick else (0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5))
-    yield from under_tangential_load((0.3,) if quick else (0.01, 0.1, 0.3, 0.6, 0.9))
+    yield from under_tangential_load((0.3,) if quick else (0.01, 0.1, 0.3, 0.6, 0.9, 1.0 - 1e-6))
 
 
 def references() -> Iterator[Record]:
@@ -160,6 +177,88 @@ def grids(cells: tuple[int, ...]) -> Iterator[Record]:
     )
     yield Curve("grid", "coupled", cells, errors, "both")
     yield Curve("grid", "Goodman's approximation", cells, wrong, "both")
+
+
+def edges_under_tangential_load() -> Iterator[Record]:
+    """Edges of contact and stick against those of other formulations."""
+    errors: list[float] = []
+    wrong: list[float] = []
+    for (beta, f, part), expected in EDGES.items():
+        loads = {"normal_load": 0.5 * np.pi, "tangential_load": part * f * 0.5 * np.pi}
+        for mismatch, misses in ((beta, errors), (beta * (1.0 - OFF), wrong)):
+            solution = solved(sie.Parabola(1.0), mismatch, f, **loads)
+            x1, x2 = solution.edges
+            found = np.array([x1, *solution.stick[0], x2])
+            misses.append(float(np.abs(found - expected).max()))
+    yield Claim(
+        "largest error of the edges of contact and stick under P, then Q, parabola",
+        "two other formulations, 10 digits",
+        largest(errors),
+        smallest(wrong),
+        f"β off by {OFF:.0e} of it",
+        high=1e-9,
+    )
+
+
+def coupled_under_tangential_load(parts: tuple[float, ...]) -> Iterator[Record]:
+    """Both equations from small loads to incipient sliding, and the zones."""
+    ones, twelves, wrong_ones, wrong_twelves = [], [], [], []
+    for profile, (beta, f) in ((sie.Parabola(1.0), PAIR), (sie.RoundedFlat(0.5, 1.0), STEEL)):
+        ends = []
+        for part in parts:
+            loads = {"normal_load": 1.0, "tangential_load": part * f}
+            solution = solved(profile, beta, f, **loads)
+            found, state = solution.check(), solution.coupled[1]
+            assert isinstance(state, ShearedContact)
+            off = replace(solution.scene, dundurs=beta * (1.0 + OFF))
+            other = sheared_certificate(state, off, 1e-13)
+            ones.append(found.residual)
+            twelves.append(of_shear(found))
+            wrong_ones.append(other.residual)
+            wrong_twelves.append(of_shear(other))
+            x1, x2 = solution.edges
+            ends.append([x / solution.half_width for x in (x1, *solution.stick[0], x2)])
+        if profile == sie.Parabola(1.0):
+            names = "left edge", "left end of stick", "right end of stick", "right edge"
+            for name, column in zip(names, np.transpose(ends), strict=True):
+                yield Curve("coupled zones", name, parts, column, "both")
+    for equation, right, wrong, high in (
+        ("(1) over the peak pressure", ones, wrong_ones, UNDER_Q[0]),
+        ("(12) in stick over the largest shear", twelves, wrong_twelves, UNDER_Q[1]),
+    ):
+        yield Claim(
+            f"largest residual of {equation} under P, then Q",
+            "this project: a certificate on every answer",
+            largest(right),
+            smallest(wrong),
+            f"β off by {OFF:.0e} of it",
+            high=high,
+        )
+
+
+def work() -> Iterator[Record]:
+    """The energy that Q adds between two loads, and the work of friction on the slip."""
+    beta, f = PAIR
+    one, other = (
+        solved(sie.Parabola(1.0), beta, f, normal_load=1.0, tangential_load=part * f)
+        for part in (0.49, 0.51)
+    )
+    lo, hi = max(one.edges[0], other.edges[0]), min(one.edges[1], other.edges[1])
+    angle = (np.arange(1000) + 0.5) * np.pi / 1000
+    x = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(angle)
+    dx = 0.5 * (hi - lo) * np.sin(angle) * np.pi / 1000
+    carried = 0.5 * f * (one.pressure(x) + other.pressure(x))
+    done = float(dx @ (carried * (other.slip(x) - one.slip(x))))
+    added = other.energy_lost - one.energy_lost
+    half = float(dx @ (carried * (other.slip(x) - one.slip(x)) * (x > 0.0)))
+    yield Claim(
+        "energy that Q adds between two loads against the work of friction on the slip",
+        "the balance of work, second order in the step of Q",
+        abs(added / done - 1.0),
+        abs(added / half - 1.0),
+        "the work in x > 0 alone",
+        high=1e-3,
+    )
 
 
 def approximation(betas: tuple[float, ...]) -> Iterator[Record]:

@@ -40,6 +40,7 @@ FIGURES = (
         "xy",
         "The rough profile by this package and by codes that work on grids.",
     ),
+    ("growth", "points", "time [s]", "xy", "Rough profiles at a fixed density of patches."),
 )
 
 

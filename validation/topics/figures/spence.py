@@ -32,6 +32,10 @@ def figures(found: Found) -> Iterator[Figure]:
             "Goodman's approximation against the coupled answer.",
         ),
         (
+            "coupled zones", "Q/(f P)", "x/b", "",
+            "Edges of contact and stick of a parabola under Q, β = f = 0.3, coupled.",
+        ),
+        (
             "tangential", "Q/(f P)", "x/b", "",
             "The stick zone of a parabola under Q, β = f = 0.1, in Goodman's approximation.",
         ),

@@ -1,0 +1,113 @@
+"""The load path of a scene file, in rows of its own or in the columns of a text file.
+
+path = [[P, Q, σ], ...]              turning points; σ may be left out
+path = "cycle.csv"                   a file beside the scene file, whose header names P, Q,
+                                     sigma, tilt or moment; other columns are passed over
+columns = ["P", "Q", "sigma", ...]   what the numbers of each row or line are, in order; "" for
+                                     one that is passed over
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path as File
+from typing import Any
+
+from sie.messages import suggestion
+from sie.problem.load_path import Path
+from sie.profiles.trace_files import read_table
+
+from .toml_values import refuse_unread
+
+# Each point is solved and listed, all of them within seconds.
+MOST_POINTS = 2000
+LOADS = ("P", "Q", "sigma")
+QUANTITIES = (*LOADS, "tilt", "moment")
+# Names in lower case, as in a header, and the quantities.
+NAMES = {name.lower(): name for name in QUANTITIES} | {
+    "σ": "sigma",
+    "normal_load": "P",
+    "tangential_load": "Q",
+    "bulk_stress": "sigma",
+}
+
+
+def path_of(
+    rows: str | Sequence[Sequence[float]], columns: Sequence[str] | None, folder: File
+) -> Path:
+    """The path of [load] path and [load] columns. Raises ValueError where they make none."""
+    named = None if columns is None else [_quantity(name) for name in columns]
+    if isinstance(rows, str):
+        return _path(_of_file(rows, named, folder))
+    if len(rows) > MOST_POINTS:
+        raise ValueError(
+            f"path has {len(rows)} points, more than {MOST_POINTS}: "
+            "follow it in Python, by sie.follow"
+        )
+    if named is None:
+        return Path(rows)
+    for k, row in enumerate(rows):
+        if len(row) != len(named):
+            raise ValueError(
+                f"path[{k}] has {len(row)} numbers for {len(named)} columns: give one for each"
+            )
+    return _path(_chosen(named, list(zip(*rows, strict=True))))
+
+
+def _path(values: Mapping[str, Sequence[float]]) -> Path:
+    """The path of columns. Raises ValueError if P or Q is not among them."""
+    missing = [name for name in ("P", "Q") if name not in values]
+    if missing:
+        raise ValueError(
+            f"path has no column {' and no column '.join(missing)}: "
+            'name what each column is, columns = ["P", "Q", "sigma"]'
+        )
+    none = [0.0] * len(values["P"])
+    points = zip(*(values.get(name, none) for name in LOADS), strict=True)
+    return Path(points, tilt=values.get("tilt", ()), moment=values.get("moment", ()))
+
+
+def _quantity(name: str) -> str:
+    """The quantity that a name of [load] columns stands for, "" for none."""
+    if name and name.lower() not in NAMES:
+        known = suggestion(name, QUANTITIES)
+        raise ValueError(f'columns "{name}" is not known: {known}, or "" to pass a column over')
+    return NAMES[name.lower()] if name else ""
+
+
+def _chosen(named: Sequence[str], columns: Sequence[Any]) -> dict[str, Any]:
+    """The columns that hold a quantity. Raises ValueError if two hold the same one."""
+    twice = next((name for name in named if name and named.count(name) > 1), None)
+    if twice:
+        raise ValueError(f'two columns are named {twice}: name the other one ""')
+    return {name: column for name, column in zip(named, columns, strict=False) if name}
+
+
+def _of_file(name: str, named: Sequence[str] | None, folder: File) -> dict[str, Any]:
+    try:
+        table = read_table(folder / name)
+    except OSError as problem:
+        refuse_unread(name, problem, "rows [P, Q, σ], or the file of the loads")
+    if len(table.rows) > MOST_POINTS:
+        raise ValueError(
+            f"{table.file} has {len(table.rows)} lines, more than {MOST_POINTS}: keep those at "
+            "which the loads turn"
+        )
+    if named is None:
+        named = [NAMES.get(header, "") for header in table.header]
+        if not table.header and table.width <= len(LOADS):
+            named = LOADS[: table.width]
+        if not {"P", "Q"} <= set(named):
+            found = f"its header names {', '.join(table.header)}" if table.header else "no header"
+            raise ValueError(
+                f"{table.file} names no columns P and Q ({found}): say what each column is, "
+                'columns = ["", "P", "Q", "sigma"]'
+            )
+    if len(named) > table.width:
+        raise ValueError(
+            f"{len(named)} columns are named, and {table.file} has {table.width}: name those, in "
+            "order"
+        )
+    kept = [k for k, quantity in enumerate(named) if quantity]
+    values = [column.tolist() for column in table.columns(tuple(kept))]
+    return _chosen([named[k] for k in kept], values)

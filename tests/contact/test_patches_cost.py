@@ -1,0 +1,126 @@
+"""What many patches cost, in counts; and that sums from afar are the plain sums."""
+
+import numpy as np
+import pytest
+
+import sie
+from sie.patches import full, gap_rows, start
+from sie.patches.chord import Chord, Points
+from sie.patches.newton import Damping
+from sie.patches.operator import Operator
+from sie.patches.panels import Patches
+from sie.patches.profile_pieces import of_profile
+from sie.patches.state import State
+
+
+def rough(points, seed=3):
+    """A spline through a rough periodic trace whose waves shorten with its spacing."""
+    rng = np.random.default_rng(seed)
+    k = np.arange(points // 50, points // 4)
+    x = np.arange(points) / points
+    h = (k**-1.3 * np.cos(2.0 * np.pi * (np.outer(x, k) + rng.uniform(size=len(k))))).sum(axis=1)
+    h *= 1.0 / (points * h.std())
+    return sie.Periodic(sie.Sampled(np.append(x, 1.0), np.append(h, h[0])), 1.0)
+
+
+def operator(count, period):
+    """The operator of many equal patches of a row of parabolas."""
+    middles = np.arange(count) + 0.3 * np.sin(np.arange(count))
+    row = sie.Row([sie.Parabola(1.0).shifted(float(x)) for x in middles])
+    profile = row if period == np.inf else sie.Periodic(row, period)
+    width = np.where(np.arange(count) % 3, 0.1, 0.02)
+    patches = Patches(middles - width, middles + width, Chord(period))
+    window = (-0.5, count - 0.5) if period == np.inf else profile.domain
+    if period < np.inf:
+        window = (profile.start, profile.start + period)
+    return Operator(patches, of_profile(profile, window, 1e-15), np.zeros(2 * count))
+
+
+@pytest.mark.parametrize("period", [np.inf, 120.0])
+def test_charges_at_edges_open_far_gaps_as_their_plain_sum_says(period):
+    o = operator(110, period)
+    k, e = o.gaps, o.patches.edges
+    step = o.patches.chord.apart(k.points.anchor[..., None] - e, k.points.offset[..., None])
+    plain = np.zeros((o.patches.number - 1, len(e)))
+    np.add.at(plain, k.gap, (k.dx[..., None] / step).sum(axis=1))
+    across = gap_rows.across_gaps(o.patches, k, k.dx)
+    scale = np.abs(plain).max(axis=1, keepdims=True)
+    np.testing.assert_allclose(across / scale, plain / scale, rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("period", [np.inf, 120.0])
+def test_roots_off_the_surface_are_the_plain_product(period):
+    o = operator(110, period)
+    P, d = o.patches, o.patches.chord.apart
+    i = np.arange(0, P.number, 5)
+    rng = np.random.default_rng(0)
+    offset = rng.normal(size=(len(i), 4)) + 1j * 10.0 ** rng.uniform(-6.0, 1.0, (len(i), 4))
+    x = Points(P.b[i, None], offset)
+    plain = np.ones(offset.shape, dtype=complex)
+    for j in range(P.number):
+        left, middle, right = (d(x.anchor - v[j], offset) for v in (P.a, P.c, P.b))
+        plain *= np.where((i == j)[:, None], 1.0, np.sqrt((left / middle) * (right / middle)))
+    np.testing.assert_allclose(o.others(i, x), plain, rtol=1e-12)
+
+
+@pytest.mark.parametrize("period", [np.inf, 2.0])
+def test_chords_to_far_charges_are_chords(period):
+    chord = Chord(period)
+    t = Points(np.array([[0.7], [1.9]]), np.array([[-0.01, 0.0, 0.02]] * 2))
+    x = Points(np.zeros((2, 1)), np.array([[-0.3, 0.1, 0.5], [0.0, 0.2 + 0.1j, -0.1]]))
+    plain = chord.apart((t.anchor - x.anchor)[:, None], t.offset[:, None, :] - x.offset[:, :, None])
+    np.testing.assert_allclose(chord.beyond(t, x), plain, rtol=4e-15)
+
+
+@pytest.mark.parametrize("points", [200, 800])
+def test_full_contact_is_ruled_out_at_a_few_places_of_a_rough_profile(points, monkeypatch):
+    asked = []
+    original = full.FullPressure.__call__
+    monkeypatch.setattr(
+        full.FullPressure,
+        "__call__",
+        lambda self, x: asked.append(np.size(x)) or original(self, x),
+    )
+    scene = sie.Scene(profile=rough(points), modulus=1.0, normal_load=0.005)
+    assert len(sie.solve(scene).patches) > 1
+    assert sum(asked) <= full.SUSPECTS
+
+
+def test_a_grid_of_a_rough_profile_is_done_in_a_few_steps_on_each_level(monkeypatch):
+    steps = []
+    original = start.System.displaced
+    monkeypatch.setattr(
+        start.System, "displaced", lambda self, q: steps.append(1) or original(self, q)
+    )
+    profile = rough(1000)
+    grid = start.grid_pressure(profile.height, (0.0, 1.0), 4096, 0.005, True)
+    levels = 5
+    assert grid.p.min() == 0.0
+    assert len(steps) < 3 * start.PRECONDITIONED * levels / 2
+
+
+def test_edges_that_no_event_touches_keep_what_they_asked_for():
+    line = Chord()
+    none, no = np.zeros(6), np.zeros(6, dtype=bool)
+    before = State(Patches(np.array([0.0, 2.0, 4.0]), np.array([1.0, 3.0, 5.0]), line), no, none, 0)
+    after = State(Patches(np.array([0.0, 4.0]), np.array([3.0, 5.0]), line), no[:4], none[:4], 0)
+    damping = Damping(*(np.arange(6.0) + m for m in (10.0, 20.0, 30.0, 40.0)))
+    kept, _ = damping.carried(before, after)
+    assert kept.insists.tolist() == [30.0, 33.0, 34.0, 35.0]
+
+
+def test_a_trace_that_is_repeated_where_its_ends_do_not_meet_says_so():
+    x = np.linspace(0.0, 1.0, 41)
+    h = 0.01 * np.cos(6.0 * np.pi * x)
+    notes = [
+        sie.solve(
+            sie.Scene(
+                profile=sie.Periodic(sie.Sampled(x, h + drop * x), 1.0),
+                modulus=1.0,
+                normal_load=1e-4,
+            )
+        ).notes
+        for drop in (0.0, 0.004)
+    ]
+    assert not any("repeats at" in note for note in notes[0])
+    assert any("begins 0.004 lower than it ends" in note for note in notes[1])

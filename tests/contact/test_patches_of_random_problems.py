@@ -1,0 +1,197 @@
+"""Kinds of random problems that once failed: patches longer than half a period, waves without end,
+moments of light loads, concave corners that nearly close, rounding, continuation.
+"""
+
+import numpy as np
+import pytest
+
+import sie
+from analytic import two_parabolas
+from sie.patches import solver
+from sie.patches.of_scene import problem_of
+from sie.profiles.resolution import rounding_noise
+
+
+def solved(**asked):
+    return sie.solve(sie.Scene(modulus=1.0, **asked))
+
+
+def trace(points, seed, size=0.01):
+    rng = np.random.default_rng(seed)
+    k = np.arange(4, points // 4)
+    x = np.linspace(-1.0, 1.0, points)
+    phase = rng.uniform(0.0, 2.0 * np.pi, len(k))
+    h = (k**-1.3 * np.cos(0.5 * np.pi * np.outer(x, k) + phase)).sum(axis=1)
+    return sie.Sampled(x, size * h / h.std())
+
+
+def waves(x):
+    """The slope of a shallow bowl with waves, which have no end."""
+    return x / 7.5 - 0.05 * np.sin(11.0 * x + 0.3) - 0.03 * np.sin(7.0 * x - 1.0)
+
+
+def rounded_flats(*places):
+    flats = [sie.RoundedFlat(a, R).shifted(x).raised(z) for a, R, x, z in places]
+    return sie.Row(flats)
+
+
+# -- accuracy --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("points", "load"), [(60, 5.0), (97, 5.0), (240, 20.0)])
+def test_a_patch_longer_than_half_a_period_meets_the_equation(points, load):
+    """The two halves of such a patch are nearer to each other than to their repetitions."""
+    profile = sie.Periodic(trace(points, 4, size=0.001), 2.0 + 2.0 / points)
+    assert solved(profile=profile, normal_load=load).check().residual < 1e-13
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_pressures_of_a_rough_trace_meet_the_equation_to_rounding(seed):
+    profile = sie.Periodic(trace(200, seed), 2.01)
+    certificate = solved(profile=profile, normal_load=0.05).check()
+    assert certificate.residual < 2e-14
+
+
+def test_pressures_of_waves_meet_the_equation_to_rounding():
+    scene = sie.Scene(profile=sie.FromFunction(waves), modulus=1.0, normal_load=20.0)
+    certificate = sie.solve(scene).in_patches.certificate(1e-13)
+    assert certificate.residual < 1e-13
+
+
+@pytest.mark.parametrize("load", [3.0, 20.0])
+def test_the_gap_beside_waves_is_the_integral_of_its_slope(load):
+    solution = solved(profile=sie.FromFunction(waves), normal_load=load)
+    start = solution.edges[1] + 0.5
+    x = start + 3.0 * solution.half_width * np.array([0.0, 0.5, 1.0])
+    g, w = np.polynomial.legendre.leggauss(16)
+    cuts = np.linspace(x[0], x[-1], 2001)
+    t = cuts[:-1, None] + np.diff(cuts)[:, None] * 0.5 * (1.0 + g)
+    opening = waves(t) + solution.tilt - 2.0 * solution.pressure.hilbert(t)
+    parts = 0.5 * np.diff(cuts) * (opening @ w)
+    rises = [parts[:1000].sum(), parts[1000:].sum()]
+    assert np.diff(solution.gap(x)) == pytest.approx(rises, rel=1e-12)
+
+
+@pytest.mark.parametrize("tilt", [-0.018, -0.1, 0.03])
+def test_the_pressure_beside_a_sharp_edge_carries_the_load_to_rounding(tilt):
+    """A move of the smooth edge depends on the charge of the sharp one."""
+    row = sie.Row([sie.Flat(0.2).shifted(x) for x in (0.0, 1.5, 3.07)])
+    certificate = solved(profile=row, normal_load=2.5e-4, tilt=tilt).check()
+    assert certificate.force < 3e-14
+
+
+# -- the certificate -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("distance", [30.0, 1e3, 1e4])
+def test_light_contacts_far_from_the_origin_are_certified_to_the_rounding_of_x(distance):
+    row = sie.Row([sie.Parabola(1.0), sie.Parabola(1.0).shifted(distance)])
+    certificate = solved(profile=row, normal_load=1e-4).check()
+    half_width = np.sqrt(4.0 * 0.5e-4 / np.pi)
+    assert certificate.ok
+    assert certificate.measured_to < 100.0 * np.spacing(distance) / half_width
+
+
+@pytest.mark.parametrize("gap", [1e-9, 1e-10, 5e-11, 2e-11, 1e-11, 1e-12, 1e-13])
+@pytest.mark.parametrize("middle", [0.0, 5.0])
+def test_a_concave_corner_that_nearly_closes_is_open_or_closed_without_tension(gap, middle):
+    inner, outer, shape = 0.5 * gap, 0.5 * gap + 1.0, {"radius": 1.0, "modulus": 1.0}
+    d = float(two_parabolas.distance(inner=inner, outer=outer))
+    load = float(two_parabolas.load(inner=inner, outer=outer, **shape))
+    row = sie.Row([sie.Parabola(1.0).shifted(middle + s * d) for s in (-1.0, 1.0)])
+    solution = solved(profile=row, normal_load=load)
+    assert solution.check().ok
+    assert len(solution.patches) == 2 or gap < 1e-10
+    assert solution.patches[-1][1] == pytest.approx(middle + outer, abs=1e-9)
+
+
+@pytest.mark.parametrize("load", [1e-4, 1e-6])
+def test_a_flat_pressed_lightly_keeps_within_its_concave_corners(load):
+    """Its edges are close to the kinks at the ends of its base, beside which h' is small."""
+    row = rounded_flats(
+        (0.13, 0.86, 1.32, 0.02), (0.45, 0.21, 2.76, 0.012), (0.38, 0.26, 4.4, 0.015)
+    )
+    solution = solved(profile=row, normal_load=load)
+    assert solution.check().ok
+    assert solution.patches[0] == pytest.approx((2.31, 3.21), abs=0.01)
+
+
+# -- the search ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("load", [20.0, 75.0, 200.0])
+def test_waves_without_end_are_answered(load):
+    """One patch would be looked at out to 1000 half-widths, where no series resolves the waves."""
+    solution = solved(profile=sie.FromFunction(waves), normal_load=load)
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("lever", [-0.1, 0.0, 0.2])
+def test_a_moment_between_two_waves_is_answered_by_both(lever):
+    load = 1e-3
+    solution = solved(profile=sie.FromFunction(waves), normal_load=load, moment=lever * load)
+    assert len(solution.patches) == 2
+    assert solution.check().ok
+
+
+@pytest.mark.parametrize("load", [1e-4, 1e-5, 1e-6])
+def test_a_light_load_between_two_corners_touches_both(load):
+    """The cells of a grid are wider than the contacts by far, and on no other than these two acts
+    a pressure with the moment.
+    """
+    row = rounded_flats((0.43, 0.12, 1.4, 0.014), (0.4, 0.9, 9.6, 0.0014), (0.3, 4.9, 18.4, 0.013))
+    solution = solved(profile=row, normal_load=load, moment=5.2 * load)
+    assert len(solution.patches) == 2
+    assert solution.check().ok
+
+
+def test_noise_is_not_what_a_wave_does_between_close_points():
+    assert rounding_noise(lambda x: np.sin(12.0 * x), -126.0, 126.0) < 1e-13
+
+
+# -- continuation ----------------------------------------------------------------------------------
+
+ROW = sie.Row([sie.Parabola(1.0), sie.Parabola(0.5).shifted(2.0).raised(0.1)])
+PROBLEM = problem_of(sie.Scene(profile=ROW, modulus=2.0, normal_load=0.6))
+
+
+def stopped_at(load, monkeypatch, calls):
+    """Let no patches settle above a load."""
+    settled = solver.settled
+
+    def stopped(state, pieces, problem):
+        calls.append(problem.given.load)
+        if problem.given.load > load:
+            raise sie.LoadError("stopped")
+        return settled(state, pieces, problem)
+
+    monkeypatch.setattr(solver, "settled", stopped)
+
+
+@pytest.mark.parametrize("part", [0.0, 1e-4, 0.3, 0.99])
+def test_a_continuation_that_ends_names_the_load_that_was_asked(part, monkeypatch):
+    calls = []
+    stopped_at(part * 0.6, monkeypatch, calls)
+    with pytest.raises(sie.LoadError, match=r"normal_load over E\*/2 = 0\.6[ :]") as error:
+        solver.contact(PROBLEM)
+    assert "change the load a little" in str(error.value)
+    assert len(calls) <= 2 + solver.LIGHTEST + solver.STEPS
+
+
+def test_a_continuation_never_ends_below_its_load(monkeypatch):
+    """Every second try fails: each step is tried again with half of it."""
+    settled, calls = solver.settled, []
+
+    def hesitant(state, pieces, problem):
+        calls.append(problem.given.load)
+        if len(calls) % 2:
+            raise sie.LoadError("stopped")
+        return settled(state, pieces, problem)
+
+    first = solver.contact(PROBLEM)
+    monkeypatch.setattr(solver, "settled", hesitant)
+    window = solver.fitted_window(PROBLEM)
+    pieces = PROBLEM.pieces(window)
+    found = solver.continued(PROBLEM, pieces, lambda problem: first.state, 0.0)
+    assert found.state.patches.edges == pytest.approx(first.state.patches.edges, rel=1e-12)
+    assert calls[-1] == 0.6
