@@ -168,8 +168,10 @@ class ContactGrowth:
 
 
 def near_contact(search: Search, load: float, guess: Interval, top: float) -> Contact | None:
-    """The contact under a load by Newton from another one, None if that does not settle or an edge
-    is sharp; `top` is the largest load, next to which rounding of the slope is small.
+    """The contact under a load by Newton's method from another one.
+
+    None if that does not settle or an edge is sharp. `top` is the largest load, next to which
+    rounding of the slope is small.
     """
     contact, target, previous = guess, load / search.half_modulus, NEAR
     touch, (lo, hi) = search.touch(), search.slope.domain
