@@ -116,7 +116,18 @@ class Solution:
             raise explained(error, self.scene.profile) from None
 
     def one_patch(self) -> Normal:
-        """The contact if it is one patch. Raises ContactError if it is not."""
+        """The contact if it is one patch.
+
+        Returns
+        -------
+        Normal
+            Its edges, load, moment and tilt.
+
+        Raises
+        ------
+        ContactError
+            If it is not one patch.
+        """
         if not (self.scene.profile.convex and "convexity" in self.economy):
             _ = self.inequalities
         return self.unverified
@@ -154,7 +165,25 @@ class Solution:
         return self._several or self.patches_under(self.normal_load, self.tilt)
 
     def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
-        """The contact of the same profile under another load and tilt, in several patches."""
+        """The contact of the same profile under another load and tilt, in several patches.
+
+        Parameters
+        ----------
+        load : float
+            P, a force per unit length.
+        tilt : float
+            The tilt, a pure number.
+
+        Returns
+        -------
+        SeveralPatches or FullContact
+            The contact without shear.
+
+        Raises
+        ------
+        ContactError
+            If no patches are certified.
+        """
         plain = replace(
             self.scene,
             normal_load=load,
@@ -299,8 +328,26 @@ class Solution:
     ) -> Slip:
         """The state after Q and τ on this contact without shear.
 
-        `under` gives it under other loads and tilts, `near` is as of `load_step`, `one_sign` as of
-        `slip`.
+        Parameters
+        ----------
+        loads : tuple of float
+            Q, a force per unit length, and τ, a stress.
+        under : callable
+            The contact in several patches as a function of load and tilt.
+        near : Interval, optional
+            As in `load_step`.
+        one_sign : bool, optional
+            Whether slip is positive at both edges, whatever Q and τ.
+
+        Returns
+        -------
+        Slip
+            The zones of stick and slip, and the shear.
+
+        Raises
+        ------
+        ContactError
+            If Q exceeds f P, or no zones of stick and slip meet all conditions.
         """
         if self._several is None:
             try:
@@ -315,8 +362,20 @@ class Solution:
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
         """The load Q and the strain τ on this contact of one patch.
 
-        `near` is a stick zone that may be close to the one sought: it saves work, and does not
-        change the answer.
+        Parameters
+        ----------
+        Q : float
+            The tangential load, a force per unit length.
+        tau : float
+            τ, a stress.
+        near : Interval, optional
+            A stick zone that may be close to the one sought. It saves work, and does not change
+            the answer.
+
+        Returns
+        -------
+        Step
+            What the states of slip are found from.
         """
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under = partial(

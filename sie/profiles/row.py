@@ -288,7 +288,18 @@ class Periodic(Profile):
         )
 
     def within(self, x: Array) -> Array:
-        """The same places in the period that begins at `start`."""
+        """The same places in the period that begins at `start`.
+
+        Parameters
+        ----------
+        x : ndarray
+            Finite places, lengths of any shape.
+
+        Returns
+        -------
+        ndarray
+            Lengths, of the shape of x.
+        """
         return x - self.repeats * np.floor((x - self.start) / self.repeats)
 
     @override
