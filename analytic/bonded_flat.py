@@ -57,7 +57,7 @@ def shear(
 ) -> Number:  # fmt: skip
     """The shear q(x) on the half-plane, inf at the corners as the pressure is, 0 outside.
 
-    Its integral is ∫ q dx = Q.
+    The resultant is ∫ q dx = Q.
 
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25

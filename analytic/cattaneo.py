@@ -159,7 +159,7 @@ def excess_shift(
 ) -> Number:  # fmt: skip
     """How much farther than without slip the bodies shift.
 
-    It is (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
+    The difference is (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
 
     The shift itself depends on the bodies' depth, as the approach does: only this part is the
     contact's own. It is (2/(pi E*)) ∫ ln(b/c) dQ. ValueError for Q > f P.
@@ -181,7 +181,7 @@ def dissipation(
 ) -> Number:  # fmt: skip
     """The energy lost per unit length in each cycle of the load between Q and -Q.
 
-    It is (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP).
+    The energy is (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP).
 
     ValueError for Q > f P.
 
@@ -201,7 +201,7 @@ def bulk_stick(
 ) -> tuple[Number, Number]:  # fmt: skip
     """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q.
 
-    Its centre is e = pi sigma b²/(8fP).
+    The centre is e = pi sigma b²/(8fP).
 
     Nowell & Hills 1987. ValueError for Q > f P, and where |e| > b - c: there the bulk stress
     reverses the slip at one edge, and the stick zone has no closed form.
@@ -223,7 +223,7 @@ def bulk_shear(
 ) -> Number:  # fmt: skip
     """The shear q(x) under Q and a bulk tension sigma that rises with it.
 
-    In stick, (1/pi) PV∫ q(t)/(x-t) dt = sigma/4.
+    In the stick zone (1/pi) PV∫ q(t)/(x-t) dt = sigma/4.
 
     ValueError as in `bulk_stick`.
 

@@ -52,7 +52,7 @@ def pressure(
 ) -> Number:
     """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact.
 
-    It is inf at the corners, and 0 outside.
+    The pressure is inf at the corners, and 0 outside.
 
     With |M| = P b/2 exactly p is 0, not infinite, at the corner about to lift. ValueError for |M| >
     P b/2.
@@ -140,7 +140,7 @@ def partial_edges(
 ) -> tuple[Number, Number]:
     """The ends (x1, x2) of the contact of a tilted flat that touches with one corner.
 
-    This is so for P b/2 <= |M| < P b.
+    One corner touches alone for P b/2 <= |M| < P b.
 
     ValueError for moments outside that range.
 
@@ -159,7 +159,7 @@ def partial_pressure(
 ) -> Number:
     """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner.
 
-    At that corner it is inf.
+    At that corner the pressure is inf.
 
     t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside.
     ValueError for moments outside P b/2 <= |M| < P b.
@@ -198,7 +198,7 @@ def partial_moment(
 ) -> Number:
     """The moment that holds a flat on one corner at the tilt h' = tilt.
 
-    It is M = s P (b - r/2), r = 2P/(pi E* |tilt|).
+    The moment is M = s P (b - r/2), r = 2P/(pi E* |tilt|).
 
     ValueError for |tilt| < 2P/(pi E* b), at which both corners touch.
 

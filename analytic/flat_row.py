@@ -42,9 +42,9 @@ def potential(
     z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The complex potential Fp(z).
+    """The complex potential Fp(z) of the row.
 
-    It is - i mean pressure far above, and + i mean pressure far below the surface.
+    The potential is - i mean pressure far above, and + i mean pressure far below the surface.
 
     Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i
     p, and -1 its conjugate. Between the flats it is real, E*/2 times the slope of the surface.

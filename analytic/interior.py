@@ -65,7 +65,7 @@ def rounded_flat(
 ) -> Stresses:  # fmt: skip
     """The stresses under a flat with rounded edges, normal or sliding.
 
-    They follow from Fp and Fp' in closed form (see `rounded_flat`).
+    The stresses follow from Fp and Fp' in closed form (see `rounded_flat`).
 
     >>> given = dict(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)
     >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, **given)]
@@ -88,7 +88,7 @@ def mcewen(
 ) -> Stresses:
     """The stresses under the frictionless line contact, as McEwen (1949) wrote them.
 
-    They are eq. 4.49 of Johnson 1985:
+    The formulas are eq. 4.49 of Johnson (1985):
 
         s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ]
         s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²))
@@ -172,7 +172,7 @@ def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) ->
 def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = np) -> Number:
     """The load P/(bk) at which a sliding line contact yields on its surface.
 
-    It is (pi/2)/sqrt(f² + (1-2nu)²(1+f²)/3), and yield begins at x = b f/sqrt(1+f²).
+    The load is (pi/2)/sqrt(f² + (1-2nu)²(1+f²)/3), and yield begins at x = b f/sqrt(1+f²).
 
     There J2 = p0² [f² + (1-2nu)²/3 (1+f²)] is the largest of the surface; for nu = 0.3 it is the
     largest of all from f = 0.27 or so.

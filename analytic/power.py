@@ -68,7 +68,7 @@ def pressure(
 ) -> Number:  # fmt: skip
     """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside.
 
-    It is infinite only for m = 1 at x = 0.
+    The pressure is infinite only for m = 1 at x = 0.
 
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8

@@ -150,7 +150,7 @@ def rim(
 ) -> Number:
     """The length b - a on which the rounding touches at each end, under the load P.
 
-    It has full relative accuracy.
+    The length has full relative accuracy.
 
     Newton's method for log P against log(b - a), with dP/db = E* b theta/R. The graph is convex,
     its slope between 3/2 and 2, so that the method converges from any start.

@@ -93,7 +93,7 @@ def potential(
 ) -> Number:  # fmt: skip
     """The complex potential Fp(z) of the pressure, ~ P/(pi z) far away.
 
-    That of the shear is f times this.
+    The potential of the shear is f times this.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' + (beta f - i) p, and -1 its conjugate. ValueError for moments that lift a corner off.

@@ -67,7 +67,7 @@ def load(
 ) -> Number:
     """The normal load P = pi E* w² (1/4 - eps²)/R per unit length.
 
-    It is less than that of Hertz on the same length.
+    The load is less than that of Hertz on the same length.
 
     >>> round(float(load(half_width=1.0, radius=1.0, modulus=1.0, coupling=0.0)), 12)
     0.785398163397
@@ -115,7 +115,7 @@ def potential(
 ) -> Number:  # fmt: skip
     """The complex potential Fp = E*/(2R) [z - X(z)], ~ P/(pi z) far away.
 
-    That of the shear is f times this.
+    The potential of the shear is f times this.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' + (beta f - i) p, and -1 its conjugate.

@@ -51,7 +51,7 @@ def rims(
 ) -> tuple[Number, Number]:  # fmt: skip
     """The lengths (d1, d2) on which the rounding touches on the left and on the right.
 
-    They have full relative accuracy.
+    The lengths have full relative accuracy.
 
     Newton's method in the logarithms of the rims, from those without friction.
 

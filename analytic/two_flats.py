@@ -59,7 +59,7 @@ def largest_moment(
 ) -> Number:
     """The moment at which an outer corner is about to lift off.
 
-    It is P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K).
+    The moment is P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K).
 
     >>> round(float(largest_moment(inner=1e-9, outer=2.0, normal_load=1.0)), 12)
     1.0

@@ -92,7 +92,7 @@ def edges(
 ) -> tuple[Number, Number]:
     """The edges (c1, c2) of the patch on x > 0 under the load P.
 
-    This is the inverse of `distance` and `load`.
+    The function is the inverse of `distance` and `load`.
 
     Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1
     - D/K), k² = 1 - (c1/c2)². ValueError for loads beyond about 1e5 E* d²/R, at which c1 leaves the

@@ -75,7 +75,7 @@ def mean_pressure(
 ) -> Number:
     """The mean pressure at which the contacts have the half-width a.
 
-    It is (pi E* D/lambda) sin²(pi a/lambda).
+    The mean pressure is (pi E* D/lambda) sin²(pi a/lambda).
 
     >>> found = mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)
     >>> round(float(found), 12)
@@ -93,7 +93,7 @@ def half_width(
 ) -> Number:  # fmt: skip
     """The half-width a of each contact under a mean pressure up to pi E* D/lambda.
 
-    This is the inverse of `mean_pressure`.
+    The function is the inverse of `mean_pressure`.
 
     a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError
     for larger pressures.
@@ -130,7 +130,7 @@ def complete_pressure(
 ) -> Number:  # fmt: skip
     """The pressure of surfaces that touch everywhere.
 
-    It is mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
+    The pressure is mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
 
     ValueError for mean pressures below `closing_pressure`.
 
@@ -154,9 +154,9 @@ def potential(
     z: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The complex potential Fp(z).
+    """The complex potential Fp(z) of the contacts.
 
-    It is - i mean pressure far above, and + i mean pressure far below the surface.
+    The potential is - i mean pressure far above, and + i mean pressure far below the surface.
 
     Real z in the contacts are on cuts: there `side` = +1 gives the limit from the body y > 0, E*/2
     h' - i p, and -1 its conjugate.
