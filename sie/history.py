@@ -126,7 +126,9 @@ class History(Sequence[Solution]):
     Notes
     -----
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
-    asked for. Stages that the points share are solved once. `history.path` is the path.
+    asked for. Stages that the points share are solved once. `history.path` is the path. The methods
+    that take loads, a depth or an index serve the states of slip, which are made of contacts under
+    other loads (`sie.friction.path_slip`).
     """
 
     def __init__(
@@ -176,8 +178,10 @@ class History(Sequence[Solution]):
 
     @cached_property
     def arm(self) -> float:
-        """The length by which bulk stress and tilt are made forces: about π times the half-width of
-        the first contact, and a power of 2, which does not round.
+        """The length by which bulk stress and tilt are made forces.
+
+        It is about π times the half-width of the first contact, and a power of 2, which does not
+        round.
         """
         return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
 
@@ -309,8 +313,13 @@ class History(Sequence[Solution]):
         return self.dissipation(turn).contacts.contact(P).interval
 
     def rows(self) -> list[dict[str, Any]]:
-        """For files: the loads of each point, its stick zones, and the energy dissipated up to it
-        if that is known.
+        """The points of the path for files.
+
+        Returns
+        -------
+        list of dict
+            The loads of each point, its stick zones, and the energy dissipated up to it if that is
+            known.
         """
         turned = "tilt" if self.path.tilt else "moment"
         rows = []
