@@ -133,7 +133,7 @@ class SlipZone:
     def pull(self, distance: Array, rho: float) -> Array:
         """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end.
 
-        The places x lie beyond that end, on the other side than the slip zone.
+        The places x lie beyond that end, away from the slip zone.
         """
         weight = self.force / np.sqrt(self.from_stick * (self.from_stick + 2.0 * rho))
         out = np.empty(distance.shape)
