@@ -27,6 +27,7 @@ from .toml_values import number, refuse_unread, table_of, text
 
 
 def profile_of(value: Any, folder: pathlib.Path) -> Profile:
+    """The profile that a [profile] table describes. ValueError for a bad table."""
     first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
     period = first.pop("period", None)
