@@ -83,6 +83,10 @@ def asks_for_patches(profile: Profile) -> bool:
     )
 
 
+OUT_OF_RANGE = f"the search for the patches left the range of doubles: {arguments.REMEDY}"
+MOST_STEEP = 1e250  # of the load over E*/2 and the square of a width
+
+
 def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     """The contact of a scene in several patches.
 
@@ -92,16 +96,20 @@ def several_patches(scene: Scene) -> SeveralPatches | FullContact:
     try:
         with np.errstate(all="ignore"):  # what that leaves is no certified contact
             problem = problem_of(scene)
-            return whole(problem, scene) or answered(problem, contact(problem), scene)
+            found = whole(problem, scene) or answered(problem, contact(problem), scene)
     except np.linalg.LinAlgError:
         raise LoadError(
             "the conditions of the edges became singular on the way to this load, as they are "
             "where patches merge: change the load a little"
         ) from None
     except ArithmeticError:
-        raise LoadError(
-            f"the search for the patches left the range of doubles: {arguments.REMEDY}"
-        ) from None
+        raise LoadError(OUT_OF_RANGE) from None
+    if isinstance(found, SeveralPatches):
+        # The certificate forms p/root at distances down to rounding from the narrowest edges.
+        narrowest = min(x2 - x1 for x1, x2 in found.patches)
+        if not problem.given.load < MOST_STEEP * narrowest * narrowest:
+            raise LoadError(OUT_OF_RANGE)
+    return found
 
 
 def whole(problem: Problem, scene: Scene) -> FullContact | None:

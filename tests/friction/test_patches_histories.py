@@ -100,12 +100,15 @@ def test_patches_that_have_merged_stick_in_several_zones():
 @settings(max_examples=4)
 @given(st.sampled_from(["row", "wavy punch", "merged patches", "period"]), st.integers(0, 999))
 def test_histories_agree_with_a_mesh_to_its_error(name, seed):
-    """First order: a third of the element, less than half of the error of q."""
+    """First order: a third of the element, less than half of the error of q.
+
+    The error depends on where in an element a zone ends: three meshes of each size are averaged.
+    """
     scene = SCENES[name]
     turns = np.random.default_rng(seed).uniform(0.2, 0.9, 3) * [1.0, -0.8, 0.6]
     history = at_constant_load(scene, *turns)
     errors = []
-    for n in (150, 450):
+    for n in (130, 150, 170, 390, 450, 510):
         mesh = PatchMesh(history[0].patches, n, 1.0, scene.profile.period)
         bound, q = F * history[0].pressure(mesh.x), np.zeros(len(mesh.x))
         slip, worst = np.zeros(len(mesh.x)), []
@@ -116,7 +119,7 @@ def test_histories_agree_with_a_mesh_to_its_error(name, seed):
             worst.append(np.abs(q - solution.shear(mesh.x)).mean() / bound.max())
             worst.append(np.abs(slip - solution.slip(mesh.x)).max() / largest)
         errors.append(worst)
-    coarse, fine = np.array(errors)
+    coarse, fine = np.array(errors).reshape(2, 3, -1).mean(axis=1)
     assert fine[::2].max() < 5e-3 and fine[1::2].max() < 5e-2
     assert fine[::2].sum() < 0.5 * coarse[::2].sum()
 
