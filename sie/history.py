@@ -11,12 +11,15 @@ each point to the next all loads change in proportion to time. What is exact, an
                                        together (`friction.load_step`)
     slip of opposite signs             at constant P with σ in proportion to Q; a first loading with
                                        P changing
+    one end alone passes an earlier    step by step, by the shear at the start of each
+    one, or slip turns at one edge     (`friction.marching`); at constant P also a stick zone that
+                                       travels
 
 `friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
 single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.
 
-Everything else raises ContactError, which names the step and the reason. A path may begin unloaded,
-at (0, 0, 0).
+Everything else raises ContactError, which names the step and the reason. `History.plan` says which
+steps are marched, and why. A path may begin unloaded, at (0, 0, 0).
 """
 
 from __future__ import annotations
@@ -31,14 +34,16 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from .certificate.result import ShearCertificate
+from .certificate.shear_check import marched_certificate
 from .contact.inequalities import slope_rises
 from .contact.known_contact import Normal
 from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
-from .friction.load_step import Contacts
-from .friction.load_steps import turning_points
-from .friction.path_slip import PathSlip, step_shift
+from .friction.load_steps import Followable, turning_points
+from .friction.marching import march
+from .friction.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
 from .friction.turning_point import Loads, TurningPoint
@@ -47,6 +52,7 @@ from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched
 from .patches.full import FullContact
 from .patches.path_energy import PathEnergy
+from .plan import Plan, Step
 from .problem.load_path import Path
 from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
@@ -137,7 +143,7 @@ class History(Sequence[Solution]):
         path: Path,
         tol: float,
         economy: Collection[str],
-        steps: Callable[[Scene, Path, Contacts], tuple[TurningPoint, ...]] = turning_points,
+        steps: Callable[[Scene, Path, Followable], tuple[TurningPoint, ...]] = turning_points,
     ) -> None:
         self.scene = unsheared(scene, path)
         self._first = path.first_contact
@@ -237,6 +243,26 @@ class History(Sequence[Solution]):
             self._plain[P, turn] = self._frictionless(P, turn)
         return self._plain[P, turn]
 
+    def pressure_at(self, loads: Loads) -> SlopeDensity:
+        """The pressure under loads, in one patch; it is kept at turning points."""
+        found = self._plain.get(loads.normal) or self._frictionless(*loads.normal)
+        _ = found.as_one_patch
+        return found.slope_density
+
+    def sheared_by(self, loads: Loads) -> tuple[float, float]:
+        """Q and τ of loads."""
+        return loads.Q, loads.sigma * self._tau
+
+    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint:
+        """The turning point after a step that no layers answer."""
+        if any(any(self.plain(*at.normal).sharp) for at in (before.loads, loads)):
+            raise ContactError(
+                "no layers of the contact answer this step, and a contact with sharp edges is not "
+                "marched: the shear is infinite there; round its corners (sie.RoundedFlat)"
+            )
+        start = held(self, before, self.sheared_by(before.loads))
+        return march(self, start, before.loads, loads)
+
     def _frictionless(self, P: float, turn: float) -> Solution:
         if P == 0.0:
             raise LoadError("the path is at P = 0 here: nothing touches; ask for a later point")
@@ -311,6 +337,21 @@ class History(Sequence[Solution]):
     def upright_contact(self, P: float, turn: float) -> Interval:
         """The contact under P, in one patch, beside others at the same tilt."""
         return self.dissipation(turn).contacts.contact(P).interval
+
+    @property
+    def plan(self) -> Plan:
+        """For each step whether layers answer it or it is marched, and why.
+
+        Returns
+        -------
+        Plan
+            A step of the plan for each step of the path, printed as a table.
+        """
+        how = (
+            f"marched: {point.why}" if point.marched else "layers: contacts superposed"
+            for point in self.turning_points
+        )
+        return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
     def rows(self) -> list[dict[str, Any]]:
         """The points of the path for files.
@@ -409,7 +450,15 @@ class PathSolution(Solution):
     @cached_property
     def tangential(self) -> Slip:
         """The state of slip at this point of the path."""
-        return PathSlip(self.history, self.index)
+        marched = self.history.turning_points[self.index].marched
+        return (MarchedSlip if marched else PathSlip)(self.history, self.index)
+
+    @property
+    def _shear_certificate(self) -> ShearCertificate:
+        if isinstance(self.tangential, MarchedSlip):
+            state = self.tangential
+            return marched_certificate(state, state.marched, state.error, self._slope, self.tol)
+        return super()._shear_certificate
 
     @property
     def stick(self) -> tuple[tuple[float, float], ...]:

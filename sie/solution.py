@@ -19,7 +19,7 @@ from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
 from .certificate.pressure_check import certificate
-from .certificate.result import RETREAT, Certificate
+from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
 from .certificate.trace_noise import TraceReport, trace_reports
 from .contact.gap import gap
@@ -411,13 +411,15 @@ class Solution:
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
+        return replace(found, shear=self._shear_certificate)
+
+    @property
+    def _shear_certificate(self) -> ShearCertificate:
         if isinstance(self.tangential, GoodmanSlip):
-            shear = goodman_certificate(self.tangential, self.slip_notes[0], self.tol)
-        else:
-            shear = shear_certificate(
-                self.tangential, self.slope_density, self._loads, self._slope, self.tol
-            )
-        return replace(found, shear=shear)
+            return goodman_certificate(self.tangential, self.slip_notes[0], self.tol)
+        return shear_certificate(
+            self.tangential, self.slope_density, self._loads, self._slope, self.tol
+        )
 
     @property
     def slope_density(self) -> SlopeDensity:

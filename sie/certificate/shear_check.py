@@ -13,11 +13,13 @@ max |γ - γ'| / max|q|, γ = 1/π PV∫q/(x - t) dt + β p, where they stuck un
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.friction.marched_step import MarchedStep
 from sie.friction.slip_state import GrownSlip, Slip
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS, Interval
@@ -87,12 +89,12 @@ def _measured(
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
     if size == 0.0:
         size = peak = state.friction * pressure.resultant
-    force, equation, of_force, of_equation = integrals(terms, points(state, terms))
+    force, equation, of_force, of_equation = integrals(terms, points(state.untouched, terms))
     return ShearCertificate(
         residual=float(np.abs(equation - loads[1]).max(initial=0.0)) / peak,
         equilibrium=abs(force - loads[0]) / size,
         excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
-        opposing=opposing(state, x),
+        opposing=opposing(state, state.slip_now(x), x),
         abscissae=max(of_force / size, float(of_equation.max(initial=0.0)) / peak),
         condition=state.condition,
         advancing=state.advancing,
@@ -135,9 +137,8 @@ def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> floa
     return worst
 
 
-def opposing(state: Slip, x: Array) -> float:
+def opposing(state: Slip, slip: Array, x: Array) -> float:
     """The smallest slip in its own direction since the last turning point, over the largest."""
-    slip = state.slip_now(x)
     largest = float(np.abs(slip).max(initial=0.0))
     lowest = min(
         (
@@ -149,12 +150,12 @@ def opposing(state: Slip, x: Array) -> float:
     return lowest / largest if largest else 0.0
 
 
-def points(state: Slip, terms: list[Term]) -> Array:
-    """The places of measurement: over the zone that never slipped, half-way between nodes.
+def points(held: tuple[float, float], terms: list[Term]) -> Array:
+    """The places of measurement: over a zone that sticks, half-way between nodes.
 
     Of many terms these are the farthest apart in the neighbourhood.
     """
-    lo, hi = state.untouched
+    lo, hi = held
     nodes, near = np.unique(np.concatenate([term.rule.x for term in terms])), len(terms) - 1
     at = 0.5 * (lo + hi) + 0.5 * (hi - lo) * np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
     k = np.clip(np.searchsorted(nodes, at)[:, None] + np.arange(-near, near + 1), 1, len(nodes) - 1)
@@ -170,6 +171,51 @@ def finite(values: Array) -> Array:
     return np.where(np.isfinite(values), values, 0.0)
 
 
+# -- after steps that were marched -----------------------------------------------------------------
+
+MARCHED = 1e-8  # of the largest shear, and of a half-width: what is promised of them
+
+
+def marched_certificate(
+    state: Slip, parts: tuple[MarchedStep, ...], error: float, slope: Slope, tol: float
+) -> ShearCertificate:
+    """The certificate from the changes of the shear in the parts of the last step.
+
+    The residual is at least the error of the ends of the stick zone over its half-width.
+    """
+    terms = [_on_own_rule(part.shear, part.pressure.contact, part.marks, slope) for part in parts]
+    first = parts[0].before
+    lower = [_on_own_rule(first.shear, first.pressure.contact, first.marks, slope), *terms[:-1]]
+    residual = of_change = 0.0
+    for part, term, before in zip(parts, terms, lower, strict=True):
+        pair = [term, before._replace(factor=-1.0)]
+        _, change, _, rounding = integrals(pair, points(part.kept, pair))
+        missed = np.abs(change - (part.tau - part.before.tau)).max(initial=0.0)
+        residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
+    contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule
+    p, q = state.friction * parts[-1].pressure(x), parts[-1].shear(x)
+    size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
+    # An end is known to so much, and q falls from f p there like a root.
+    known = np.abs(np.subtract.outer(parts[-1].marks, x)).min(axis=0) > MARCHED * contact.r
+    force, _, of_force, _ = integrals(terms[-1:], np.zeros(0))
+    return ShearCertificate(
+        residual=max(residual / peak, error),
+        equilibrium=abs(force - parts[-1].Q) / size,
+        excess=excess(state, contact, x[known], p[known], q[known]) / float(p.max()),
+        opposing=opposing(state, parts[-1].slip(x), x),
+        abscissae=max(of_force / size, of_change / peak),
+        condition=1.0,
+        advancing=True,
+        kind=f"{state.kind}; the ends of the stick zone within {error:.0e} of its half-width",
+        tol=max(tol, MARCHED),
+    )
+
+
+def _on_own_rule(density: Density, contact: Interval, marks: Sequence[float], slope: Slope) -> Term:
+    inside = np.array([x for x in marks if contact.x1 < x < contact.x2])
+    return Term(1.0, density, contact, composite_rule(contact, slope, inside))
+
+
 # -- while the normal load grows ------------------------------------------------------------------
 
 OF_SHEAR = 1e-10  # of the largest shear: what is promised of (12)
@@ -183,7 +229,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
     x, weight = term.rule.x, term.rule.weight
     p, q = finite(state.friction * pressure(x)), finite(state.shear(x))
     size, peak = float(weight @ np.abs(q)), float(np.abs(q).max())
-    at = points(state, [term])
+    at = points(state.untouched, [term])
     force, gamma, of_force, of_gamma = integrals([term], at)
     due = np.zeros(len(at))
     if state.lighter is not None:
@@ -197,7 +243,7 @@ def goodman_certificate(state: GrownSlip, kind: str, tol: float) -> ShearCertifi
         residual=float(np.abs(gamma - due).max(initial=0.0)) / peak,
         equilibrium=abs(force - state.step.Q) / size,
         excess=excess(state, pressure.contact, x, p, q) / float(p.max()),
-        opposing=opposing(state, x) if state.zones is None else 0.0,
+        opposing=opposing(state, state.slip_now(x), x) if state.zones is None else 0.0,
         abscissae=max(of_force / size, (float(of_gamma.max(initial=0.0)) + of_p) / peak),
         condition=1.0,
         advancing=True,

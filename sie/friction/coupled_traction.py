@@ -346,7 +346,10 @@ def on_panels(panels: Panels, y: Array) -> Array:
 
 
 def resolved_panels(
-    values: tuple[Callable[[Array], Array], ...], marks: tuple[float, ...], power: float
+    values: tuple[Callable[[Array], Array], ...],
+    marks: tuple[float, ...],
+    power: float,
+    resolved: float = RESOLVED,
 ) -> tuple[Panels, ...]:
     """Panels of several functions of 0 < y < b that are smooth between the marks, b the last."""
     b = marks[-1]
@@ -363,8 +366,8 @@ def resolved_panels(
         if hi[-1] == b:
             f[:, -1] /= ((b - y[-1]) / (b - lo[-1])) ** power
         series = chebyshev.transform(f)
-        tail = np.abs(series[..., -2:]).max(axis=2) / largest[:, None]
-        settled = ((tail <= RESOLVED) | (tail * (hi - lo) <= FAINT * b)).all(axis=0)
+        tail = np.abs(series[..., -2:]).max(axis=2) / np.maximum(largest, LEAST)[:, None]
+        settled = ((tail <= resolved) | (tail * (hi - lo) <= FAINT * b)).all(axis=0)
         tail = tail.max(axis=0)
         settled |= (tail < ROUGH) & (tail > SAME * before)
         done += [(lo[k], hi[k], series[:, k]) for k in np.flatnonzero(settled)]

@@ -31,12 +31,8 @@ from sie.numerics.interval import Interval
 
 from .memory import BALANCED, LoadMemory, SlipEvent, in_proportion
 from .slip_state import Slip
+from .step_conditions import SLACK, TESTED, inside, opens
 from .turning_point import Loads, TurningPoint
-
-# Parts of a step at which its conditions are tested.
-TESTED = (0.05, 0.25, 0.5, 0.75, 1.0)
-# of a change of load, and of a half-width: by so much a condition may be missed, which is rounding
-SLACK = 1e-11
 
 
 class Contacts(Protocol):
@@ -60,6 +56,10 @@ class Contacts(Protocol):
     def arm(self) -> float: ...
     @property
     def curved(self) -> bool: ...
+
+
+class NotLayered(ContactError):
+    """No superposition of layers answers a step. The sentence says what happens in it."""
 
 
 class Step:
@@ -117,7 +117,10 @@ class Step:
             if not self._state(1.0, 0.5 * sign * self.pull).advancing:
                 raise ContactError("zones of slip would retreat on the way: " + UNSTEADY)
             return found
-        one_way = self.one_sign((sign,)) or self.late()
+        try:
+            one_way = self.one_sign((sign,)) or self.late()
+        except NotLayered as problem:
+            raise ContactError(f"{problem}: {UNSTEADY}") from None
         if one_way is None:
             raise ContactError(
                 "slip does not start at both edges in one direction, or the stick zone does not "
@@ -129,7 +132,10 @@ class Step:
         """Refuse a change of direction after a first loading whose slip zones retreated."""
         depth, _ = self.memory.deepest
         if not self.contacts.first_loading(self.before.loads.normal, depth, True).advancing:
-            raise ContactError("zones of slip have retreated in an earlier step: " + MARCH)
+            raise ContactError(
+                "zones of slip retreat on the way to the first point, which is answered like a "
+                "scene; begin the path with (P, 0, 0), from which that step is followed"
+            )
 
     def upright(self) -> TurningPoint:
         """At constant tilt and bulk stress: contacts are nested by their loads."""
@@ -225,7 +231,7 @@ class Step:
             return None
         memory, slips = self._slipped(sign, 1.0)
         zone = self._zone(1.0, memory)
-        if not (_inside(zone, contact) and self._opens(front, zone, contact)):
+        if not (inside(zone, contact) and self._opens(front, zone, contact)):
             return None
         return self._reached(memory, tuple(slip._replace(timed=False) for slip in slips))
 
@@ -236,7 +242,7 @@ class Step:
         sign = math.copysign(1.0, total.imag)
         begun = top is None or (self.before.turned and top.below is None and top.k == sign)
         if not (begun and total.imag):
-            raise ContactError(self._why())
+            raise NotLayered(self._why())
         memory, slips = self.memory.changed(self.rise, self.pull, sign)
         states = [
             self._state(share, sign * self.contacts.shear(self._at(share)))
@@ -244,10 +250,9 @@ class Step:
         ]
         for share, earlier, state in zip(TESTED, states, states[1:], strict=False):
             contact = self.contacts.contact(self._at(share))
-            if not (_inside(state.stick_zone, contact) and _grown(earlier, state)):
-                raise ContactError(
-                    "zones of slip in opposite directions would retreat at one end on the way: "
-                    + MARCH
+            if not (inside(state.stick_zone, contact) and _grown(earlier, state)):
+                raise NotLayered(
+                    "zones of slip in opposite directions would retreat at one end on the way"
                 )
         return TurningPoint(self.loads, memory, slips, turned=True, straight=False)
 
@@ -259,17 +264,7 @@ class Step:
         return change.real + turn, change.real - turn
 
     def _opens(self, front: complex, zone: Interval, contact: Interval) -> bool:
-        """Whether slip beside a stick zone keeps its direction out to both edges of contact."""
-        lengths = zone.x1 - contact.x1, contact.x2 - zone.x2
-        turn = math.pi * zone.r / self.contacts.arm * front.imag if front.imag else 0.0
-        if zone.r == 0.0:
-            return front.real >= 0.0
-        for length, outward in zip(lengths, (turn, -turn), strict=True):
-            v = 1.0 + max(length, 0.0) / zone.r
-            beside = math.acosh(v) / math.sqrt((v - 1.0) * (v + 1.0)) if v > 1.0 else 1.0
-            if front.real * beside + outward < -SLACK * abs(front):
-                return False
-        return True
+        return opens(front, zone, contact, self.contacts.arm)
 
     def _test_on_the_way(self, sign: float) -> None:
         parts = self.parts if self.contacts.curved else self.parts * len(TESTED)
@@ -279,39 +274,37 @@ class Step:
             except ContactError:
                 continue  # one end is at a corner: the state at the end of the step is judged
             zone, contact = self._zone(share, memory), self.contacts.contact(self._at(share))
-            if not _inside(zone, contact):
-                raise ContactError("an edge of the contact overtakes the slip: " + MARCH)
+            if not inside(zone, contact):
+                raise NotLayered("an edge of the contact overtakes the slip")
             if not self._opens(sign * pull - rise, zone, contact):
-                raise ContactError(
-                    "slip next to an edge would turn while it goes on farther in: " + MARCH
-                )
+                raise NotLayered("slip next to an edge would turn while it goes on farther in")
 
     def _within(self, first: complex, second: complex) -> bool:
         """Whether the contact at one depth lies within that at another."""
         normal = self.before.loads.normal
         loaded = self.contacts.first_loading
         one, other = (loaded(normal, depth, False).stick_zone for depth in (first, second))
-        if _inside(one, other):
+        if inside(one, other):
             return True
-        if _inside(other, one):
+        if inside(other, one):
             return False
-        raise ContactError(
+        raise NotLayered(
             f"one end of the stick zone passes that of an earlier one, and the other does not: "
-            f"{_shown(one)} and {_shown(other)}: " + MARCH
+            f"{_shown(one)} and {_shown(other)}"
         )
 
     def _reached(self, memory: LoadMemory, slips: tuple[SlipEvent, ...]) -> TurningPoint:
         """The turning point, if its layers lie within the contact and |κ| <= 1 bounds |q|."""
         top = memory.top
         tilted = top and isinstance(top.depth, complex) and self.loads.P < self.before.loads.P
-        if tilted and not _inside(self._zone(1.0, memory), self.contacts.contact(self.loads)):
-            raise ContactError("an edge of the contact overtakes the slip: " + MARCH)
+        if tilted and not inside(self._zone(1.0, memory), self.contacts.contact(self.loads)):
+            raise NotLayered("an edge of the contact overtakes the slip")
         crossed = top and top.below and any(not slip.timed for slip in slips)
         if top and top.below and crossed:
             r = self._zone(1.0, memory).r
             if min(self._at_ends(top.below.thickness, r)) < 0.0:
-                raise ContactError(
-                    "between the stick zone and an earlier one the shear may exceed f p: " + MARCH
+                raise NotLayered(
+                    "between the stick zone and an earlier one the shear may exceed f p"
                 )
         return TurningPoint(self.loads, memory, slips, self.before.turned, straight=False)
 
@@ -342,16 +335,10 @@ class Step:
         reverse = self.pull - self.k * self.rise
         left, right = self._at_ends(reverse, start.r)
         if self.before.turned:
-            return "slip in opposite directions at the two edges changes its proportion: " + MARCH
+            return "slip in opposite directions at the two edges changes its proportion"
         if left * right < 0.0:
-            return "slip turns at one edge and goes on, or stops, at the other: " + MARCH
-        return "one end of the stick zone recedes and the other does not: " + MARCH
-
-
-MARCH = (
-    "what is locked in then depends on the way, which is not covered; change P, Q, σ and tilt in "
-    "other proportions, or ask sie.steady_cycle for the steady state of a cycle"
-)
+            return "slip turns at one edge and goes on, or stops, at the other"
+        return "one end of the stick zone recedes and the other does not"
 
 
 UNSTEADY = (
@@ -360,18 +347,13 @@ UNSTEADY = (
 )
 
 
-def _inside(one: Interval, other: Interval) -> bool:
-    slack = SLACK * (other.r + abs(other.m))
-    return one.x1 >= other.x1 - slack and one.x2 <= other.x2 + slack
-
-
 def _shown(zone: Interval) -> str:
     return f"[{zone.x1:.6g}, {zone.x2:.6g}]"
 
 
 def _grown(earlier: Slip, later: Slip) -> bool:
     """Whether the zones of slip have grown, and slip in them."""
-    if not _inside(later.stick_zone, earlier.stick_zone):
+    if not inside(later.stick_zone, earlier.stick_zone):
         return False
     contact = later.contact
     x = contact.m + contact.r * np.cos(np.pi * (np.arange(64) + 0.5) / 64)

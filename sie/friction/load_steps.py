@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from sie.errors import ContactError
 from sie.numerics.interval import EPS
@@ -14,14 +14,28 @@ from sie.problem.load_limit import refuse_sliding
 from sie.problem.load_path import Path
 from sie.problem.scene import Scene
 
-from .load_step import Contacts, Step
+from .load_step import Contacts, NotLayered, Step
 from .memory import Layer, LoadMemory, in_proportion, simple
 from .turning_point import Loads, TurningPoint
 
 Result = TypeVar("Result")
 
 
-def turning_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[TurningPoint, ...]:
+class Followable(Contacts, Protocol):
+    """The contacts of a path that is followed.
+
+    sheared_by      Q and τ of loads
+    in_one_patch    whether the contact is one patch under every load
+    march           the turning point after a step that no layers answer
+    """
+
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    @property
+    def in_one_patch(self) -> bool: ...
+    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
+
+
+def turning_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
     """The layers after each step of a path.
 
     Raises ContactError, with the step, where one is not covered.
@@ -39,7 +53,8 @@ def turning_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turnin
     start = points[0]._replace(Q=0.0, sigma=0.0)
     state = TurningPoint(start, LoadMemory(contacts.level(start)))
     for k, loads in enumerate(points):
-        state = named(k, loads, partial(stepped, contacts, state, loads))
+        step = stepped if k else _layered  # the first point is answered like a scene
+        state = named(k, loads, partial(step, contacts, state, loads))
         found.append(state)
     return tuple(found)
 
@@ -57,7 +72,7 @@ def named(k: int, loads: Loads, step: Callable[[], Result]) -> Result:
         ) from None
 
 
-def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[TurningPoint, ...]:
+def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[TurningPoint, ...]:
     """The turning points A, B, A of a steady cycle.
 
     The layers are those of the change from one to the other alone.
@@ -94,8 +109,40 @@ def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[Turning
     return tuple(found)
 
 
-def stepped(contacts: Contacts, before: TurningPoint, loads: Loads) -> TurningPoint:
-    """The turning point after a step. Raises ContactError where it is not covered."""
+def stepped(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
+    """The turning point after a step: by layers, and where these do not answer by marching.
+
+    Raises ContactError where the step is not covered.
+    """
+    if before.marched:
+        last = before.marched[-1].held
+        if before.loads.normal == loads.normal and contacts.sheared_by(loads) == (last.Q, last.tau):
+            return replace(before, loads=loads)
+        return replace(contacts.march(before, loads), why="a step before was marched")
+    try:
+        found = _layered(contacts, before, loads)
+    except NotLayered as problem:
+        if not contacts.in_one_patch:
+            raise ContactError(
+                f"{problem}: what is locked in then depends on the way, which is covered in one "
+                "patch only"
+            ) from None
+        return replace(contacts.march(before, loads), why=str(problem))
+    if found.turned and found.straight and contacts.in_one_patch:
+        known = before.memory.top is None or _advancing(contacts, before)
+        if known and not _advancing(contacts, found):
+            return replace(contacts.march(before, loads), why="zones of slip retreat on the way")
+    return found
+
+
+def _advancing(contacts: Followable, point: TurningPoint) -> bool:
+    """Whether the zones of slip in two directions have only grown on the way to a point."""
+    depth, _ = point.memory.deepest
+    return contacts.first_loading(point.loads.normal, depth, True).advancing
+
+
+def _layered(contacts: Followable, before: TurningPoint, loads: Loads) -> TurningPoint:
+    """The turning point after a step that layers answer. Raises NotLayered where they do not."""
     memory = before.memory
     level, shear = contacts.level(loads), contacts.shear(loads)
     rise, pull = simple(level - memory.level), simple(shear - memory.total)

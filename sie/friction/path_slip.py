@@ -17,8 +17,10 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
+from .marched_step import Held, MarchedStep
+from .panel_shear import PanelShear
 from .slip_state import Slip
-from .turning_point import Loads
+from .turning_point import Loads, TurningPoint
 
 Array = NDArray[np.float64]
 
@@ -49,9 +51,11 @@ class PathSlip(Slip):
 
     kind = "after a path"
 
-    def __init__(self, history: Followed, index: int) -> None:
+    def __init__(
+        self, history: Followed, index: int = 0, state: TurningPoint | None = None
+    ) -> None:
         self.history, self.index = history, index
-        self.state = history.turning_points[index]
+        self.state = history.turning_points[index] if state is None else state
         self.normal = self.state.loads.normal
         self.friction = history.scene.friction
         if self.state.straight and isinstance(self.state.memory.total, complex):
@@ -173,7 +177,7 @@ class PathSlip(Slip):
     def slip(self, x: Array) -> Array:
         """Relative slip since x came into contact."""
         past = self.history.turning_points[: self.index + 1]
-        if all(state.loads.normal == self.normal for state in past):
+        if not self.state.marched and all(state.loads.normal == self.normal for state in past):
             return sum(
                 (weight * loading.slip(x) for weight, loading in self._terms), np.zeros(x.shape)
             )
@@ -185,6 +189,13 @@ class PathSlip(Slip):
             stayed = self._touches(x, before.loads) & touches
             total = np.where(stayed, total, 0.0) + step_slip(self.history, index, x)
             new = touches & ~stayed
+            if state.marched and new.any():
+                raise ContactError(
+                    f"step {index} of the path was marched, and brings x = {float(x[new][0]):.6g} "
+                    "into contact while it slips: how far it slipped since is not covered; ask for "
+                    f"points within the contact under P = {before.loads.P:.6g}",
+                    step=index,
+                )
             if state.slips and index and new.any():
                 total[new] = ChangingContact(self.history, index).slip_of_new(x[new])
         return total
@@ -200,14 +211,82 @@ class PathSlip(Slip):
     @cached_property
     def shift(self) -> float:
         past = self.history.turning_points[: self.index + 1]
-        if all(state.loads.normal == self.normal for state in past):
+        same = all(state.loads.normal == self.normal for state in past)
+        if same and not self.state.marched:
             return sum(weight * loading.shift for weight, loading in self._terms)
         return sum(self.history.shift_of_step(index) for index in range(self.index + 1))
+
+
+class MarchedSlip(PathSlip):
+    """Stick, slip and shear at a point of a path that was marched to."""
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]
+        return f"marched, as {self.state.why}"
+
+    @property
+    def marched(self) -> tuple[MarchedStep, ...]:
+        """The parts of the last step."""
+        return self.state.marched
+
+    @property
+    def error(self) -> float:
+        """The error of the ends of the stick zone over its half-width, of all steps together."""
+        past = self.history.turning_points[: self.index + 1]
+        return sum(part.error for point in past for part in point.marched)
+
+    @cached_property
+    def shear(self) -> Density:
+        return self.marched[-1].shear
+
+    @property
+    def stick(self) -> tuple[tuple[float, float], ...]:  # type: ignore[override]
+        stick = self.marched[-1].stick
+        return ((stick.x1, stick.x2),)
+
+    @property
+    def slipped(self) -> tuple[tuple[float, float, float], ...]:
+        last = self.marched[-1]
+        (x1, x2), (c1, c2), (left, right) = last.pressure.interval, self.stick[0], last.signs
+        return tuple(z for z in ((x1, c1, left), (c2, x2, right)) if z[1] > z[0])
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        return self.marched[-1].marks
+
+    @property
+    def contacts(self) -> tuple[()]:
+        return ()
+
+
+def held(history: Followed, point: TurningPoint, loads: tuple[float, float]) -> Held:
+    """What a step from a turning point under Q and τ starts from."""
+    if point.marched:
+        return point.marched[-1].held
+    state = PathSlip(history, state=point)
+    contact, zones = state.contact, state.slipped
+    stick = Interval(*state.stick[0]) if state.stick else Interval(contact.m, contact.m)
+    left = [sign for _, hi, sign in zones if hi == stick.x1]
+    right = [sign for lo, _, sign in zones if lo == stick.x2]
+    signs = (left or [0.0])[-1], (right or [0.0])[-1]
+    pressure = history.plain(*point.loads.normal).slope_density
+    shear, marks = state.shear, (*state.levels, *state.shear.breaks)
+    if shear is not ZERO:  # on panels, as a step evaluates it often
+        shear = PanelShear(contact, shear, marks, loads[0])
+    return Held(*loads, pressure, shear, stick, signs, marks)
 
 
 def step_shift(history: Followed, index: int) -> float:
     """The shift that slip adds in one step."""
     state = history.turning_points[index]
+    if state.marched:
+        if index and history.turning_points[index - 1].loads.normal != state.loads.normal:
+            raise ContactError(
+                f"step {index} of the path was marched while P or the tilt changed: the shift that "
+                "slip adds in it is not covered",
+                step=index,
+            )
+        return sum(part.shift for part in state.marched)
     if any(any(o.surface) for event in state.slips for o in event.layers):
         return ChangingContact(history, index).shift
 
@@ -227,6 +306,8 @@ def step_slip(history: Followed, index: int, x: Array) -> Array:
     """The slip in one step, where x was in contact all along it."""
     state = history.turning_points[index]
     normal, out = state.loads.normal, np.zeros(x.shape)
+    for part in state.marched:
+        out += part.slip(x)
     if state.last is not None:  # zones that slipped before have left the contact
         for o in state.last.layers:
             for depth, sign in ((o.lower, 1.0), (o.upper, -1.0)):

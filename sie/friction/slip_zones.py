@@ -89,6 +89,14 @@ class EdgeFrame:
         return slip_zone(self, length)
 
 
+class SeenFromEdge(Protocol):
+    """What acts at distances from an edge, and the distances at which it is not smooth."""
+
+    @property
+    def breaks(self) -> Array: ...
+    def pressure(self, distance: Array) -> Array: ...
+
+
 class Frame(Protocol):
     """An edge at which a slip zone of any length can begin."""
 
@@ -160,7 +168,7 @@ class SlipZone:
         return 0.5 * self.length * (1.0 + u), strength
 
 
-def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
+def slip_zone(frame: SeenFromEdge, length: float) -> SlipZone:
     """The slip zone of this length at an edge: s = edge - length cos²(ψ/2).
 
     It is graded towards the stick zone and towards breaks.
@@ -270,12 +278,17 @@ def _length(
 ) -> float:
     """The length of zone k (0 left, 1 right) for the other one as it is."""
     other = frames[1 - k].zone(lengths[1 - k])
+
+    def missed(length: float) -> float:
+        return excess(frames[k].zone(length), other, r, drive, k)
+
+    return increasing_root(missed, lengths[k], 2.0 * r - other.length)
+
+
+def excess(zone: SlipZone, other: SlipZone, r: float, drive: Drive, k: int) -> float:
+    """By what two zones fail the equation of the first one, zone k (0 left, 1 right)."""
     sign, others, outward = (drive.right, drive.left, -1.0) if k else (drive.left, drive.right, 1.0)
-
-    def excess(length: float) -> float:
-        rho = r - 0.5 * (length + other.length)
-        return frames[k].zone(length).strong(rho) + sign * (
-            others * other.weak(rho) - drive.load - outward * rho * drive.strain
-        )
-
-    return increasing_root(excess, lengths[k], 2.0 * r - other.length)
+    rho = r - 0.5 * (zone.length + other.length)
+    return zone.strong(rho) + sign * (
+        others * other.weak(rho) - drive.load - outward * rho * drive.strain
+    )

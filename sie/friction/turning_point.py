@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from .marched_step import MarchedStep
 from .memory import LoadMemory, SlipEvent
 
 
@@ -40,6 +41,8 @@ class TurningPoint:
     slips       the slip since the last turning point, in the order of time
     turned      whether slip has opposite signs at the two edges
     straight    whether S changed in one proportion, at constant P and tilt, since it was 0
+    marched     the parts of the last step in the order of time, where no layers answer it
+    why         why they do not
     """
 
     loads: Loads
@@ -47,6 +50,8 @@ class TurningPoint:
     slips: tuple[SlipEvent, ...] = ()
     turned: bool = False
     straight: bool = True
+    marched: tuple[MarchedStep, ...] = ()
+    why: str = ""
 
     @property
     def last(self) -> SlipEvent | None:

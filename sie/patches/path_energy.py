@@ -13,14 +13,19 @@ from typing import Protocol
 
 import numpy as np
 
+from sie.errors import ContactError
 from sie.friction import changing_contact
 from sie.friction.changing_contact import ChangingContact
 from sie.friction.dissipation import Dissipation, dissipated
+from sie.friction.marched_step import MarchedStep
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
+from sie.friction.receding_step import Receded
 from sie.friction.slip_state import Slip
-from sie.friction.turning_point import TurningPoint
+from sie.friction.turning_point import Loads, TurningPoint
+from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
+from sie.traction.of_slope import SlopeDensity
 
 from .dissipation import PatchDissipation
 
@@ -31,11 +36,17 @@ class Followed(changing_contact.Followed, Protocol):
     first_loading    the state of a contact that was never sheared before S rose to a depth
     dissipation      the energy of layers at one tilt, in one patch
     work_in_patches  the same in several patches
+    pressure_at      the pressure under loads, in one patch
+    sheared_by       Q and τ of loads
+    march            the turning point after a step that no layers answer
     """
 
     def first_loading(self, normal: tuple[float, float], depth: complex, turned: bool) -> Slip: ...
     def dissipation(self, turn: float) -> Dissipation: ...
     def work_in_patches(self, turn: float) -> PatchDissipation: ...
+    def pressure_at(self, loads: Loads) -> SlopeDensity: ...
+    def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    def march(self, before: TurningPoint, loads: Loads) -> TurningPoint: ...
 
 
 class PathEnergy:
@@ -59,6 +70,9 @@ class PathEnergy:
         upright: dict[float, list[tuple[int, SlippedLayer]]] = {}
         for k in steps:
             state = path.turning_points[k]
+            if state.marched or _untimed(state):
+                lost[k] += self._of_march(k)
+                continue
             for event in state.slips:
                 for o in event.layers:
                     depths = o.upper, o.lower, *o.surface
@@ -74,6 +88,42 @@ class PathEnergy:
             for k, o, done in zip(owners, layers, works.tolist(), strict=True):
                 lost[k] += o.jump * done
         return list(lost.values())
+
+    def _of_march(self, index: int) -> float:
+        """The energy that a step dissipated, by marching."""
+        path, before = self.path, self.path.turning_points[index - 1]
+        start, end = before.loads, path.turning_points[index].loads
+        parts = path.turning_points[index].marched or self._march(index)
+        if start.normal == end.normal:
+            return sum(part.work for part in parts)
+        if path.curved:
+            raise ContactError(
+                f"step {index} of the path, to {end}: it is marched, the tilt follows from the "
+                "moment, and the energy lost meanwhile is not covered; give tilt instead",
+                step=index,
+            )
+        part = parts[0]
+        assert isinstance(part, Receded)
+        dP, strain = end.P - start.P, 0.5 * path.scene.Estar * (end.turn - start.turn)
+        rates = dP, part.Q - part.before.Q, part.tau - part.before.tau, strain
+
+        def power(share: float) -> float:
+            loads = start.towards(end, share)
+            return part.under(path.pressure_at(loads), path.sheared_by(loads)).power(rates)
+
+        return integral(power, power(0.5))
+
+    def _march(self, index: int) -> tuple[MarchedStep, ...]:
+        """The parts of a step that layers answer at its end, but not on the way."""
+        before, state = self.path.turning_points[index - 1 : index + 1]
+        try:
+            return self.path.march(before, state.loads).marched
+        except ContactError:
+            step = ChangingContact(self.path, index)
+            step.refuse(
+                "the energy lost meanwhile depends on the way; the state at its end does not"
+            )
+            raise
 
     def _of_states(self, index: int, o: SlippedLayer, sign: float) -> float:
         """The energy that an overwritten layer dissipated, per jump.
@@ -102,3 +152,10 @@ class PathEnergy:
             return 0.0
         found = self.path.first_loading(state.loads.normal, depth, state.turned)
         return dissipated(found)
+
+
+def _untimed(state: TurningPoint) -> bool:
+    """Whether layers do not say how a step went on while the pressure changed."""
+    return any(
+        not event.timed and any(any(o.surface) for o in event.layers) for event in state.slips
+    )

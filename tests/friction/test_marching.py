@@ -1,0 +1,224 @@
+"""Steps that no layers answer: against closed forms and layers, by laws, and on a mesh."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import sie
+from oracles.kalker import Mesh
+from oracles.load_history import history as on_a_mesh
+from sie.friction.load_steps import loads_of, turning_points
+from sie.history import History
+
+P0, f = np.pi / 4.0, 0.3
+F, S = f * P0, 4.0 * f * P0 / np.pi
+HERTZ = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=P0, friction=f)
+LOPSIDED = replace(HERTZ, profile=sie.Polynomial((0.0, 0.0, 0.5, 0.1, 0.125)))
+# Points are (P/P0, Q/F, σ/S, tilt).
+MEAN_STRESS = [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)]
+TURNED = [(1, 0.4, 0), (1, 0.4, 0.25), (1, 0.4, -0.25)]
+TRAVELLING = [(1, 0, 0), (1, 0.5, 3)]
+TO_THE_EDGE = [(1, 0, 0), (1, 0.67, 0.9)]
+TOGETHER = [(1, 0, 0, 0), (1.2, 0.55, 0.1, -0.02), (0.9, -0.3, -0.1, 0.02), (1.2, 0.55, 0.1, -0.02)]
+
+
+def followed(scene, points, parts=1):
+    return sie.follow(scene, path_of(points).subdivided(parts))
+
+
+def path_of(points):
+    tilt = [point[3] for point in points] if len(points[0]) == 4 else ()
+    return sie.Path([(P * P0, Q * F, sigma * S) for P, Q, sigma, *_ in points], tilt=tilt)
+
+
+def all_marched(scene, points):
+    """The same, every step but the first one marched."""
+
+    def steps(scene, path, contacts):
+        found = [turning_points(scene, path, contacts)[0]]
+        for loads in loads_of(path)[1:]:
+            found.append(contacts.march(found[-1], loads))
+        return tuple(found)
+
+    return History(scene, path_of(points), 1e-13, sie.history.ECONOMY, steps)
+
+
+def inside(solution, n=41):
+    """Points of the contact away from its edges, where q falls like a square root."""
+    x1, x2 = solution.edges
+    return 0.5 * (x1 + x2) + 0.49 * (x2 - x1) * np.linspace(-1.0, 1.0, n)
+
+
+# -- closed forms and layers ----------------------------------------------------------------------
+
+LAYERED = {
+    "Q falls and rises": [(1, 0, 0), (1, 0.5, 0), (1, -0.4, 0), (1, 0.2, 0)],
+    "all fall": [(1, 0.4, 0.1), (0.7, 0.3, 0.3)],
+    "in phase": [(1, 0, 0), (1.2, 0.55, 0.1), (0.9, -0.3, -0.1)],
+    "both directions": [(1, 0, 0), (1, 0, 0.6), (1, 0, -0.3)],
+    "both directions, P falls": [(1, 0, 0), (0.8, 0.05, 0.5)],
+    "in turn": [(1, 0.4, 0), (1, 0, 0.2), (1, -0.4, 0)],
+}
+
+
+@pytest.mark.parametrize("case", LAYERED)
+@pytest.mark.parametrize("scene", [HERTZ, LOPSIDED], ids=["Hertz", "lopsided"])
+def test_marching_gives_what_layers_give(case, scene):
+    by_layers, marched = followed(scene, LAYERED[case])[-1], all_marched(scene, LAYERED[case])[-1]
+    x = inside(by_layers)
+    assert marched.stick[0] == pytest.approx(by_layers.stick[0], abs=1e-11)
+    assert marched.shear(x) == pytest.approx(by_layers.shear(x), abs=1e-12)
+    assert marched.slip(x) == pytest.approx(by_layers.slip(x), abs=1e-11)
+    assert marched.check().ok
+
+
+@pytest.mark.parametrize("case", LAYERED)
+def test_the_energy_of_a_march_is_that_of_layers(case):
+    by_layers, marched = (run(HERTZ, LAYERED[case])[-1] for run in (followed, all_marched))
+    assert marched.energy_lost == pytest.approx(by_layers.energy_lost, rel=1e-8)
+
+
+def test_a_cycle_under_a_mean_bulk_stress_settles_at_the_zone_of_its_range():
+    """From the second turn on q swings as without σ: c² = 1 - |Q|/(f P), Mindlin's cycle."""
+    history, alone = (
+        followed(HERTZ, MEAN_STRESS),
+        followed(HERTZ, [(*p[:2], 0) for p in MEAN_STRESS]),
+    )
+    assert history[3].stick[0] == pytest.approx((-np.sqrt(0.5), np.sqrt(0.5)), abs=1e-12)
+    change, due = (h[3].energy_lost - h[2].energy_lost for h in (history, alone))
+    assert change == pytest.approx(due, rel=1e-9)
+
+
+def test_loads_together_settle_in_the_steady_cycle():
+    history = followed(LOPSIDED, TOGETHER)
+    points = [(*loads[:3], turn) for loads, turn in zip(history.path.points, history.path.tilt)]
+    cycle = sie.steady_cycle(LOPSIDED, points[1], points[2])
+    x = np.linspace(-0.7, 0.7, 41)
+    assert history[3].stick[0] == pytest.approx(cycle.stick[0], abs=1e-11)
+    swing = np.abs(history[3].shear(x) - history[2].shear(x))
+    assert swing == pytest.approx(cycle.shear_range(x), abs=1e-12)
+
+
+def test_a_stick_zone_that_travels_has_the_width_of_its_rates():
+    """2 |dQ/(π dτ)|, τ = σ/4."""
+    solution = followed(HERTZ, TRAVELLING)[-1]
+    (c1, c2), (_, Q, sigma) = solution.stick[0], solution.history.path.points[-1]
+    assert c2 - c1 == pytest.approx(2.0 * Q / (np.pi * 0.25 * sigma), rel=1e-12)
+
+
+# -- laws -----------------------------------------------------------------------------------------
+
+ALL = [MEAN_STRESS, TURNED, TRAVELLING, TO_THE_EDGE]
+
+
+@pytest.mark.parametrize("points", [*ALL, TOGETHER])
+def test_a_marched_state_satisfies_its_equations(points):
+    for solution in followed(HERTZ, points):
+        certificate = solution.check()
+        assert certificate.ok
+        assert certificate.shear.residual <= 1e-10 and certificate.shear.equilibrium <= 1e-12
+
+
+@pytest.mark.parametrize("points", ALL)
+def test_a_marched_path_in_parts_ends_in_the_same_state(points):
+    whole, parts = (followed(LOPSIDED, points, n)[-1] for n in (1, 3))
+    x = inside(whole)
+    assert parts.stick[0] == pytest.approx(whole.stick[0], abs=1e-9)
+    assert parts.shear(x) == pytest.approx(whole.shear(x), abs=1e-10)
+    assert parts.slip(x) == pytest.approx(whole.slip(x), abs=1e-9)
+    assert parts.energy_lost == pytest.approx(whole.energy_lost, rel=1e-7)
+
+
+@pytest.mark.parametrize("points", ALL)
+def test_a_marched_path_of_mirrored_loads_has_the_mirrored_answer(points):
+    mirrored = replace(LOPSIDED, profile=LOPSIDED.profile.mirrored())
+    here = followed(LOPSIDED, points)[-1]
+    there = followed(mirrored, [(P, -Q, sigma) for P, Q, sigma in points])[-1]
+    x = inside(here)
+    assert there.stick[0] == pytest.approx(tuple(-c for c in here.stick[0][::-1]), abs=1e-9)
+    assert there.shear(-x) == pytest.approx(-here.shear(x), abs=1e-10)
+    assert there.energy_lost == pytest.approx(here.energy_lost, rel=1e-8)
+
+
+PERCENT = st.integers(-100, 100)
+
+
+@settings(max_examples=6, deadline=None)
+@given(
+    st.lists(
+        st.tuples(st.just(1.0), PERCENT.map(lambda k: 0.007 * k), PERCENT.map(lambda k: 0.005 * k)),
+        min_size=2,
+        max_size=3,
+    )
+)
+def test_a_random_path_keeps_to_friction_and_balance(points):
+    try:
+        solution = followed(LOPSIDED, [(1, 0, 0), *points])[-1]
+    except sie.ContactError:
+        assume(False)
+    x = inside(solution, 101)
+    bound = f * solution.pressure(x)
+    assert (np.abs(solution.shear(x)) <= bound + 1e-9).all()
+    assert solution.check().ok
+
+
+def test_the_energy_of_a_closed_march_is_the_area_of_its_loop():
+    """∮Q dδ at constant σ, by Simpson's rule in an angle."""
+    n = 9
+    share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, n)))
+    turns = [*MEAN_STRESS, MEAN_STRESS[2]]
+    area = 0.0
+    for k, (a, b) in enumerate(pairwise(turns[2:]), start=2):
+        branch = [tuple(np.add(a, t * np.subtract(b, a))) for t in share[1:]]
+        states = followed(HERTZ, [*turns[: k + 1], *branch])[k:]
+        shift = np.array([state.shift for state in states])
+        Q = np.array([state.tangential_load for state in states])
+        angle = np.linspace(0.0, np.pi, n)
+        rate = np.where(np.arange(n) % 2, 4.0, 2.0) * np.sin(angle) * 0.5 * np.pi / (n - 1) / 3.0
+        area += Q[-1] * shift[-1] - Q[0] * shift[0] - (Q[-1] - Q[0]) * float(rate @ shift)
+    history = followed(HERTZ, turns)
+    assert area == pytest.approx(history[4].energy_lost - history[2].energy_lost, rel=5e-3)
+
+
+# -- a mesh ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("points", [*ALL, TOGETHER])
+def test_a_mesh_comes_near_the_marched_shear_and_energy(points):
+    """To the first order of its elements and increments."""
+    states, mesh = followed(LOPSIDED, points), Mesh((-1.25, 1.25), 80, 1.0)
+    loads = [(*point, 0.0)[:4] for point in points]
+    given = [(P * P0, Q * F, sigma * S, tilt) for P, Q, sigma, tilt in loads]
+    found = on_a_mesh(mesh, LOPSIDED.profile.height, f, given, 16)
+    for state, true in zip(states, found, strict=True):
+        assert np.abs(state.shear(mesh.x) - true.shear).mean() <= 0.006 * 0.5 * f
+    assert states[-1].energy_lost == pytest.approx(found[-1].energy, rel=0.02)
+
+
+# -- what is told ---------------------------------------------------------------------------------
+
+
+def test_the_certificate_says_that_a_state_was_marched_and_how_well_its_ends_are_known():
+    told = str(followed(HERTZ, TURNED)[1].check())
+    assert "marched, as slip turns at one edge" in told and "of its half-width" in told
+
+
+def test_a_path_says_which_steps_are_marched():
+    plan = str(followed(HERTZ, TURNED[:2]).plan)
+    assert "layers" in plan.splitlines()[0] and "marched: slip turns" in plan.splitlines()[1]
+
+
+def test_a_second_zone_of_slip_is_refused_with_the_loads_at_which_it_opens():
+    with pytest.raises(sie.ContactError, match=r"step 2 .*second zone of slip opens") as refused:
+        followed(HERTZ, [*TRAVELLING, (1, -0.5, -3)])
+    assert 0.0 < refused.value.reached["share"] < 0.01 and refused.value.reached["step"] == 2
+
+
+def test_slip_at_points_that_a_marched_step_brings_into_contact_is_refused():
+    solution = followed(LOPSIDED, TOGETHER)[3]
+    with pytest.raises(sie.ContactError, match="was marched, and brings x"):
+        solution.slip(solution.edges)
