@@ -490,6 +490,13 @@ def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contac
     assert (work[1:] > 0.0).all() and steady.slip_range(1.2) == 0.0
 
 
+def test_the_shift_while_a_front_passes_an_earlier_one_is_that_of_the_step_in_parts():
+    shares = (0.0, 1.0, -1.0, 0.02, -0.25, 1.0)
+    points = [(1.0 - 0.037 * t, 0.465 * t, -0.05 * t, 0.007 * t) for t in shares]
+    whole, parts = followed(LOPSIDED, points), followed(LOPSIDED, points, 3)
+    assert whole[-1].shift == pytest.approx(parts[-1].shift, rel=1e-10)
+
+
 @pytest.mark.parametrize("moments", [(0.0, 0.02), (0.0, 0.0)], ids=["given", "none"])
 def test_energy_and_shift_at_a_given_moment_are_those_of_the_tilts_that_carry_it(moments):
     """A path of so many straight parts in the tilt is off by their square: extrapolated."""
