@@ -31,7 +31,7 @@ from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
 from .history import History
 from .numerics.zones import within
-from .problem.load_path import Path
+from .problem.load_path import Path, loads_at
 from .problem.path_scene import refuse_uncovered
 from .problem.request import ECONOMY
 from .problem.scene import Scene
@@ -42,6 +42,7 @@ from .traction.base import Density, on_line
 from .traction.combination import superposed
 
 Array = NDArray[np.float64]
+TOUCHING = "the bodies must touch all along the cycle; give P > 0"
 
 
 def steady_cycle(
@@ -95,7 +96,10 @@ def _point(name: str, point: Sequence[float]) -> tuple[tuple[float, ...], float]
     values = arguments.listed(name, point, "(P, Q, σ) or (P, Q, σ, tilt)")
     if len(values) not in (2, 3, 4):
         raise ValueError(f"{name} = {point!r}: give (P, Q, σ) or (P, Q, σ, tilt)")
-    return values[:3], arguments.measure(f"tilt of {name}", values[3]) if len(values) == 4 else 0.0
+    loads = loads_at(name, values[:3], TOUCHING)
+    if loads[0] == 0.0:
+        raise ValueError(f"P of {name} = 0 is not positive: {TOUCHING}")
+    return loads, arguments.measure(f"tilt of {name}", values[3]) if len(values) == 4 else 0.0
 
 
 class SteadyCycle(Sequence["SteadyState"]):

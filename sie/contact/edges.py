@@ -143,21 +143,19 @@ class Search:
 
     def touch(self) -> tuple[float, float]:
         """[z1, z2] where H = 0: the lowest points of the profile."""
-        return self._touch
+        if self.axis is None:
+            return self._lowest
+        z = next((lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1])
+        z = max(z, self.axis)
+        if math.isinf(z):
+            raise LoadError(
+                "the profile is flat without end: its contact has no edges; give a profile that "
+                "rises"
+            )
+        return 2.0 * self.axis - z, z
 
     @cached_property
-    def _touch(self) -> tuple[float, float]:
-        if self.axis is not None:
-            z = next(
-                (lo for lo, hi, _, _ in self.slope.rows if hi > self.axis), self.slope.domain[1]
-            )
-            z = max(z, self.axis)
-            if math.isinf(z):
-                raise LoadError(
-                    "the profile is flat without end: its contact has no edges; give a profile "
-                    "that rises"
-                )
-            return 2.0 * self.axis - z, z
+    def _lowest(self) -> tuple[float, float]:
         return lowest_points(self.slope)
 
     # -- symmetric contact -------------------------------------------------------------------------
@@ -200,7 +198,7 @@ class Search:
         )
         return contact if settled else None
 
-    @cached_property
+    @property
     def polish(self) -> Polish:
         return Polish(self.slope, self.integrals, self.epsilon)
 

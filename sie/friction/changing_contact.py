@@ -87,7 +87,9 @@ class ChangingContact:
         self.start, self.end = path.turning_points[index - 1].loads, self.state.loads
         self.rise = path.level(self.end) - path.level(self.start)
         self._states: dict[tuple[Loads, complex], Slip] = {}
-        self._edges, self._fronts = KnownZones(), KnownZones()
+        self._edges = KnownZones()
+        # In each layer: where a front passes an earlier one the zone jumps.
+        self._fronts: dict[SlippedLayer, KnownZones] = {}
 
     def slip_of_new(self, x: Array) -> Array:
         """The slip at the end of the step at x, which came into contact in it."""
@@ -177,7 +179,7 @@ class ChangingContact:
     def _front_zone(self, o: SlippedLayer, sign: float, share: float) -> Interval:
         """The stick zone that a front in a layer has reached at a share of the step."""
         level = self.path.level(self.end) - self._front(o, sign, share)
-        return self._zone(level, share, self._fronts)
+        return self._zone(level, share, self._fronts.setdefault(o, KnownZones()))
 
     def _zone(self, level: complex, share: float, near: KnownZones) -> Interval:
         """The contact of a level; `near` are those at other shares of the step."""

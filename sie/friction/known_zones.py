@@ -37,4 +37,5 @@ class KnownZones:
                 t = (depth - at[k]) / (at[k + order] - at[k])
                 (a, b), (c, d) = moves[k], moves[k + 1]
                 moves[k] = (a + t * (c - a), b + t * (d - b))
-        return base.moved(*moves[0])
+        zone = base.moved(*moves[0])
+        return zone if zone.x1 < zone.x2 else None

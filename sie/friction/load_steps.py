@@ -63,12 +63,14 @@ def loads_of(path: Path) -> list[Loads]:
     return [Loads(*point, turn) for point, turn in zip(path.points, path.turns, strict=True)]
 
 
-def named(k: int, loads: Loads, step: Callable[[], Result]) -> Result:
+def named(
+    k: int, loads: Loads, step: Callable[[], Result], place: str = "step {} of the path, to"
+) -> Result:
     try:
         return step()
     except ContactError as problem:
         raise type(problem)(
-            f"step {k} of the path, to {loads}: {problem}", **problem.reached | {"step": k}
+            f"{place.format(k)} {loads}: {problem}", **problem.reached | {"step": k}
         ) from None
 
 
@@ -86,7 +88,8 @@ def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turni
     """
     first, second, last = loads_of(path)
     for k, loads in enumerate((first, second)):
-        named(k, loads, partial(refuse_sliding, scene.friction, loads.P, loads.Q))
+        slides = partial(refuse_sliding, scene.friction, loads.P, loads.Q)
+        named(k, loads, slides, f"the cycle at {'AB'[k]},")
     rise = simple(contacts.level(second) - contacts.level(first))
     pull = simple(contacts.shear(second) - contacts.shear(first))
     start = TurningPoint(first, LoadMemory(contacts.level(first)))
@@ -105,7 +108,7 @@ def steady_points(scene: Scene, path: Path, contacts: Followable) -> tuple[Turni
         sign, before = s if k == 2 else -s, found[-1]
         step = Step(contacts, before, loads, *((rise, pull) if k == 1 else (-rise, -pull)))
         turned_back = step.upright if upright else partial(step.reversed, sign)
-        found.append(named(k, loads, turned_back))
+        found.append(named(k, loads, turned_back, f"the cycle on the way to {'ABA'[k]},"))
     return tuple(found)
 
 

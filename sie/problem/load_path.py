@@ -12,6 +12,8 @@ from sie import arguments
 
 MOST_POINTS = 10**6  # of a path cut into parts
 TOUCHING = "the bodies must touch all along the path, which may begin at (0, 0, 0)"
+# as of a scene
+LARGEST = ("P", arguments.LARGEST_LOAD), ("Q", arguments.LARGEST_LOAD), ("σ", arguments.LARGEST)
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ class Path:
         moment: Iterable[float] = (),
     ) -> None:
         given = arguments.listed("points", points, "[(P, Q, σ), ...]")
-        found = tuple(_point(k, point) for k, point in enumerate(given))
+        found = tuple(loads_at(f"point {k}", point) for k, point in enumerate(given))
         if not found:
             raise ValueError("the path has no points: give [(P, Q, σ), ...]")
         touching = next((k for k, (P, _, _) in enumerate(found) if P > 0.0), None)
@@ -148,17 +150,20 @@ def _of_points(name: str, values: Any, number: int) -> tuple[float, ...]:
     return tuple(arguments.measure(f"{name} of point {k}", v) for k, v in enumerate(given))
 
 
-def _point(k: int, point: Any) -> tuple[float, float, float]:
+def loads_at(place: str, point: Any, touching: str = TOUCHING) -> tuple[float, float, float]:
+    """(P, Q, σ) of a point that messages name by its place. Raises ValueError for no loads."""
     try:
         values = tuple(point)
     except TypeError:
         values = ()
     if len(values) not in (2, 3):
-        raise ValueError(f"point {k} of the path is {point!r}: give (P, Q) or (P, Q, σ)")
+        raise ValueError(f"{place} of the path is {point!r}: give (P, Q) or (P, Q, σ)")
     P, Q, sigma = (
-        arguments.finite(f"{name} of point {k}", v)
-        for name, v in zip("PQσ", (*values, 0.0)[:3], strict=True)
+        arguments.measure(f"{name} of {place}", v, largest)
+        for (name, largest), v in zip(LARGEST, (*values, 0.0)[:3], strict=True)
     )
     if P < 0.0 or (P == 0.0 and (Q != 0.0 or sigma != 0.0)):
-        raise ValueError(f"P of point {k} = {P:g} is not positive: {TOUCHING}")
+        raise ValueError(f"P of {place} = {P:g} is not positive: {touching}")
+    if P:
+        arguments.positive(f"P of {place}", P, arguments.LARGEST_LOAD)
     return P, Q, sigma

@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 import sie
 from oracles.kalker import Mesh
 from oracles.load_history import history as on_a_mesh
+from sie.contact import edges
+from sie.io import scene_file
 
 P0, f = np.pi / 4.0, 0.3
 F, S = f * P0, 4.0 * f * P0 / np.pi
@@ -288,8 +290,9 @@ def test_means_of_shear_and_bulk_stress_do_not_change_a_steady_cycle(mean, tensi
 @pytest.mark.parametrize(
     ("A", "B", "said"),
     [
-        ((1, 0.5), (1, 1.2), "step 1 .*exceeds f P"),
-        ((1, 0.3, 0.3), (0.9, 0.28, -0.3), "does not recede at both ends"),
+        ((1, 0.5), (1, 1.2), "^the cycle at B, .*exceeds f P"),
+        ((1, -1.2), (1, 0.5), "^the cycle at A, .*exceeds f P"),
+        ((1, 0.3, 0.3), (0.9, 0.28, -0.3), "^the cycle on the way to B, .*does not recede at both"),
     ],
 )
 def test_a_cycle_without_one_permanent_stick_zone_is_refused(A, B, said):
@@ -297,10 +300,24 @@ def test_a_cycle_without_one_permanent_stick_zone_is_refused(A, B, said):
         sie.steady_cycle(HERTZ, *scaled([(*A, 0.0)[:3], (*B, 0.0)[:3]]))
 
 
-@pytest.mark.parametrize("point", [(1.0,), 3.0, (1.0, np.nan, 0.0), (1.0, 0.0, 0.0, np.inf)])
-def test_an_invalid_point_of_a_cycle_is_refused(point):
-    with pytest.raises(ValueError):
-        sie.steady_cycle(HERTZ, (P0, 0.1), point)
+@pytest.mark.parametrize("name", ["A", "B"])
+@pytest.mark.parametrize(
+    ("point", "said"),
+    [
+        ((1.0,), "{} = .*give"),
+        (3.0, "{} = 3.0"),
+        ((1.0, np.nan, 0.0), "Q of {} is nan"),
+        ((np.inf, 0.1, 0.0), "P of {} = inf"),
+        ((1.0, 0.0, 1e200), "σ of {} = 1e.200"),
+        ((1.0, 0.0, 0.0, np.inf), "tilt of {} = inf"),
+        ((0.0, 0.0), "P of {} = 0 is not positive.*give P > 0"),
+        ((-1.0, 0.0), "P of {} = -1 is not positive.*give P > 0"),
+    ],
+)
+def test_an_invalid_point_of_a_cycle_is_refused_by_its_name(point, said, name):
+    ends = {"A": (P0, 0.1), "B": (P0, -0.1)} | {name: point}
+    with pytest.raises(ValueError, match="^" + said.format(name)):
+        sie.steady_cycle(HERTZ, **ends)
 
 
 # -- refusals -------------------------------------------------------------------------------------
@@ -326,6 +343,54 @@ def test_an_invalid_point_of_a_cycle_is_refused(point):
 def test_a_step_that_is_not_covered_is_named(points, said):
     with pytest.raises((sie.ContactError, ValueError), match=said):
         followed(HERTZ, points)
+
+
+def by_rows(points, folder):
+    rows = ", ".join(str(list(row)) for row in points)
+    return in_a_scene_file(f"path = [{rows}]", folder)
+
+
+def by_columns(points, folder):
+    lines = "".join(",".join(map(str, row)) + "\n" for row in points)
+    (folder / "loads.csv").write_text("P,Q,sigma\n" + lines)
+    return in_a_scene_file('path = "loads.csv"', folder)
+
+
+def in_a_scene_file(loads, folder):
+    body = "[body]\nyoung = 2.0\npoisson = 0.0\n"
+    profile = '[profile]\nkind = "parabola"\nradius = 1.0\n'
+    file = scene_file.parse(f"{profile}{body}[load]\nfriction = {f}\n{loads}\n", folder=folder)
+    return sie.follow(file.scene, file.load_path)
+
+
+def in_python(points, folder):
+    return sie.follow(HERTZ, sie.Path(points))
+
+
+@pytest.mark.parametrize("door", [in_python, by_rows, by_columns])
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ([(P0, 0.1, 0.0), (0.0, 0.0, 0.0)], "P of point 1 = 0 .*must touch"),
+        ([(P0, 0.1, 0.0), (P0, 0.0, 0.0), (-P0, 0.0, 0.0)], "P of point 2 = -0.78.*must touch"),
+        ([(P0, 0.1, 0.0), (P0, 0.3, 0.0)], "step 1 .*exceeds f P"),
+        ([(P0, 0.1, 0.1), (1.1 * P0, 0.1, 0.0), (0.3 * P0, -0.1, 0.0)], "step 2 .*exceeds f P"),
+        ([(P0, 0.3, 0.0), (P0, 0.1, 0.0)], "step 0 .*exceeds f P"),
+        ([(P0, 0.1, 0.0), (P0, np.nan, 0.0)], "Q of point 1 is nan|lacks a value in line 3"),
+        ([(P0, 0.1, 0.0), (P0, 0.1, np.inf)], "σ of point 1 = inf|lacks a value in line 3"),
+        ([(P0, 0.1, 0.0), (1e300, 0.1, 0.0)], "P of point 1 = 1e.300"),
+        ([(P0, 0.1, 0.0), (1e-300, 0.0, 0.0)], "P of point 1 = 1e-300"),
+    ],
+)
+def test_a_path_that_cannot_be_is_refused_with_its_step_before_any_work(
+    points, said, door, tmp_path, monkeypatch
+):
+    def worked(*_):
+        raise AssertionError("a contact was solved")
+
+    monkeypatch.setattr(edges, "edge_integrals", worked)
+    with pytest.raises((ValueError, sie.ContactError), match=said):
+        door(points, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -424,6 +489,13 @@ def test_the_slip_range_of_a_steady_cycle_holds_for_points_that_leave_the_contac
     assert steady.slip_range(x) == pytest.approx(slip.max(axis=0) - slip.min(axis=0), abs=1e-12)
     work = sie.Cycle(steady).friction_work(x)
     assert (work[1:] > 0.0).all() and steady.slip_range(1.2) == 0.0
+
+
+def test_the_shift_while_a_front_passes_an_earlier_one_is_that_of_the_step_in_parts():
+    shares = (0.0, 1.0, -1.0, 0.02, -0.25, 1.0)
+    points = [(1.0 - 0.037 * t, 0.465 * t, -0.05 * t, 0.007 * t) for t in shares]
+    whole, parts = followed(LOPSIDED, points), followed(LOPSIDED, points, 3)
+    assert whole[-1].shift == pytest.approx(parts[-1].shift, rel=1e-10)
 
 
 @pytest.mark.parametrize("moments", [(0.0, 0.02), (0.0, 0.0)], ids=["given", "none"])
