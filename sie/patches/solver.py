@@ -28,7 +28,7 @@ from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
-from .state import Event, Findings, Given, State
+from .state import Event, Findings, Given, State, balances
 from .tension import tensions
 
 Array = NDArray[np.float64]
@@ -97,7 +97,7 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 
     def start(asked: Problem) -> State:
         state = touched(asked, tilt, cells)
-        if _balances(state, problem.given):
+        if balances(state, problem.given):
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
         both = [touched(asked, t, COARSE).patches for t in tilts]
@@ -248,13 +248,7 @@ def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
             return mended(state, found, pieces)
     left = after(event, state, pieces)
     # no pressure on what is left has the moment: the patches that shrink go on to shrink
-    return left if _balances(left, given) else state
-
-
-def _balances(state: State, given: Given) -> bool:
-    """Whether the given load acts between the outermost edges, as that of a pressure does."""
-    P = state.patches
-    return given.moment is None or bool(P.a[0] < given.moment / given.load < P.b[-1])
+    return left if balances(left, given) else state
 
 
 # -- continuation ----------------------------------------------------------------------------------
