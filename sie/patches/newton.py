@@ -28,7 +28,7 @@ from .operator import Operator, at_edges, gap_values
 from .panels import Patches
 from .pieces import Pieces
 from .repairs import after
-from .state import Event, Given, State
+from .state import Event, Given, State, balances
 
 Array = NDArray[np.float64]
 
@@ -195,7 +195,7 @@ def solve(
         event = _event(state, asked, damping.insists, pieces)
         if event is not None:
             fewer = after(event, state, pieces)
-            if fewer.patches.number >= state.patches.number:
+            if fewer.patches.number >= state.patches.number or not balances(fewer, given):
                 return state, event, step + 1
             # what the other edges ask for is not changed by an event far from them
             damping, state = damping.carried(state, fewer)

@@ -28,8 +28,9 @@ from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
 from .start import grid_pressure
 from .start_state import start_of
-from .state import Event, Findings, Given, State
+from .state import Event, Findings, Given, State, balances
 from .tension import tensions
+from .window import COARSE, WIDENED, fitted_window, levels
 
 Array = NDArray[np.float64]
 
@@ -54,12 +55,6 @@ Start = Callable[[Problem], State]
 FEWEST_CELLS, MOST_CELLS = 2048, 1 << 18
 FINER = 8  # a second grid, if the first as a start leads nowhere
 CELLS = 1.5  # for each break in the window
-NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
-# ... where the slope is resolved to rounding of its largest value there
-FITTED = 0.18
-COARSE = 512  # cells of the grid on which the window is sought
-WINDOWS = 200
-WIDENED = 12  # times a window is widened, before the slope is said to rise too little
 # Windows beyond a window, and places there, at which the bodies must not overlap
 FAR, LOOKED_AT = 1e3, 4000
 
@@ -82,7 +77,7 @@ def contact(problem: Problem) -> Found:
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
     tilts = (problem.given.tilt,) * 2
     if problem.given.moment is not None:
-        tilts = _levels(problem, window)
+        tilts = levels(problem, window)
     tilt = 0.5 * (tilts[0] + tilts[1])
     cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
@@ -97,7 +92,7 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 
     def start(asked: Problem) -> State:
         state = touched(asked, tilt, cells)
-        if _balances(state, problem.given):
+        if balances(state, problem.given):
             return state
         # at this tilt the contact changes from one indenter to another: both carry the load
         both = [touched(asked, t, COARSE).patches for t in tilts]
@@ -249,13 +244,7 @@ def _after(event: Event, state: State, pieces: Pieces, given: Given) -> State:
             return mended(state, found, pieces)
     left = after(event, state, pieces)
     # no pressure on what is left has the moment: the patches that shrink go on to shrink
-    return left if _balances(left, given) else state
-
-
-def _balances(state: State, given: Given) -> bool:
-    """Whether the given load acts between the outermost edges, as that of a pressure does."""
-    P = state.patches
-    return given.moment is None or bool(P.a[0] < given.moment / given.load < P.b[-1])
+    return left if balances(left, given) else state
 
 
 # -- continuation ----------------------------------------------------------------------------------
@@ -315,99 +304,3 @@ def _turned(problem: Problem, pieces: Pieces, found: Found) -> Found:
                 return found
             now, step = wanted, 2.0 * step
     raise _unsettled(problem, found.state.patches.number, problem.given.load)
-
-
-# -- the window ------------------------------------------------------------------------------------
-
-
-def fitted_window(problem: Problem) -> tuple[float, float]:
-    """The interval of possible contact: the domain, or a part of it found on a coarse grid."""
-    if problem.chord.periodic:
-        return problem.domain[0], problem.domain[0] + problem.chord.period
-    lo, hi = _first_window(problem)
-    # the contact gets to the load by a tilt, and possibly by another indenter than the lowest
-    centre = None
-    if problem.given.moment is not None:
-        centre = problem.given.moment / problem.given.load
-        size = hi - lo
-        lo = max(min(lo, centre - size), problem.domain[0]) if centre < lo else lo
-        hi = min(max(hi, centre + size), problem.domain[1]) if centre > hi else hi
-    fitted = problem.by_slope and centre is None
-    widened, narrowest = 0, FITTED if fitted else NARROWEST
-    for _ in range(WINDOWS):
-        height = problem.tilted(problem.given.tilt, (lo, hi))
-        grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
-        x = grid.x[grid.p > 0.0]
-        a, b = x[0] - 0.5 * grid.dx, x[-1] + 0.5 * grid.dx
-        left, right = (
-            a - lo < 2.0 * grid.dx and lo > problem.domain[0],
-            hi - b < 2.0 * grid.dx and hi < problem.domain[1],
-        )
-        if left or right:
-            widened += 1
-            if widened > WIDENED:
-                break
-            lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
-            lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
-            continue
-        if b - a >= narrowest * (hi - lo) or not a <= (b if centre is None else centre) <= b:
-            return lo, hi
-        lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
-    raise LoadError(
-        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
-        f"{hi:.6g}]: "
-        "the slope rises too little, give a domain"
-    )
-
-
-def _first_window(problem: Problem) -> tuple[float, float]:
-    """The domain where it is bounded.
-
-    Otherwise the window extends about the breaks as far as the slope has to rise to carry the load.
-    """
-    lo, hi = problem.domain
-    if np.isfinite(lo) and np.isfinite(hi):
-        return lo, hi
-    finite = problem.breaks[np.isfinite(problem.breaks)]
-    first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    sizes = np.geomspace(1e-140, 1e140, 561)
-    with np.errstate(all="ignore"):
-        # a contact of half-width w under slopes of the size H carries about w H
-        right = sizes * (problem.slope(np.clip(last + sizes, lo, hi)) + problem.given.tilt)
-        left = -sizes * (problem.slope(np.clip(first - sizes, lo, hi)) + problem.given.tilt)
-        enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
-    size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
-    return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
-
-
-def _levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
-    """The tilts between which the load has the given moment, on a coarse grid.
-
-    M falls as the tilt grows.
-    """
-    assert problem.given.moment is not None
-    lo, hi = window
-
-    def moment(tilt: float) -> float:
-        grid = grid_pressure(
-            problem.tilted(tilt, window), window, COARSE, problem.given.load, False
-        )
-        return float((grid.p * grid.x).sum() * grid.dx) - problem.given.moment  # type: ignore[operator]
-
-    size = problem.given.load / (hi - lo)
-    now = moment(0.0)
-    if now == 0.0:
-        return 0.0, 0.0
-    sign = np.sign(now)
-    near, far = 0.0, sign * size
-    for _ in range(60):
-        if moment(far) * sign <= 0.0:
-            break
-        near, far = far, 2.0 * far
-    for _ in range(24):
-        middle = 0.5 * (near + far)
-        if moment(middle) * sign > 0.0:
-            near = middle
-        else:
-            far = middle
-    return near, far

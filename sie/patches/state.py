@@ -36,6 +36,12 @@ class State:
         return np.tile([-1.0, 1.0], self.patches.number)
 
 
+def balances(state: State, given: Given) -> bool:
+    """Whether the given load acts between the outermost edges, as that of a pressure does."""
+    P = state.patches
+    return given.moment is None or bool(P.a[0] < given.moment / given.load < P.b[-1])
+
+
 class Event(NamedTuple):
     """The event that stopped the search.
 

@@ -99,6 +99,19 @@ def test_a_grid_of_a_rough_profile_is_done_in_a_few_steps_on_each_level(monkeypa
     assert len(steps) < 3 * start.PRECONDITIONED * levels / 2
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_bodies_touch_where_a_grid_of_a_noisy_wave_has_pressure(seed):
+    """Noise brings some cells into contact at each step: the others come to rest all the same."""
+    cells, load, noise = 4096, 4.0, 0.003
+    x = (np.arange(cells) + 0.5) / cells
+    h = noise * np.random.default_rng(seed).standard_normal(cells) - 0.1 * np.cos(2.0 * np.pi * x)
+    p = start.grid_pressure(lambda at: np.interp(at, x, h), (0.0, 1.0), cells, load, True).p
+    displacement = start.System(
+        h, 1.0 / cells, load, start._influence(cells, 1.0 / cells, True)
+    ).displaced(p)
+    assert np.std((displacement + h)[p > 0.0]) < 1e-2 * noise
+
+
 def test_edges_that_no_event_touches_keep_what_they_asked_for():
     line = Chord()
     none, no = np.zeros(6), np.zeros(6, dtype=bool)

@@ -1,0 +1,110 @@
+"""The interval in which contact is looked for, and the tilts that a moment may lead to."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sie.errors import LoadError
+
+from .of_scene import Problem
+from .start import grid_pressure
+
+NARROWEST = 0.02  # of the window: what contact takes at least of a window that fits ...
+# ... where the slope is resolved to rounding of its largest value there
+FITTED = 0.18
+COARSE = 512  # cells of the grid on which the window is sought
+WINDOWS = 200
+WIDENED = 12  # times a window is widened, before the slope is said to rise too little
+
+
+def fitted_window(problem: Problem) -> tuple[float, float]:
+    """The interval of possible contact: the domain, or a part of it found on a coarse grid."""
+    if problem.chord.periodic:
+        return problem.domain[0], problem.domain[0] + problem.chord.period
+    lo, hi = _first_window(problem)
+    # the contact gets to the load by a tilt, and possibly by another indenter than the lowest
+    centre = None
+    if problem.given.moment is not None:
+        centre = problem.given.moment / problem.given.load
+        size = hi - lo
+        lo = max(min(lo, centre - size), problem.domain[0]) if centre < lo else lo
+        hi = min(max(hi, centre + size), problem.domain[1]) if centre > hi else hi
+    fitted = problem.by_slope and centre is None
+    widened, narrowest = 0, FITTED if fitted else NARROWEST
+    for _ in range(WINDOWS):
+        height = problem.tilted(problem.given.tilt, (lo, hi))
+        grid = grid_pressure(height, (lo, hi), COARSE, problem.given.load, False)
+        x = grid.x[grid.p > 0.0]
+        a, b = x[0] - 0.5 * grid.dx, x[-1] + 0.5 * grid.dx
+        left, right = (
+            a - lo < 2.0 * grid.dx and lo > problem.domain[0],
+            hi - b < 2.0 * grid.dx and hi < problem.domain[1],
+        )
+        if left or right:
+            widened += 1
+            if widened > WIDENED:
+                break
+            lo, hi = (lo - 2.0 * (hi - lo) if left else lo), (hi + 2.0 * (hi - lo) if right else hi)
+            lo, hi = max(lo, problem.domain[0]), min(hi, problem.domain[1])
+            continue
+        if b - a >= narrowest * (hi - lo) or not a <= (b if centre is None else centre) <= b:
+            return lo, hi
+        lo, hi = max(lo, a - 2.0 * (b - a)), min(hi, b + 2.0 * (b - a))
+    raise LoadError(
+        f"normal_load over E*/2 = {problem.given.load:.6g} makes contact reach beyond [{lo:.6g}, "
+        f"{hi:.6g}]: "
+        "the slope rises too little, give a domain"
+    )
+
+
+def _first_window(problem: Problem) -> tuple[float, float]:
+    """The domain where it is bounded.
+
+    Otherwise the window extends about the breaks as far as the slope has to rise to carry the load.
+    """
+    lo, hi = problem.domain
+    if np.isfinite(lo) and np.isfinite(hi):
+        return lo, hi
+    finite = problem.breaks[np.isfinite(problem.breaks)]
+    first, last = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+    sizes = np.geomspace(1e-140, 1e140, 561)
+    with np.errstate(all="ignore"):
+        # a contact of half-width w under slopes of the size H carries about w H
+        right = sizes * (problem.slope(np.clip(last + sizes, lo, hi)) + problem.given.tilt)
+        left = -sizes * (problem.slope(np.clip(first - sizes, lo, hi)) + problem.given.tilt)
+        enough = [np.flatnonzero(force >= problem.given.load) for force in (right, left)]
+    size = max((float(sizes[k[0]]) for k in enough if k.size), default=1.0)
+    return max(lo, first - 4.0 * size), min(hi, last + 4.0 * size)
+
+
+def levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
+    """The tilts between which the load has the given moment, on a coarse grid.
+
+    M falls as the tilt grows.
+    """
+    assert problem.given.moment is not None
+    lo, hi = window
+
+    def moment(tilt: float) -> float:
+        grid = grid_pressure(
+            problem.tilted(tilt, window), window, COARSE, problem.given.load, False
+        )
+        return float((grid.p * grid.x).sum() * grid.dx) - problem.given.moment  # type: ignore[operator]
+
+    size = problem.given.load / (hi - lo)
+    now = moment(0.0)
+    if now == 0.0:
+        return 0.0, 0.0
+    sign = np.sign(now)
+    near, far = 0.0, sign * size
+    for _ in range(60):
+        if moment(far) * sign <= 0.0:
+            break
+        near, far = far, 2.0 * far
+    for _ in range(24):
+        middle = 0.5 * (near + far)
+        if moment(middle) * sign > 0.0:
+            near = middle
+        else:
+            far = middle
+    return near, far
