@@ -63,6 +63,11 @@ class Zones(NamedTuple):
         """The length of the stick zone."""
         return self.e2 - self.e1
 
+    @property
+    def slipping(self) -> tuple[tuple[float, float, float], ...]:
+        """(side, end at the stick zone, edge) of both slip zones."""
+        return (-1.0, self.e1, self.x1), (1.0, self.e2, self.x2)
+
 
 class Rule(NamedTuple):
     """Places in the stick zone, their distances from its ends, and weights of (x - e1)^-a1 (e2 -
