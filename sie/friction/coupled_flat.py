@@ -96,15 +96,17 @@ class FlatPunch:
 
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
-    """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i
-    ratio.
+    """The number of nodes of a Gauss rule that resolves singularities at ±i ratio.
+
+    It holds for even functions on (-1, 1).
     """
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 
 def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
-    """Nodes on (0, 1), their distances from 1, and weights of functions with the powers a at 1 and
-    b at 0, whose nearest singularities are at half the interval's length times ratio.
+    """Nodes on (0, 1), their distances from 1, and weights for the powers a at 1 and b at 0.
+
+    The nearest singularities are at half the interval's length times ratio.
 
     A long interval is cut, as few nodes cost less to find.
     """
@@ -127,8 +129,9 @@ def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
 
 
 def _quarter(ratio: float, theta: float) -> tuple[Array, Array, Array]:
-    """Parts of the quarter period, what remains of it, and weights of even functions with the power
-    2θ at its end; K'/K is about ratio.
+    """Parts of the quarter period, what remains of it, and weights; K'/K is about ratio.
+
+    The rule is for even functions with the power 2θ at the end.
     """
     if ratio < LONG:
         return long_rule(2.0 * ratio, 2.0 * theta, 0.0)

@@ -62,8 +62,10 @@ def _power_of_zone(
 
 
 def tangential_energy(state: ShearedContact) -> float:
-    """The energy dissipated while Q grew at constant P. Raises ContactError where that is not
-    found to a part CERTIFIED."""
+    """The energy dissipated while Q grew at constant P.
+
+    Raises ContactError where that is not found to a part CERTIFIED.
+    """
     search = state.search
     end = math.asin(min(math.sqrt(state.Q / search.limit), 1.0))
 
@@ -140,8 +142,11 @@ def _adaptive(rate: Callable[[float], float], lo: float, hi: float) -> tuple[flo
 
 
 def tangential_shift(state: ShearedContact) -> float:
-    """The shift: that of γ by the logarithm of its shear, with ∫γ dx = β P/2 on either
-    side of the axis under P alone, less that of a bonded contact."""
+    """The shift, less that of a bonded contact.
+
+    It is that of γ by the logarithm of its shear, with ∫γ dx = β P/2 on either side of the axis
+    under P alone.
+    """
     from scipy.special import digamma  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
 
     search, start = state.search, state.trial.zones.e2

@@ -206,8 +206,10 @@ class TangentialSearch:
     # -- the search --------------------------------------------------------------------------------
 
     def found(self, Q: float) -> Trial:
-        """The state under Q. Raises ContactError where none has these zones, or slip would oppose Q
-        in them."""
+        """The state under Q.
+
+        Raises ContactError where none has these zones, or slip would oppose Q in them.
+        """
         answer = self._newton(self._start(Q), Q)
         if answer is not None and self.least_slip(answer) >= 0.0:
             return answer
@@ -234,8 +236,10 @@ class TangentialSearch:
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
-        """What the stick zone may reach: the contact under P alone on the left, its stick zone on
-        the right.
+        """The bounds of the stick zone.
+
+        On the left this is the edge of the contact under P alone, on the right the end of its stick
+        zone.
         """
         return -self.normal.b, self.normal.c
 
@@ -303,8 +307,10 @@ class TangentialSearch:
         )
 
     def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float, bool]:
-        """The state under Q, in steps of the load from that of another; else the last one that was
-        found, with its load, and whether slip would oppose Q under a smaller one.
+        """The state under Q, in steps of the load from that of another.
+
+        If a step finds none, it is the last one that was found, with the least load that has one,
+        and whether slip would oppose Q below it.
         """
         angle, end = (math.asin(math.sqrt(q / self.limit)) for q in (load, Q))
         stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)
