@@ -310,10 +310,12 @@ class Solution:
         """Zones of stick and slip, and the shear."""
         if self.scene.goodman:
             if self._several is not None:
+                where = f"in {len(self.patches)} patches"
+                if self.scene.profile.period < float("inf"):
+                    where = f"that repeats every {self.scene.profile.period:.6g}"
                 raise ContactError(
-                    f"contact in {len(self.patches)} patches with coupling = 'goodman': the shear "
-                    "in it follows from how one patch grew; give a convex profile, or dundurs = 0 "
-                    "to neglect β"
+                    f"contact {where} with coupling = 'goodman': the shear in it follows from how "
+                    "one patch grew; give a convex profile, or dundurs = 0 to neglect β"
                 )
             growth = ContactGrowth(self.scene, self.as_one_patch, self.economy)
             return goodman_slip(self.load_step(self.scene.tangential_load, 0.0), growth.search)

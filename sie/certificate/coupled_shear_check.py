@@ -91,7 +91,7 @@ def _of_shear(
         residual=drift,
         equilibrium=abs(float(values.weight @ values.q) - Q) / float(values.weight @ size),
         excess=max(excess, 0.0),
-        opposing=min(state.least_gain, 0.0),
+        opposing=min(state.least_slip, 0.0),
         abscissae=EPS + 16.0 * EPS * peak / float(size.max()),
         condition=1.0,
         advancing=True,

@@ -37,9 +37,10 @@ from sie.numerics.gauss_jacobi import gauss_jacobi, with_weight
 Array = NDArray[np.float64]
 
 # -ln of the error that a rule may leave: of even functions, and of others
-DIGITS, ACROSS = 38.0, 36.0
+DIGITS, ACROSS = 38.0, 46.0
 NEARER = 0.8  # of K'/K: the nearest singularity of weights and of what is derived from the solution
 SPARE = 4
+LONG = 0.4  # K'/K below it: a rule of all nodes at once would lose digits of its weights
 # Nodes of the double exponential rule for the logarithm in ε: its step, and where it is cut.
 STEP, LAST = 0.09, 42
 # Where 1 - c is less than this the punch sticks all over, to the resolution of doubles.
@@ -127,16 +128,27 @@ def _kernel(modulus: Modulus, one: Array, other: Array) -> Array:
     return kernel
 
 
+def _quarter(ratio: float, theta: float) -> tuple[Array, Array, Array]:
+    """Parts of the quarter period, what remains of it, and weights; K'/K is about ratio.
+
+    The rule is for even functions with the power 2θ at the end.
+    """
+    if ratio < LONG:
+        return long_rule(2.0 * ratio, 2.0 * theta, 0.0)
+    square, rest, weight = gauss_jacobi(nodes_for(NEARER * min(ratio, 1.5)), 2.0 * theta, -0.5)
+    part = np.sqrt(square)
+    return part, rest / (1.0 + part), 0.5 * weight * rest ** (-2.0 * theta)
+
+
 def _at_ratio(
-    tau: float, beta: float, friction: float, n: int, start: Array | None = None
+    tau: float, beta: float, friction: float, near: float, start: Array | None = None
 ) -> tuple[float, FlatPunch]:
-    """-ε (2 + ε) at K'/K = τ, and the punch with this stick zone."""
+    """-ε (2 + ε) at K'/K = τ, by the rule for `near`, and the punch with this stick zone."""
     theta = math.atan(beta * friction) / math.pi
     modulus = modulus_of_ratio(tau)
-    square, rest, weight = gauss_jacobi(n, 2.0 * theta, -0.5)
-    part = np.sqrt(square)
-    sn, cn, dn = elliptic_functions(modulus, part, rest / (1.0 + part))
-    W = modulus.K * weight * (cn / rest) ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
+    part, rest, weight = _quarter(near, theta)
+    sn, cn, dn = elliptic_functions(modulus, part, rest)
+    W = 2.0 * modulus.K * weight * cn ** (2.0 * theta) * dn ** (2.0 - 2.0 * theta)
     remainder = cn * cn
     kernel = _kernel(modulus, remainder, remainder) * W
     eigenvalue, v = _largest(kernel, 1.0 / dn if start is None else start)
@@ -187,17 +199,16 @@ def flat_punch(beta: float, friction: float) -> FlatPunch:
     """
     phase = _phase(beta, friction)
     guess = min(phase / math.atan(friction), WIDEST_RATIO)
-    n = nodes_for(NEARER * min(guess, 1.5))
     if guess == WIDEST_RATIO:
-        return _at_ratio(guess, beta, friction, n)[1]
+        return _at_ratio(guess, beta, friction, guess)[1]
     if guess < DOUBTFUL * NARROWEST_RATIO:
-        n = nodes_for(NEARER * NARROWEST_RATIO)
-        certain = guess < NARROWEST_RATIO / DOUBTFUL
-        if certain or _at_ratio(NARROWEST_RATIO, beta, friction, n)[0] > beta * beta:
-            friction = math.tan(phase / NARROWEST_RATIO)
-            friction = math.tan(_phase(beta, friction) / NARROWEST_RATIO)
-            return replace(_root(NARROWEST_RATIO, beta, friction, n), bonded=True)
-    return _root(guess, beta, friction, n)
+        narrowest = NARROWEST_RATIO
+        certain = guess < narrowest / DOUBTFUL
+        if certain or _at_ratio(narrowest, beta, friction, narrowest)[0] > beta * beta:
+            friction = math.tan(phase / narrowest)
+            friction = math.tan(_phase(beta, friction) / narrowest)
+            return replace(_root(narrowest, beta, friction), bonded=True)
+    return _root(guess, beta, friction)
 
 
 def _phase(beta: float, friction: float) -> float:
@@ -206,15 +217,15 @@ def _phase(beta: float, friction: float) -> float:
     return beta * (1.0 + square * (0.5 + square / 3.0 + 0.054 * math.atan(friction) ** 2))
 
 
-def _root(guess: float, beta: float, friction: float, n: int) -> FlatPunch:
+def _root(guess: float, beta: float, friction: float) -> FlatPunch:
     """The punch that meets the condition -ε (2 + ε) = β², by the secant method in ln K'/K."""
-    before, (value, punch) = math.log(guess), _at_ratio(guess, beta, friction, n)
+    before, (value, punch) = math.log(guess), _at_ratio(guess, beta, friction, guess)
     missed_before = value - beta * beta
     after = before - STEEPNESS * missed_before / (2.0 * value)
     for _ in range(MOST_STEPS):
         if abs(after - before) <= SETTLED:
             break
-        value, punch = _at_ratio(math.exp(after), beta, friction, n, punch.pressure)
+        value, punch = _at_ratio(math.exp(after), beta, friction, guess, punch.pressure)
         missed = value - beta * beta
         if missed == missed_before:
             break
@@ -223,5 +234,5 @@ def _root(guess: float, beta: float, friction: float, n: int) -> FlatPunch:
         settled = abs(step * (after - before)) <= SETTLED and abs(step) <= SETTLED**0.75
         before, missed_before, after = after, missed, after - step
         if settled:
-            return _at_ratio(math.exp(after), beta, friction, n, punch.pressure)[1]
+            return _at_ratio(math.exp(after), beta, friction, guess, punch.pressure)[1]
     return punch

@@ -218,18 +218,18 @@ class ShearedContact:
         return integral(self._gain, left), integral(self._gain, towards_ends(e2, x2, cuts))
 
     @property
-    def least_gain(self) -> float:
-        """The least slip under Q along Q in a slip zone, over the largest.
+    def least_slip(self) -> float:
+        """The least slip along Q in a slip zone, over the largest; positive by the friction law.
 
-        By the friction law it is positive. It is 0 where it is less than the error of γ.
+        It is that of the rate with Q, and that under Q of what was in contact before, which is left
+        out where it is less than the error of γ.
         """
-        left, right = self._gained
-        gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))
-        longest = max(float(np.ptp(zone.cuts)) for zone in (left, right))
-        least = float(gained.min())
-        if least > -RESOLVED * self.search.stress * longest:
-            return max(least, 0.0)
-        return least / float(np.abs(gained).max())
+        (left, right), (x1, e1, e2, x2) = self._gained, self.state.zones
+        gained = left(left.cuts[left.cuts >= -self.search.normal.b]) - left(left.cuts[-1:])
+        gained = np.append(gained, right(right.cuts))
+        least, rounding = float(gained.min()), RESOLVED * self.search.stress * max(e1 - x1, x2 - e2)
+        least = least / float(np.abs(gained).max()) if least < -rounding else 0.0
+        return min(least, self.search.least_slip(self.trial))
 
     def _gain(self, u: Array) -> Array:
         """γ - that under P alone, in slip."""

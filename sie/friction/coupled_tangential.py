@@ -31,6 +31,7 @@ from sie.contact.edge_integrals import edge_integrals
 from sie.contact.known_contact import Edges
 from sie.errors import ContactError
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import false_position
 from sie.problem.coverage import refuse_corners, refused_load
 from sie.problem.scene import Scene
 from sie.profiles.resolution import refined
@@ -42,6 +43,7 @@ from sie.traction.piece_quadrature import SlidingGeometry
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
 from .coupled_iteration import iterated
+from .coupled_slip_rate import SlipRate
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
 Array = NDArray[np.float64]
@@ -54,7 +56,7 @@ NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.99, 0.9, 0.5, 0.1)  # parts of f P from which the load is followed
 STRIDE, SHORTEST = 0.25, 1e-3  # of the angle whose sine squared is Q/(f P); and in parts of it
-LEAVING = 0.1  # of the slip zone, to the end of the contact under P: a stick zone that leaves it
+NAMED = 1e-4  # of the angle, or of the slip: the error of the least load that is named
 
 
 def sliding_pressure(
@@ -204,28 +206,33 @@ class TangentialSearch:
     # -- the search --------------------------------------------------------------------------------
 
     def found(self, Q: float) -> Trial:
-        """The state under Q. Raises ContactError where none has these zones."""
+        """The state under Q.
+
+        Raises ContactError where none has these zones, or slip would oppose Q in them.
+        """
         answer = self._newton(self._start(Q), Q)
-        if answer is not None:
+        if answer is not None and self.least_slip(answer) >= 0.0:
             return answer
-        least, leaves = math.inf, self._last_stick[0] == self._looked_at[0]
-        if leaves:  # surfaces beside the contact of P alone are the last to slip
+        least, spreads = math.inf, self._last_stick[0] == self._looked_at[0]
+        if spreads:  # surfaces beside the contact of P alone are the last to slip
             least = self.limit
         for part in FIRST:
             load = part * self.limit
-            if leaves or Q < least <= load:  # from there one arrives where one has been
+            if spreads or Q < least <= load:  # from there one arrives where one has been
                 continue
             first = self._newton(self._start(load), load)
-            if first is not None:
-                now, load = self._followed(first, load, Q)
+            if first is not None and self.least_slip(first) < 0.0:
+                least, spreads = min(least, self.limit), True
+            elif first is not None:
+                now, load, spreads = self._followed(first, load, Q)
                 if load == Q:
                     return now
-                least, leaves = min(least, load), self._leaves(now)
-        raise refused_load(self.beta * self.friction, (Q, least, self.limit), leaves)
+                least = min(least, load)
+        raise refused_load(self.beta * self.friction, (Q, least, self.limit), spreads)
 
-    def _leaves(self, trial: Trial) -> bool:
-        """Whether the stick zone nearly reaches the end of the contact under P alone."""
-        return trial.zones.e1 + self.normal.b < LEAVING * (trial.zones.e1 - trial.zones.x1)
+    def least_slip(self, trial: Trial) -> float:
+        """The least slip that Q + dQ adds along Q in a slip zone, over the largest."""
+        return SlipRate(trial.zones, self.beta, self.friction).least
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
@@ -299,14 +306,17 @@ class TangentialSearch:
             ]
         )
 
-    def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float]:
+    def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float, bool]:
         """The state under Q, in steps of the load from that of another.
 
-        If a step finds none, it is the last one that was found, with its load.
+        If a step finds none, it is the last one that was found, with the least load that has one,
+        and whether slip would oppose Q below it.
         """
         angle, end = (math.asin(math.sqrt(q / self.limit)) for q in (load, Q))
         stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)
         while abs(stride) > SHORTEST * min(angle, 1.0):
+            # Small loads are alike: as far as the angle halves
+            stride = math.copysign(min(abs(stride), 0.5 * max(angle, end)), stride)
             last = abs(end - angle) <= abs(stride)
             to = end if last else angle + stride
             aim = Q if last else self.limit * math.sin(to) ** 2
@@ -315,11 +325,28 @@ class TangentialSearch:
             if found is None:
                 stride = 0.5 * (to - angle)
                 continue
+            if self.least_slip(found) < 0.0:
+                return now, self._least_load((to, found), (angle, now)), True
             change = (found.edges - now.edges) / (to - angle)
             now, angle, load = found, to, aim
             if last:
                 break
-        return now, load
+        return now, load, False
+
+    def _least_load(self, opposing: tuple[float, Trial], along: tuple[float, Trial]) -> float:
+        """The load under which the least slip passes zero, between those of two states."""
+        (a, one), (b, other) = opposing, along
+
+        def least(angle: float) -> float:
+            edges = one.edges + (other.edges - one.edges) * ((angle - a) / (b - a))
+            found = self._newton(edges, self.limit * math.sin(angle) ** 2)
+            return -1.0 if found is None else self.least_slip(found)
+
+        ends = self.least_slip(one), self.least_slip(other)
+        angle = false_position(
+            least, a, b, ends, lambda a, b, missed: b - a < NAMED * b or abs(missed) < NAMED
+        )
+        return self.limit * math.sin(angle) ** 2
 
 
 def tangential_search(

@@ -34,7 +34,7 @@ from sie.numerics.elliptic import elliptic_functions, modulus_of
 from sie.numerics.gauss_jacobi import with_weight
 from sie.numerics.interval import EPS
 
-from .coupled_flat import ACROSS, NEARER, SPARE
+from .coupled_flat import DIGITS, NEARER, SPARE
 from .coupled_panels import geometric
 
 Array = NDArray[np.float64]
@@ -62,6 +62,11 @@ class Zones(NamedTuple):
     def stuck(self) -> float:
         """The length of the stick zone."""
         return self.e2 - self.e1
+
+    @property
+    def slipping(self) -> tuple[tuple[float, float, float], ...]:
+        """(side, end at the stick zone, edge) of both slip zones."""
+        return (-1.0, self.e1, self.x1), (1.0, self.e2, self.x2)
 
 
 class Rule(NamedTuple):
@@ -137,7 +142,7 @@ class Map:
         """1 + y, 1 - y, W dy and (1 - y)^-a2 (1 + y)^-a1 dy at the nodes."""
         m, (a1, a2) = self.modulus, self.exponents
         ratio = min(m.K_complement / m.K, 1.5)
-        n = min(math.ceil(ACROSS / (2.0 * math.asinh(NEARER * ratio))) + SPARE, MOST_NODES)
+        n = min(math.ceil(DIGITS / (2.0 * math.asinh(NEARER * ratio))) + SPARE, MOST_NODES)
         part, rest, w = with_weight(n, 2.0 * self.theta, -2.0 * self.theta)
         from_end = np.minimum(part, rest)
         sn, cn, dn = elliptic_functions(m, 1.0 - 2.0 * from_end, 2.0 * from_end)

@@ -33,6 +33,7 @@ DEGREE = 24
 DECAYED = 1e-14  # of a series, its last coefficients
 CARRIED = 1e-10  # of the load, at first touch: more than rounding
 NEGLIGIBLE = 1e-14  # of the load over the half-width: what a short panel may miss of the pressure
+MOST_BREAKS = 12  # each asks for panels of its own, and for minutes where they are many
 MOST = 200  # panels: beyond, none is cut
 CUT = 0.3  # of a panel: where it is cut
 NEWTONS, SETTLED = 60, 4.0 * EPS
@@ -144,7 +145,8 @@ class ContactTable:
             tangent = k.JL > 0.0 and k.JR > 0.0
             step = -2.0 * k.I0 / (k.JL + k.JR) if tangent else 0.5 * (lo + hi) - m
             m += step
-            if tangent and abs(step) <= SETTLED * (r + abs(m)):
+            # The slope of a trace is known to rounding of the whole contact
+            if tangent and abs(step) <= SETTLED * max(self.end, abs(m)):
                 return m, k
         raise self._unsteady(r)
 
@@ -193,10 +195,19 @@ class ContactTable:
         if self.end <= self.start * (1.0 + SETTLED):
             return []
         passed = {self.start, self.end}
+        inside = sum(abs(x - self.middle) < self.end for x in self._breaks)
+        if self.search.axis is None and inside > MOST_BREAKS:
+            raise ContactError(
+                f"the contact holds {inside} places where the profile or a derivative jumps, and "
+                "Goodman's approximation follows the growth of a contact without symmetry past "
+                f"{MOST_BREAKS} of them at most; fit fewer points or a smooth profile, or give "
+                "dundurs = 0 to neglect β"
+            )
         for x in self._breaks:
             for side in (-1.0, 1.0):
                 r = self._passing(x, side)
-                if self.start < r < self.end * (1.0 - SETTLED):
+                # The place of first touch is known to rounding of the contact
+                if self.start + SETTLED * self.end < r < self.end * (1.0 - SETTLED):
                     passed.add(r)
         ends = sorted(passed)
         apart = [b for a, b in itertools.pairwise(ends) if b - a > SETTLED * b]

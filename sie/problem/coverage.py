@@ -64,14 +64,14 @@ def refused_load(kappa: float, loads: tuple[float, float, float], spreads: bool)
     """The ContactError: under Q there are no zones that depend on Q alone, or none were found.
 
     `loads` are |Q|, the least one that such zones were followed to, and f P; `spreads` tells that
-    below it surfaces stick which came into contact under Q.
+    below it slip would oppose Q.
     """
     Q, least, limit = loads
     if spreads:
         why = (
-            "the contact spreads so fast that surfaces stick which came into contact under Q, as "
-            f"far as |Q| = {least:.6g} = {least / limit:.4g} f P. The slip gradient that they keep "
-            "depends on every state before and is not solved; "
+            "the contact spreads so fast that surfaces stick or slip back which came into contact "
+            f"under Q, as far as |Q| = {least:.6g} = {least / limit:.4g} f P. What they do depends "
+            "on every state before and is not solved; "
         ) + ("give a larger |Q| up to f P" if least < limit else "let the bodies slide")
     elif Q < least < math.inf:
         why = (

@@ -185,7 +185,10 @@ def test_values_between_marks_are_those_of_the_integrals(name, beta, friction):
         assert state._of(function, y) == pytest.approx(direct, abs=1e-12 * np.abs(direct).max())
 
 
-@pytest.mark.parametrize(("beta", "friction"), [(0.001, 10.0), (0.1, 5.0)])
+FULLY_STUCK = [(0.001, 10.0), (0.01, 0.3), (0.03, 1.0), (0.06, 3.0), (0.1, 5.0)]
+
+
+@pytest.mark.parametrize(("beta", "friction"), FULLY_STUCK)
 def test_tractions_in_full_stick_are_those_of_a_bonded_punch(beta, friction):
     t = np.linspace(0.05, 0.95, 10)
     eta = math.atanh(beta) / math.pi
@@ -194,7 +197,32 @@ def test_tractions_in_full_stick_are_those_of_a_bonded_punch(beta, friction):
     solution = solved(sie.Flat(1.0), beta, friction)
     p, q = size * np.cos(phase), size * np.sin(phase)
     assert solution.pressure(t) == pytest.approx(p, rel=1e-11)
-    assert solution.shear(t) == pytest.approx(q, abs=1e-11 * friction * p.max())
+    assert solution.shear(t) == pytest.approx(q, abs=1e-11 * float(q.max()))
+
+
+@pytest.mark.parametrize(("beta", "friction"), FULLY_STUCK)
+def test_tractions_of_a_parabola_in_full_stick_are_bonded_punches_superposed(beta, friction):
+    """p + i q = 2 cosh(πη)/π ∫_x^1 s (s² - x²)^(-1/2) ((s + x)/(s - x))^(iη) ds, P = b = 1."""
+    context = mpmath.MPContext()
+    context.dps = 20
+    eta = context.atanh(context.mpf(beta)) / context.pi
+
+    def traction(x):
+        end = context.acosh(1 / context.mpf(x))  # s = x cosh v, v = end exp(-y)
+
+        def integrand(y):
+            v = end * context.exp(-y)
+            oscillating = context.expj(-2 * eta * context.log(context.tanh(v / 2)))
+            return v * x * context.cosh(v) * oscillating
+
+        total = context.quad(integrand, [0, 1, 4, 12, 30, 50])
+        return complex(2 * context.cosh(context.pi * eta) / context.pi * total)
+
+    solution, x = solved(sie.Parabola(1.0), beta, friction), np.array([0.02, 0.3, 0.7, 0.97])
+    b, exact = solution.half_width, np.array([traction(t) for t in x.tolist()])
+    p, q = (b / solution.normal_load * each(b * x) for each in (solution.pressure, solution.shear))
+    assert p == pytest.approx(exact.real, abs=1e-12 * float(exact.real.max()))
+    assert q == pytest.approx(exact.imag, abs=1e-11 * float(exact.imag.max()))
 
 
 @pytest.mark.parametrize(("beta", "friction"), [(0.001, 0.5), (0.1, 10.0)])

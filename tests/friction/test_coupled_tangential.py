@@ -15,7 +15,8 @@ from sie.certificate.coupled_check import gradient_of_slip
 from sie.certificate.coupled_shear_check import sheared_certificate
 from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_gradient import SlipGradient
-from sie.friction.coupled_rates import SlipRate
+from sie.friction.coupled_sheared import ShearedContact
+from sie.friction.coupled_slip_rate import SlipRate
 from sie.friction.coupled_zones import Map, Zones
 from sie.io import scene_file
 from sie.numerics.elliptic import modulus_of
@@ -358,7 +359,8 @@ def test_energy_and_shift_tend_to_those_of_similar_bodies(part):
 
 def test_rate_of_the_slip_gradient_is_its_change_with_the_load():
     before, now, after = (solved(part=part).coupled[1] for part in (0.499, 0.5, 0.501))
-    rate, (x1, e1, e2, x2) = SlipRate(now), now.trial.zones
+    (x1, e1, e2, x2) = now.trial.zones
+    rate = SlipRate(now.trial.zones, 0.3, 0.3)
     part = np.linspace(0.1, 0.9, 9)
     for side, stick, edge in ((1.0, e2, x2), (-1.0, e1, x1)):
         x = stick + (edge - stick) * part
@@ -482,20 +484,38 @@ def test_stick_of_what_came_into_contact_under_the_load_is_refused():
 
 
 @pytest.mark.parametrize(
-    ("profile", "beta", "friction", "words"),
+    ("profile", "beta", "friction"),
     [
-        (None, 0.36, 0.569, "came into contact under Q"),
-        (None, 0.297, 2.92, "came into contact under Q"),
-        (sie.Polynomial((0, 0, 0.5, 0, 2.7)), 0.488, 0.059, "where they end"),
+        (None, 0.36, 0.57),
+        (None, 0.3, 2.0),
+        (None, 0.49, 0.06),
+        (sie.Polynomial((0, 0, 0.5, 0, 2.7)), 0.488, 0.059),
+        (sie.RoundedFlat(0.5, 1.0), 0.34, 1.06),
     ],
 )
-def test_refusal_of_a_small_load_names_the_least_that_is_solved(profile, beta, friction, words):
-    message = refused(profile, beta, friction, 1e-5)
+def test_refusal_of_a_small_load_names_the_least_that_is_certified(profile, beta, friction):
+    message, words = refused(profile, beta, friction, 1e-5), "came into contact under Q"
     least = float(re.search(r"\|Q\| = \S+ = (\S+) f P[.,]", message)[1])
     assert words in message
-    assert zones(solved(profile, beta, friction, 1.002 * least))[1] < 0.0
-    assert solved(profile, beta, friction, 3.0 * least if least < 0.3 else 0.9).check().ok
+    assert solved(profile, beta, friction, 1.01 * least).check().ok
     assert words in refused(profile, beta, friction, 0.99 * least)
+
+
+def test_certificate_is_not_ok_where_slip_would_oppose_the_load():
+    search, Q = solved(None, 0.3, 2.0, 0.9).tangential_search, 1.0
+    state = ShearedContact(search, search._newton(search._start(Q), Q), Q, 1.0, 1.0)
+    assert search.least_slip(state.trial) < 0.0
+    assert not sheared_certificate(state, scene(None, 0.3, 2.0, 0.5), 1e-13).ok
+
+
+@pytest.mark.parametrize("part", [1e-3, 0.5])
+@pytest.mark.parametrize("edge", range(4))
+def test_certificate_is_not_ok_with_an_edge_moved(edge, part):
+    right = solved(part=part)
+    search, edges = right.tangential_search, right.coupled[1].trial.edges
+    edges[edge] += 1e-6
+    wrong = replace(right.coupled[1], trial=search.trial(edges, right.tangential_load))
+    assert not sheared_certificate(wrong, right.scene, 1e-13).ok
 
 
 def test_sliding_is_advised_where_surfaces_beside_the_first_contact_are_the_last_to_slip():

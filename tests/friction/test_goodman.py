@@ -124,6 +124,17 @@ def test_several_patches_are_refused_with_a_remedy():
         _ = solved(DOUBLE_WELL, normal_load=0.05).stick
 
 
+def test_a_periodic_contact_is_refused_as_one_that_repeats():
+    with pytest.raises(sie.ContactError, match=r"repeats every 4 with coupling = 'goodman'"):
+        _ = solved(sie.Periodic(sie.Parabola(1.0), 4.0), normal_load=0.1).stick
+
+
+def test_a_long_trace_is_refused_with_the_number_of_its_jumps():
+    x = np.linspace(-2.0, 2.0, 201)
+    with pytest.raises(sie.ContactError, match=r"holds \d+ places where .* at most; fit fewer"):
+        _ = solved(sie.Sampled(x, 0.5 * x * x)).stick
+
+
 @pytest.mark.parametrize("load", [2.0, 5.0, 50.0])
 def test_patches_that_have_merged_are_refused_too(load):
     with pytest.raises(sie.ContactError, match=r"does not grow steadily .* convex profile"):
