@@ -1,4 +1,4 @@
-"""Energy that dissimilar bodies dissipate under Q, and the shift of the indenter.
+"""The power of friction as Q grows on dissimilar bodies, and the shift of the indenter.
 
 Under Q + dQ the pressure, the shear and the slip gradient change by ṗ dQ, q̇ dQ, γ̇ dQ. These obey
 the equations of `coupled_zones` without slope and without γ, and may be infinite where the zones
@@ -8,8 +8,7 @@ end: Ψ has poles at e1 and e2, which are two more masses there,
     γ̇ = (A - (1 - β²) ṗ)/β in slip,      ∫ṗ dx = 0,      ∫q̇ dx = -1/β ∫F dη beside the contact = 1.
 
 The first condition gives m1/m2, the second their size. The power of friction is ∫f p ġ dx over
-both slip zones, ġ the integral of 2/E* γ̇ from the stick zone on, and the energy its integral over
-Q. With Q = f P sin²φ that is a smooth function of φ but where a zone passes a kink of γ.
+both slip zones, ġ the integral of 2/E* γ̇ from the stick zone on.
 
 The shift is 2/E* ∫(γ - γ of P alone) dx from the stick zone to where both are Q/(πx), less that of
 a bonded contact [-b, b]. There p + i q is (x - b)^(-1/2 - iη) (x + b)^(-1/2 + iη), tanh πη = β, and
@@ -22,14 +21,10 @@ docs/derivations/coupled_slip.md
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
-from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.numerics.gauss_jacobi import with_weight
 
 from .coupled_integral import RATIO, integral
@@ -38,10 +33,6 @@ from .coupled_zones import StickProblem, stick_rule
 
 Array = NDArray[np.float64]
 
-CERTIFIED, WANTED = 1e-6, 5e-7  # of the energy: the error that is allowed, and aimed at
-NODES = 6  # of a panel in φ
-STARTS = (0.03, 0.12), (0.1, 0.3)  # of φ: the first panel, behind a part without nodes
-MOST = 40  # panels
 LEVELS, ON_PANEL = 12, 8  # of a slip zone: panels towards its ends, and nodes
 # Between marks of the tractions: nodes, panels towards them, parts of the contact that are one
 ON_MARKS, SHRINKING, TOGETHER = 12, 16, 1e-10
@@ -139,84 +130,6 @@ def _slip_rule(length: float, stick: float, edge: float) -> tuple[Array, Array, 
         np.append(length - left, right),
         np.append(mass, other),
     )
-
-
-def tangential_energy(state: ShearedContact) -> float:
-    """The energy dissipated while Q grew at constant P. Raises ContactError where that is not
-    found to a part CERTIFIED."""
-    search = state.search
-    end = math.asin(min(math.sqrt(state.Q / search.limit), 1.0))
-
-    def rate(angle: float) -> float:
-        Q = search.limit * math.sin(angle) ** 2
-        near = replace(state, trial=search.found(Q), Q=Q)
-        return search.limit * math.sin(2.0 * angle) * SlipRate(near).power
-
-    total, error, first = _started(rate, end, state.Q)
-    whole, missed = _adaptive(rate, first, end)
-    total, error = total + whole, error + missed
-    if error > CERTIFIED * total:
-        raise ContactError(
-            f"the energy that dissimilar bodies dissipate under |Q| = {state.Q:.6g} is known to "
-            f"{error / total:.1g} of it only, as the zones pass kinks of the profile on the way; "
-            "smooth the profile, or set tangential_load = 0 for that of the normal load"
-        )
-    return total / search.normal.half_modulus
-
-
-def _started(rate: Callable[[float], float], end: float, Q: float) -> tuple[float, float, float]:
-    """The integral over the first panel, its error, and where it ends."""
-    for near, first in STARTS:
-        try:
-            return *_extrapolated(rate, near * end, first * end), first * end
-        except ContactError as error:
-            reason = error
-    raise ContactError(
-        f"the energy that dissimilar bodies dissipate under |Q| = {Q:.6g} is a sum over the states "
-        f"under smaller loads, and one of them is not found: {reason}"
-    )
-
-
-def _extrapolated(rate: Callable[[float], float], near: float, end: float) -> tuple[float, float]:
-    """∫_0^end of the polynomial through values beyond `near`, and what a degree less changes.
-
-    Next to Q = 0 the zones are narrow, or no state has them.
-    """
-    n = NODES + 1
-    x, _, _ = with_weight(n, 0.0, 0.0)
-    y, _, w = with_weight(n, 0.0, 0.0)
-    values = np.array([rate(angle) for angle in (near + (end - near) * x).tolist()])
-    places = 2.0 * (end * y - near) / (end - near) - 1.0
-    totals = []
-    for degree in (n - 2, n - 1):
-        fitted = np.linalg.pinv(legvander(2.0 * x - 1.0, degree)) @ values
-        totals.append(end * float(w @ (legvander(places, degree) @ fitted)))
-    return totals[1], abs(totals[1] - totals[0])
-
-
-def _adaptive(rate: Callable[[float], float], lo: float, hi: float) -> tuple[float, float]:
-    """∫rate, and an estimate of its error: the panel that misses most is halved."""
-
-    def gauss(lo: float, hi: float) -> float:
-        x, _, w = with_weight(NODES, 0.0, 0.0)
-        return (hi - lo) * float(w @ [rate(angle) for angle in (lo + (hi - lo) * x).tolist()])
-
-    def panel(lo: float, hi: float, whole: float) -> tuple[float, float, float, float, float]:
-        middle = 0.5 * (lo + hi)
-        left, right = gauss(lo, middle), gauss(middle, hi)
-        return abs(left + right - whole), lo, hi, left, right
-
-    panels = [panel(lo, hi, gauss(lo, hi))]
-    while True:
-        total = sum(one[3] + one[4] for one in panels)
-        error = sum(one[0] for one in panels)
-        if error <= WANTED * total or len(panels) >= MOST:
-            return total, error
-        worst = max(panels)
-        panels.remove(worst)
-        _, lo, hi, left, right = worst
-        middle = 0.5 * (lo + hi)
-        panels += [panel(lo, middle, left), panel(middle, hi, right)]
 
 
 def tangential_shift(state: ShearedContact) -> float:
