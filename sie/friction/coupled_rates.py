@@ -21,6 +21,7 @@ docs/derivations/coupled_slip.md
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ from numpy.typing import NDArray
 from sie.numerics.gauss_jacobi import with_weight
 
 from .coupled_integral import RATIO, integral
-from .coupled_sheared import ShearedContact
+from .coupled_tangential import TangentialSearch, Trial
 from .coupled_zones import StickProblem, stick_rule
 
 Array = NDArray[np.float64]
@@ -38,10 +39,36 @@ LEVELS, ON_PANEL = 12, 8  # of a slip zone: panels towards its ends, and nodes
 ON_MARKS, SHRINKING, TOGETHER = 12, 16, 1e-10
 
 
+class State(Protocol):
+    """What is used of a state under P and Q, in its frame; see `coupled_sheared`."""
+
+    @property
+    def search(self) -> TangentialSearch: ...
+
+    @property
+    def trial(self) -> Trial: ...
+
+    @property
+    def Q(self) -> float: ...
+
+    @property
+    def turn(self) -> float: ...
+
+    @property
+    def friction(self) -> float: ...
+
+    @property
+    def frame_marks(self) -> tuple[float, ...]: ...
+
+    def frame_pressure(self, u: Array) -> Array: ...
+
+    def frame_shear(self, u: Array) -> Array: ...
+
+
 class SlipRate:
     """∂/∂Q of the pressure and the slip in a state, in its frame."""
 
-    def __init__(self, state: ShearedContact) -> None:
+    def __init__(self, state: State) -> None:
         self.state = state
         search, zones = state.search, state.trial.zones
         exponents = 0.5 + search.theta, 0.5 - search.theta
@@ -132,7 +159,7 @@ def _slip_rule(length: float, stick: float, edge: float) -> tuple[Array, Array, 
     )
 
 
-def tangential_shift(state: ShearedContact) -> float:
+def tangential_shift(state: State) -> float:
     """The shift: that of γ by the logarithm of its shear, with ∫γ dx = β P/2 on either
     side of the axis under P alone, less that of a bonded contact."""
     from scipy.special import digamma  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
