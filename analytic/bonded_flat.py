@@ -55,8 +55,9 @@ def shear(
     x: Number, *, half_width: Number, normal_load: Number, dundurs: Number, shear_load: Number = 0,
     moment: Number = 0, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) on the half-plane, with ∫ q dx = Q; inf at the corners as the pressure is, 0
-    outside.
+    """The shear q(x) on the half-plane, inf at the corners as the pressure is, 0 outside.
+
+    The resultant is ∫ q dx = Q.
 
     >>> round(float(shear(0.6, half_width=1.0, normal_load=1.0, dundurs=0.0, shear_load=np.pi)), 12)
     1.25
@@ -70,8 +71,9 @@ def tilt(
     *, half_width: Number, dundurs: Number, modulus: Number, shear_load: Number = 0,
     moment: Number = 0, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The rotation h' = -4 (M + 2 eta b Q)/(pi E* b² (1 + 4 eta²)); the normal load does not rotate
-    the flat.
+    """The rotation h' = -4 (M + 2 eta b Q)/(pi E* b² (1 + 4 eta²)) of the flat.
+
+    The normal load does not rotate it.
 
     >>> round(float(tilt(half_width=1.0, dundurs=0.0, modulus=1.0, moment=np.pi / 4)), 12)
     -1.0
@@ -123,8 +125,9 @@ def _contact_of(
 
 
 def _normal_and_shear(lib: Library, x: Number, contact: _Contact) -> tuple[Number, Number, Number]:
-    """(envelope, p at zero phase, q at zero phase) and with the phase: p + iq = envelope (u + iv)
-    exp(i phase).
+    """(envelope, p at zero phase, q at zero phase).
+
+    With the phase, p + iq = envelope (u + iv) exp(i phase).
     """
     b, eta = contact.b, contact.eta
     cosh = 1 / (lib.sqrt(1 - contact.beta) * lib.sqrt(1 + contact.beta))

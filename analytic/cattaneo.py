@@ -1,5 +1,6 @@
-"""Cattaneo and Mindlin: a parabola under a constant load P, then under a tangential load that
-rises, falls and rises again.
+"""Cattaneo and Mindlin: partial slip of a parabola under a constant load P.
+
+The tangential load rises, falls and rises again.
 
 Similar bodies (beta = 0). The contact [-b, b] is that of Hertz; while Q < f P it sticks on [-c, c]
 (Cattaneo 1938; Mindlin 1949; Johnson, Contact Mechanics, 1985, section 7.2),
@@ -108,8 +109,9 @@ def reloading_shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number, largest_load: Number,
     least_load: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <=
-    Q_max.
+    """The shear q(x) when Q, after a fall from Q_max to Q_min, has risen again.
+
+    Q_min >= -Q_max, and Q <= Q_max.
 
     ValueError for loads out of order.
 
@@ -131,8 +133,7 @@ def slip(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number,
     tangential_load: Number, modulus: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q
-    rose from 0.
+    """The slip s(x) >= 0 of the indenter over the half-plane towards +x while Q rose from 0.
 
     s' = sign(x) (4fP/(pi E* b²)) sqrt(x² - c²), s = 0 where they stick, and, by agreement, where
     they do not touch. ValueError for Q > f P.
@@ -156,8 +157,9 @@ def excess_shift(
     *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """How much farther than without slip the bodies shift: (fP/(pi E*)) [r + (1-r) ln(1-r)], r =
-    Q/(fP).
+    """How much farther than without slip the bodies shift.
+
+    The difference is (fP/(pi E*)) [r + (1-r) ln(1-r)], r = Q/(fP).
 
     The shift itself depends on the bodies' depth, as the approach does: only this part is the
     contact's own. It is (2/(pi E*)) ∫ ln(b/c) dQ. ValueError for Q > f P.
@@ -177,8 +179,9 @@ def dissipation(
     *, normal_load: Number, friction: Number, tangential_load: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The energy (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP), lost in each cycle between Q
-    and -Q per unit length.
+    """The energy lost per unit length in each cycle of the load between Q and -Q.
+
+    The energy is (2f²P²/(pi E*)) [1 - m² + 2 m ln(m)], m = 1 - Q/(fP).
 
     ValueError for Q > f P.
 
@@ -196,8 +199,9 @@ def bulk_stick(
     *, half_width: Number, normal_load: Number, friction: Number, tangential_load: Number,
     bulk_stress: Number, lib: Library = np,
 ) -> tuple[Number, Number]:  # fmt: skip
-    """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q, e =
-    pi sigma b²/(8fP).
+    """The stick zone [e - c, e + c] when a bulk tension sigma in the half-plane rises with Q.
+
+    The centre is e = pi sigma b²/(8fP).
 
     Nowell & Hills 1987. ValueError for Q > f P, and where |e| > b - c: there the bulk stress
     reverses the slip at one edge, and the stick zone has no closed form.
@@ -217,8 +221,9 @@ def bulk_shear(
     x: Number, *, half_width: Number, normal_load: Number, friction: Number,
     tangential_load: Number, bulk_stress: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) under Q and a bulk tension sigma that rises with it, (1/pi) PV∫ q(t)/(x-t) dt
-    = sigma/4 in stick.
+    """The shear q(x) under Q and a bulk tension sigma that rises with it.
+
+    In the stick zone (1/pi) PV∫ q(t)/(x-t) dt = sigma/4.
 
     ValueError as in `bulk_stick`.
 
@@ -295,8 +300,9 @@ def _in_slip(lib: Library, x: Number, b: Number, *_: Number) -> Number:
 
 
 def _slip(lib: Library, r: Number, beyond: Number, c: Number) -> Number:
-    """r sqrt(r² - c²) - c² arccosh(r/c) = (r+c)² t (t² + B(t) c/(r+c)), t² = (r-c)/(r+c): a sum of
-    positive terms.
+    """r sqrt(r² - c²) - c² arccosh(r/c), as a sum of positive terms.
+
+    It is (r+c)² t (t² + B(t) c/(r+c)), t² = (r-c)/(r+c).
     """
     t2 = beyond / (r + c)
     part = c / (r + c)

@@ -1,5 +1,6 @@
-"""Partial slip of a flat with rounded edges under a constant load P and a tangential load that
-rises, falls and rises again.
+"""Partial slip of a flat with rounded edges under a constant load P.
+
+The tangential load rises, falls and rises again.
 
 Similar bodies (beta = 0). The corrective traction is the pressure of the same profile under the
 load P - Q/f, so that the stick zone [-c, c] is the contact under that load and always covers the
@@ -49,8 +50,9 @@ TURNS = (1, -2, 2)
 def loading_ratio(
     *, half_flat: Number, half_width: Number, stick_half_width: Number, lib: Library = np
 ) -> Number:
-    """The part Q/(fP) of the friction at which the stick zone has the half-width c (Ciavarella,
-    Hills & Monno 1998, eq. 20).
+    """The part Q/(fP) of the friction at which the stick zone has the half-width c.
+
+    The formula is eq. 20 of Ciavarella, Hills & Monno (1998).
 
     ValueError unless a <= c <= b.
 
@@ -146,8 +148,9 @@ def reloading_shear(
     friction: Number, largest_load: Number, least_load: Number, tangential_load: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The shear q(x) when Q has fallen from Q_max to Q_min >= -Q_max, and has risen again to Q <=
-    Q_max.
+    """The shear q(x) when Q, after a fall from Q_max to Q_min, has risen again.
+
+    Q_min >= -Q_max, and Q <= Q_max.
 
     ValueError for loads out of order.
 
@@ -166,8 +169,7 @@ def slip(
     x: Number, *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number,
     friction: Number, tangential_load: Number, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The slip s(x) >= 0, how far the indenter has moved over the half-plane towards +x while Q
-    rose from 0.
+    """The slip s(x) >= 0 of the indenter over the half-plane towards +x while Q rose from 0.
 
     0 where they stick, and, by agreement, where they do not touch. ValueError for Q > f P.
 

@@ -41,8 +41,9 @@ def pair(
 
 @documented("the stress intensity factor, stress times root of length", *SOURCES)
 def row(*, half_length: Number, period: Number, tension: Number, lib: Library = np) -> Number:
-    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a, one in each
-    period W > 2a.
+    """The factor K_I = sigma sqrt(W tan(pi a/W)) of a row of cracks of length 2a.
+
+    Each period W > 2a holds one crack.
 
     >>> round(float(row(half_length=1.0, period=4.0, tension=1.0)), 12)
     2.0

@@ -1,5 +1,6 @@
-"""Dissimilar bodies (beta != 0), where pressure and shear traction act on each other: one name for
-a family of modules.
+"""Dissimilar bodies (beta != 0): one name for a family of modules.
+
+Pressure and shear traction act on each other.
 
     full sliding, q = f p, `coupling` = beta f, signed as the sliding:
         dissimilar.sliding_hertz, .sliding_flat, .sliding_rounded_flat

@@ -50,8 +50,9 @@ ROUNDING = 8 * sys.float_info.epsilon
 def pressure(
     x: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, lib: Library = np
 ) -> Number:
-    """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact, inf at its corners,
-    and 0 outside.
+    """The pressure p = (P + 2Mx/b²)/(pi sqrt(b² - x²)) of a complete contact.
+
+    The pressure is inf at the corners, and 0 outside.
 
     With |M| = P b/2 exactly p is 0, not infinite, at the corner about to lift. ValueError for |M| >
     P b/2.
@@ -99,8 +100,9 @@ def potential(
     z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp = [P + (2M/b) rho]/(pi sqrt(z² - b²)) of a complete contact, complex; ~
-    P/(pi z) far away.
+    """The complex potential Fp = [P + (2M/b) rho]/(pi sqrt(z² - b²)) of a complete contact.
+
+    Far away it is ~ P/(pi z).
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' - i p, and -1 its conjugate. ValueError for |M| > P b/2.
@@ -118,8 +120,9 @@ def potential_derivative(
     z: Number, *, half_width: Number, normal_load: Number, moment: Number = 0, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The derivative Fp' of the potential of a complete contact; on the contact - i p' on the side
-    +1.
+    """The derivative Fp' of the potential of a complete contact.
+
+    On the contact it is - i p' on the side +1.
 
     At |x| = b, where p' is infinite, so is the imaginary part. ValueError for |M| > P b/2.
 
@@ -135,8 +138,9 @@ def potential_derivative(
 def partial_edges(
     *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
 ) -> tuple[Number, Number]:
-    """The ends (x1, x2) of the contact of a tilted flat that touches with one corner, P b/2 <= |M|
-    < P b.
+    """The ends (x1, x2) of the contact of a tilted flat that touches with one corner.
+
+    One corner touches alone for P b/2 <= |M| < P b.
 
     ValueError for moments outside that range.
 
@@ -153,8 +157,9 @@ def partial_edges(
 def partial_pressure(
     x: Number, *, half_width: Number, normal_load: Number, moment: Number, lib: Library = np
 ) -> Number:
-    """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner,
-    where it is inf.
+    """The pressure p = P/(pi r) sqrt((r+t)/(r-t)) of a tilted flat that touches with one corner.
+
+    At that corner the pressure is inf.
 
     t = s x - (b - r) is measured from the middle of the contact towards the corner. 0 outside.
     ValueError for moments outside P b/2 <= |M| < P b.
@@ -191,8 +196,9 @@ def partial_tilt(
 def partial_moment(
     *, half_width: Number, normal_load: Number, tilt: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The moment M = s P (b - r/2), r = 2P/(pi E* |tilt|), that holds a flat on one corner at the
-    tilt h' = tilt.
+    """The moment that holds a flat on one corner at the tilt h' = tilt.
+
+    The moment is M = s P (b - r/2), r = 2P/(pi E* |tilt|).
 
     ValueError for |tilt| < 2P/(pi E* b), at which both corners touch.
 
@@ -232,8 +238,9 @@ def partial_potential(
 
 
 class _Corners(NamedTuple):
-    """The shares P/2 ± M/b of the load that belong to the corners: in them p is a sum of positive
-    terms.
+    """The shares P/2 ± M/b of the load that belong to the corners.
+
+    In them p is a sum of positive terms.
     """
 
     right: Number
@@ -319,8 +326,9 @@ def _one_sided_inside(lib: Library, from_corner: Number, from_edge: Number) -> N
 
 
 def _potential(lib: Library, z: Number, b: Number, corners: _Corners) -> Number:
-    """pi b Fp: right (v - 1) + left (1 - 1/v), without the cancellation far away, v - 1 = rho (v +
-    1).
+    """pi b Fp as right (v - 1) + left (1 - 1/v).
+
+    v - 1 = rho (v + 1) has no cancellation far away.
     """
     v = lib.sqrt(z + b) / lib.sqrt(z - b)
     return b / (z + root(lib, z, b)) * (corners.right * (1 + v) + corners.left * (1 + 1 / v))
@@ -358,8 +366,9 @@ def _steepness(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
 
 
 def _infinite_steepness(lib: Library, x: Number, b: Number, corners: _Corners) -> Number:
-    """Towards a corner p rises to infinity, or, if that corner is about to lift, falls to 0 like a
-    square root.
+    """±inf, the infinite p' towards a corner, where p rises to infinity.
+
+    If that corner is about to lift, p falls to 0 like a square root.
     """
     rises = ((x > 0) & (corners.right > 0)) | ((x < 0) & (corners.left == 0))
     return lib.inf * (2 * rises - 1)

@@ -1,5 +1,6 @@
-"""A row of equal rigid flats, of half-width a, one in each period L, pressed on a half-plane at one
-height, without friction.
+"""A row of equal rigid flats, pressed on a half-plane at one height without friction.
+
+Each period L holds one flat of half-width a.
 
 With w = pi z/L and S = sin(pi a/L) (Westergaard 1939, whose row of cracks this is with the sign
 changed)
@@ -41,8 +42,9 @@ def potential(
     z: Number, *, half_width: Number, period: Number, mean_pressure: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the
-    surface.
+    """The complex potential Fp(z) of the row.
+
+    The potential is - i mean pressure far above, and + i mean pressure far below the surface.
 
     Real z under the flats are on cuts: there `side` = +1 gives the limit from the body y > 0, - i
     p, and -1 its conjugate. Between the flats it is real, E*/2 times the slope of the surface.

@@ -1,5 +1,6 @@
-"""Dissimilar bodies pressed with friction, as Goodman (1962) approximated them: beta q is left out
-of the normal equation.
+"""Dissimilar bodies pressed with friction, as Goodman (1962) approximated them.
+
+beta q is left out of the normal equation.
 
 The pressure is that without friction, and the shear q, with q = ± f p where the bodies slip
 outwards, obeys

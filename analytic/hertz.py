@@ -111,8 +111,9 @@ def potential_derivative(
     z: Number, *, half_width: Number, radius: Number, modulus: Number, side: int = +1,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)); on the contact E*/(2R) - i p' on the side
-    +1.
+    """The derivative Fp' = E*/(2R) (1 - z/sqrt(z² - b²)) of the potential.
+
+    On the contact it is E*/(2R) - i p' on the side +1.
 
     At |x| = b, where p' is infinite, so is the imaginary part.
 
@@ -131,8 +132,9 @@ def _contact(
 
 
 def _ellipse(lib: Library, x: Number, b: Number) -> Number:
-    """sqrt(b² - x²), and 0 outside; the roots are taken one by one, lest the product of lengths
-    overflow.
+    """sqrt(b² - x²), and 0 outside.
+
+    The roots are taken one by one, lest the product of lengths overflow.
     """
     inside = abs(x) < b
     return lib.sqrt((b - x) * inside) * lib.sqrt((b + x) * inside)

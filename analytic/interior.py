@@ -1,5 +1,4 @@
-"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear traction q
-= f p: closed forms.
+"""Stresses inside the half-plane y > 0 under a pressure p and, in full sliding, a shear q = f p.
 
 With the potential F(z) = (1/pi) ∫ p(t)/(z-t) dt of the pressure, z = x + iy, all follows from F and
 F' (Muskhelishvili 1953, § 93; Hills, Nowell & Sackfield 1993, ch. 3; Ciavarella, Hills & Monno
@@ -46,8 +45,9 @@ def hertz(
     x: Number, y: Number, *, half_width: Number, radius: Number, modulus: Number,
     friction: Number = 0, lib: Library = np,
 ) -> Stresses:  # fmt: skip
-    """The stresses under a parabola, normal (friction = 0) or sliding, q = f p (Hills, Nowell &
-    Sackfield 1993, § 3.4).
+    """The stresses under a parabola, normal (friction = 0) or sliding, q = f p.
+
+    The source is § 3.4 of Hills, Nowell & Sackfield (1993).
 
     ValueError for y < 0.
 
@@ -63,8 +63,9 @@ def rounded_flat(
     x: Number, y: Number, *, half_flat: Number, radius: Number, modulus: Number,
     half_width: Number = None, rim: Number = None, friction: Number = 0, lib: Library = np,
 ) -> Stresses:  # fmt: skip
-    """The stresses under a flat with rounded edges, normal or sliding, from Fp and Fp' in closed
-    form (see `rounded_flat`).
+    """The stresses under a flat with rounded edges, normal or sliding.
+
+    The stresses follow from Fp and Fp' in closed form (see `rounded_flat`).
 
     >>> given = dict(half_flat=0.5, half_width=1.0, radius=1.0, modulus=1.0, friction=0.5)
     >>> [round(float(s), 12) for s in rounded_flat(0.9, 0.0, **given)]
@@ -85,8 +86,9 @@ def rounded_flat(
 def mcewen(
     x: Number, y: Number, *, half_width: Number, peak_pressure: Number, lib: Library = np
 ) -> Stresses:
-    """The stresses under the frictionless line contact, as McEwen wrote them (1949; Johnson 1985,
-    eq. 4.49):
+    """The stresses under the frictionless line contact, as McEwen (1949) wrote them.
+
+    The formulas are eq. 4.49 of Johnson (1985):
 
         s_xx = -(p0/b) [ m (1 + (y²+n²)/(m²+n²)) - 2y ]
         s_yy = -(p0/b) m (1 - (y²+n²)/(m²+n²))
@@ -119,8 +121,10 @@ def chebyshev(
     x: Number, y: Number, *, coefficients: Number, half_width: Number, friction: Number = 0,
     lib: Library = np,
 ) -> Stresses:  # fmt: skip
-    """The stresses of p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs
-    22 and 23), y > 0:
+    """The stresses at y > 0 of a pressure given by its Chebyshev coefficients.
+
+    The pressure is p = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b) (Ciavarella, Hills & Monno 1998, eqs 22
+    and 23):
 
         F = sum_n b_n rho^(2n+1),      rho = b/(z + sqrt(z² - b²))
         F' = -sum_n (2n+1) b_n rho^(2n+1) / sqrt(z² - b²)
@@ -151,8 +155,9 @@ def chebyshev(
 
 @documented("J2, a stress squared", *SOURCES)
 def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) -> Number:
-    """J2 of the deviator in plane strain, ((s_xx - s_yy)/2)² + s_xy² + (1-2nu)²/3 ((s_xx +
-    s_yy)/2)².
+    """The invariant J2 of the stress deviator in plane strain.
+
+    J2 = ((s_xx - s_yy)/2)² + s_xy² + (1-2nu)²/3 ((s_xx + s_yy)/2)².
 
     >>> round(float(second_invariant(Stresses(-1.0, -1.0, 0.0), poisson=0.0)), 12)
     0.333333333333
@@ -165,8 +170,9 @@ def second_invariant(stress: Stresses, *, poisson: Number, lib: Library = np) ->
 
 @documented("the load P/(bk), a number", *SOURCES)
 def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = np) -> Number:
-    """P/(bk) at which a sliding line contact yields on its surface, (pi/2)/sqrt(f² +
-    (1-2nu)²(1+f²)/3), at x = b f/sqrt(1+f²).
+    """The load P/(bk) at which a sliding line contact yields on its surface.
+
+    The load is (pi/2)/sqrt(f² + (1-2nu)²(1+f²)/3), and yield begins at x = b f/sqrt(1+f²).
 
     There J2 = p0² [f² + (1-2nu)²/3 (1+f²)] is the largest of the surface; for nu = 0.3 it is the
     largest of all from f = 0.27 or so.
@@ -181,8 +187,9 @@ def hertz_limit_on_surface(*, friction: Number, poisson: Number, lib: Library = 
 def _stresses(
     indenter: Any, parameters: dict[str, Number], x: Number, y: Number, f: Number
 ) -> Stresses:
-    """From the potentials of a module of this package; on the surface without F', which is infinite
-    at the edges.
+    """Stresses from the potentials of a module of this package.
+
+    On the surface they are without F', which is infinite at the edges.
     """
     lib = parameters["lib"]
     x, y, f = real("x", x, lib), _depth(y, lib), real("friction", f, lib)

@@ -1,5 +1,6 @@
-"""A row of equal parabolas, one in each period L, made of one piece, pressed on a half-plane
-without friction: h = x²/(2R) for |x| <= L/2.
+"""A row of equal parabolas of one piece, pressed on a half-plane without friction.
+
+Each period L holds one, h = x²/(2R) for |x| <= L/2.
 
 With the contacts |x - n L| <= a the pressure is that of rows of flats whose half-width s grows from
 |x| to a, each under the increase of the mean pressure (Barber, Contact Mechanics, 2018, on rigid
@@ -81,8 +82,9 @@ def mean_pressure(
 def half_width(
     *, mean_pressure: Number, radius: Number, period: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The half-width a = (L/pi) arccos exp(-2 pi R p/(E* L)) of each contact under a mean pressure
-    p: the inverse of `mean_pressure`.
+    """The half-width a of each contact under a mean pressure p: the inverse of `mean_pressure`.
+
+    a = (L/pi) arccos exp(-2 pi R p/(E* L)).
 
     >>> found = half_width(mean_pressure=np.log(2), radius=1.0, period=4.0, modulus=np.pi)
     >>> round(float(found), 12)

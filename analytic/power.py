@@ -66,8 +66,9 @@ def pressure(
     x: Number, *, half_width: Number, exponent: Number, coefficient: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside. Infinite only for m = 1 at x
-    = 0.
+    """The contact pressure p = (m P/(pi b)) J_m(|x|/b), and 0 outside.
+
+    The pressure is infinite only for m = 1 at x = 0.
 
     >>> round(float(pressure(0.6, half_width=1.0, exponent=2.0, coefficient=0.5, modulus=2.0)), 12)
     0.8
@@ -119,8 +120,9 @@ def _shape(exponent: Number, coefficient: Number, lib: Library) -> tuple[Number,
 
 
 def _wallis(lib: Library, m: Number) -> Number:
-    """W_m = ∫_0^(pi/2) sin^m = (sqrt(pi)/2) Gamma((m+1)/2)/Gamma(m/2+1), by W_m = (m-1)/m W_(m-2)
-    from 1 <= m <= 3.
+    """W_m = ∫_0^(pi/2) sin^m = (sqrt(pi)/2) Gamma((m+1)/2)/Gamma(m/2+1).
+
+    W_m = (m-1)/m W_(m-2) leads to it from 1 <= m <= 3.
     """
     gamma = math.gamma if lib is np else lib.gamma
     steps = _steps(m)

@@ -1,5 +1,6 @@
-"""A flat with rounded edges pressed on a half-plane: h = 0 for |x| <= a, h = (|x| - a)²/(2R)
-beyond.
+"""A flat with rounded edges pressed on a half-plane.
+
+h = 0 for |x| <= a, and h = (|x| - a)²/(2R) beyond.
 
 The contact is [-b, b] with b > a. With theta = arccos(a/b) and x = b sin(phi), a = b sin(phi0), the
 classical solution (Steuerman 1939; Shtaerman 1949; Ciavarella, Hills & Monno 1998, eqs 32 and 35)
@@ -89,8 +90,9 @@ def pressure(
     x: Number, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
     rim: Number = None, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The contact pressure p(x), and 0 outside the contact (Ciavarella, Hills & Monno 1998, eq.
-    32).
+    """The contact pressure p(x), and 0 outside the contact.
+
+    The formula is eq. 32 of Ciavarella, Hills & Monno (1998).
 
     p is finite everywhere, with p' infinite at the ends of the flat and of the contact; the largest
     pressure lies outside the flat.
@@ -109,8 +111,9 @@ def load(
     *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
     rim: Number = None, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The normal load P = E* b²/(2R) (theta - sin(theta) cos(theta)) per unit length, without its
-    cancellation.
+    """The normal load P = E* b²/(2R) (theta - sin(theta) cos(theta)) per unit length.
+
+    The difference is formed without cancellation.
 
     Ciavarella, Hills & Monno 1998, eq. (35).
 
@@ -145,8 +148,9 @@ def half_width(
 def rim(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The length b - a on which the rounding touches at each end, under the load P, to full
-    relative accuracy.
+    """The length b - a on which the rounding touches at each end, under the load P.
+
+    The length has full relative accuracy.
 
     Newton's method for log P against log(b - a), with dP/db = E* b theta/R. The graph is convex,
     its slope between 3/2 and 2, so that the method converges from any start.
@@ -172,8 +176,7 @@ def potential(
     z: Number, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
     rim: Number = None, side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z) = (1/pi) ∫ p(t)/(z-t) dt, complex, at any point z = x + iy off or on the
-    contact.
+    """The complex potential Fp(z) = (1/pi) ∫ p(t)/(z-t) dt, at any z = x + iy.
 
         Fp = E*/(pi R) [ (z-a) atan(tau v) + (z+a) atan(tau/v) - theta sqrt(z²-b²) ]
         Fp ~ P/(pi z) far away.
@@ -225,8 +228,9 @@ def chebyshev_coefficients(
     count: int, *, half_flat: Number, radius: Number, modulus: Number, half_width: Number = None,
     rim: Number = None, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The first `count` coefficients b_n of p(x) = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b), an array
-    or a list.
+    """The first `count` coefficients b_n of p(x), an array or a list.
+
+    p(x) = sqrt(1 - (x/b)²) sum_n b_n U_2n(x/b).
 
     Ciavarella, Hills & Monno 1998, eq. (22). With these, Fp(z) = sum_n b_n rho^(2n+1), rho = b/(z +
     sqrt(z²-b²)), and

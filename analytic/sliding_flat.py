@@ -1,5 +1,6 @@
-"""A rigid flat with sharp corners at x = ±b that slides over a dissimilar half-plane, upright or
-tilted: q = f p.
+"""A rigid flat that slides, upright or tilted, over a dissimilar half-plane: q = f p.
+
+Its sharp corners are at x = ±b.
 
 With tan(pi eps) = -beta f, Y = (z-b)^(-1/2-eps) (z+b)^(-1/2+eps) and a tilt h',
 
@@ -53,8 +54,9 @@ def pressure(
     x: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside. The shear is f
-    times this.
+    """The pressure p(x) of a complete contact, inf at its corners, and 0 outside.
+
+    The shear is f times this.
 
     Without a `moment` the flat is upright. ValueError for moments that lift a corner off.
 
@@ -70,8 +72,9 @@ def tilt(
     *, half_width: Number, normal_load: Number, coupling: Number, moment: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The tilt h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)) of a complete contact under the
-    moment M.
+    """The tilt h' of a complete contact under the moment M.
+
+    h' = -4 (M - 2 eps b P)/(pi E* b² (1 - 4 eps²)).
 
     ValueError for moments that lift a corner off.
 
@@ -88,8 +91,9 @@ def potential(
     z: Number, *, half_width: Number, normal_load: Number, coupling: Number, moment: Number = None,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z) of the pressure, complex; ~ P/(pi z) far away. That of the shear is f
-    times this.
+    """The complex potential Fp(z) of the pressure, ~ P/(pi z) far away.
+
+    The potential of the shear is f times this.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' + (beta f - i) p, and -1 its conjugate. ValueError for moments that lift a corner off.

@@ -65,8 +65,9 @@ def pressure(
 def load(
     *, half_width: Number, radius: Number, modulus: Number, coupling: Number, lib: Library = np
 ) -> Number:
-    """The normal load P = pi E* w² (1/4 - eps²)/R per unit length, less than that of Hertz on the
-    same length.
+    """The normal load P = pi E* w² (1/4 - eps²)/R per unit length.
+
+    The load is less than that of Hertz on the same length.
 
     >>> round(float(load(half_width=1.0, radius=1.0, modulus=1.0, coupling=0.0)), 12)
     0.785398163397
@@ -112,8 +113,9 @@ def potential(
     z: Number, *, half_width: Number, radius: Number, modulus: Number, coupling: Number,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp = E*/(2R) [z - X(z)], complex; ~ P/(pi z) far away. That of the shear is f
-    times this.
+    """The complex potential Fp = E*/(2R) [z - X(z)], ~ P/(pi z) far away.
+
+    The potential of the shear is f times this.
 
     Real z in the contact are on the cut: there `side` = +1 gives the limit from the body y > 0,
     E*/2 h' + (beta f - i) p, and -1 its conjugate.

@@ -49,8 +49,9 @@ def rims(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
 ) -> tuple[Number, Number]:  # fmt: skip
-    """The lengths (d1, d2) on which the rounding touches on the left and on the right, to full
-    relative accuracy.
+    """The lengths (d1, d2) on which the rounding touches on the left and on the right.
+
+    The lengths have full relative accuracy.
 
     Newton's method in the logarithms of the rims, from those without friction.
 
@@ -103,8 +104,7 @@ def moment(
     *, normal_load: Number, half_flat: Number, radius: Number, modulus: Number, coupling: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The moment M = ∫ p x dx of the pressure about the middle of the flat, at which it stays
-    upright.
+    """The moment M = ∫ p x dx about the middle of the flat, at which it stays upright.
 
     >>> found = moment(normal_load=1.0, half_flat=0.5, radius=1.0, modulus=1.0, coupling=0.0)
     >>> round(float(found), 12) + 0.0

@@ -78,8 +78,7 @@ def stick_half_width(
 def slip_width(
     *, half_width: Number, friction: Number, dundurs: Number, lib: Library = np
 ) -> Number:
-    """The width of either slip zone to relative accuracy, for single numbers friction and dundurs >
-    0.
+    """The width of either slip zone to relative accuracy, for single friction > 0 and dundurs > 0.
 
     >>> round(float(slip_width(half_width=1.0, friction=0.3, dundurs=0.3)), 12)
     0.354212587613

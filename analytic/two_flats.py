@@ -1,5 +1,6 @@
-"""Two equal rigid flats on a < |x| < b, made of one piece, pressed on a half-plane: no friction, or
-beta = 0.
+"""Two equal rigid flats of one piece, pressed on a half-plane.
+
+They lie on a < |x| < b. There is no friction, or beta = 0.
 
 Under a load P in the middle both press evenly, and the solution is elementary (Muskhelishvili 1953,
 part V; Gladwell, Contact Problems, 1980). Under a moment M the piece rotates by h', and that the
@@ -56,8 +57,9 @@ def pressure(
 def largest_moment(
     *, inner: Number, outer: Number, normal_load: Number, lib: Library = np
 ) -> Number:
-    """The moment P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K) at which an outer corner is about to lift
-    off.
+    """The moment at which an outer corner is about to lift off.
+
+    The moment is P b ((a² + b²)/2 - a² D/K)/(b² - a² D/K).
 
     >>> round(float(largest_moment(inner=1e-9, outer=2.0, normal_load=1.0)), 12)
     1.0

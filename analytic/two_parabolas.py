@@ -1,5 +1,6 @@
-"""Two equal parabolas with their apexes at x = ±d, made of one piece, pressed on a half-plane: h =
-(|x| - d)²/(2R).
+"""Two equal parabolas of one piece, pressed on a half-plane.
+
+Their apexes are at x = ±d, h = (|x| - d)²/(2R).
 
 The contact is c1 < |x| < c2. In x² the problem is that of one patch, and the two conditions at its
 edges turn out to be steps of the arithmetic-geometric mean of Gauss, a_(n+1) = (a_n + b_n)/2,
@@ -72,8 +73,9 @@ def distance(*, inner: Number, outer: Number, lib: Library = np) -> Number:
 def load(
     *, inner: Number, outer: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together, without
-    any cancellation.
+    """The load P = (pi E*/(2R)) (c_1² + 2 c_2² + 4 c_3² + ...) on both parabolas together.
+
+    The sum has no cancellation.
 
     >>> round(float(load(inner=1.0, outer=2.0, radius=1.0, modulus=1.0) / np.pi), 12)
     0.126840027595
@@ -88,8 +90,9 @@ def load(
 def edges(
     *, normal_load: Number, distance: Number, radius: Number, modulus: Number, lib: Library = np
 ) -> tuple[Number, Number]:
-    """The edges (c1, c2) of the patch on x > 0 under the load P: the inverse of `distance` and
-    `load`.
+    """The edges (c1, c2) of the patch on x > 0 under the load P.
+
+    The function is the inverse of `distance` and `load`.
 
     Newton's method for ln P against ln t, t = ln(c2/c1), with dP/dt = (pi E*/(2R)) c2² k² (D/K) (1
     - D/K), k² = 1 - (c1/c2)². ValueError for loads beyond about 1e5 E* d²/R, at which c1 leaves the

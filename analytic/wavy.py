@@ -1,5 +1,6 @@
-"""A wavy surface of one wavelength pressed on a half-plane: h = D (1 - cos(2 pi x/lambda)), a
-contact on each crest.
+"""A wavy surface of one wavelength pressed on a half-plane, with a contact on each crest.
+
+h = D (1 - cos(2 pi x/lambda)).
 
 With w = pi z/lambda and S = sin(pi a/lambda), the contacts are |x - n lambda| <= a (Westergaard
 1939; Johnson, Contact Mechanics, 1985, section 13.2), and
@@ -72,8 +73,9 @@ def pressure(
 def mean_pressure(
     *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The mean pressure (pi E* D/lambda) sin²(pi a/lambda) at which the contacts have the
-    half-width a.
+    """The mean pressure at which the contacts have the half-width a.
+
+    The mean pressure is (pi E* D/lambda) sin²(pi a/lambda).
 
     >>> found = mean_pressure(half_width=1.0, wavelength=4.0, amplitude=4 / np.pi, modulus=1.0)
     >>> round(float(found), 12)
@@ -89,8 +91,9 @@ def half_width(
     *, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The half-width a of each contact under a mean pressure up to pi E* D/lambda: the inverse of
-    `mean_pressure`.
+    """The half-width a of each contact under a mean pressure up to pi E* D/lambda.
+
+    The function is the inverse of `mean_pressure`.
 
     a = (lambda/pi) atan sqrt(r/(1-r)), r the part of the pressure of complete contact. ValueError
     for larger pressures.
@@ -125,8 +128,9 @@ def complete_pressure(
     x: Number, *, mean_pressure: Number, wavelength: Number, amplitude: Number, modulus: Number,
     lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The pressure of surfaces that touch everywhere, mean pressure + (pi E* D/lambda) cos(2 pi
-    x/lambda).
+    """The pressure of surfaces that touch everywhere.
+
+    The pressure is mean pressure + (pi E* D/lambda) cos(2 pi x/lambda).
 
     ValueError for mean pressures below `closing_pressure`.
 
@@ -150,8 +154,9 @@ def potential(
     z: Number, *, half_width: Number, wavelength: Number, amplitude: Number, modulus: Number,
     side: int = +1, lib: Library = np,
 ) -> Number:  # fmt: skip
-    """The potential Fp(z), complex; - i mean pressure far above, + i mean pressure far below the
-    surface.
+    """The complex potential Fp(z) of the contacts.
+
+    The potential is - i mean pressure far above, and + i mean pressure far below the surface.
 
     Real z in the contacts are on cuts: there `side` = +1 gives the limit from the body y > 0, E*/2
     h' - i p, and -1 its conjugate.

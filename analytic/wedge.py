@@ -33,8 +33,9 @@ def height(x: Number, *, slope: Number, lib: Library = np) -> Number:
 def pressure(
     x: Number, *, half_width: Number, slope: Number, modulus: Number, lib: Library = np
 ) -> Number:
-    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside (Johnson 1985,
-    section 5.2).
+    """The contact pressure p = (E* A/pi) arccosh(b/|x|), inf at x = 0, and 0 outside.
+
+    The source is section 5.2 of Johnson (1985).
 
     >>> round(float(pressure(0.5, half_width=1.0, slope=0.1, modulus=10.0)), 12)
     0.419200718279

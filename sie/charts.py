@@ -84,8 +84,9 @@ def elastic_limits(
 
 
 def surface_tension(ratio: float, stick: ArrayLike) -> Array:
-    """Largest surface tension over f p0, p0 = P/(πb), in partial slip with a stick zone of
-    half-width c = stick (in units of b): Fig. 8.
+    """Largest surface tension over f p0 in partial slip, p0 = P/(πb): Fig. 8.
+
+    The stick zone has the half-width c = stick, in units of b.
 
     The shear is f (p_b - p_c), p_c the pressure of the same profile in a contact of half-width c
     (eq. (19)); where c <= a the punch slides. At the trailing edge that is 2f [E*(b - a)/(2R) -

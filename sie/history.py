@@ -126,7 +126,9 @@ class History(Sequence[Solution]):
     Notes
     -----
     A history is a sequence: `history[k]` is the `Solution` at turning point k, made when it is
-    asked for. Stages that the points share are solved once. `history.path` is the path.
+    asked for. Stages that the points share are solved once. `history.path` is the path. The methods
+    that take loads, a depth or an index serve the states of slip, which are made of contacts under
+    other loads (`sie.friction.path_slip`).
     """
 
     def __init__(
@@ -176,8 +178,10 @@ class History(Sequence[Solution]):
 
     @cached_property
     def arm(self) -> float:
-        """The length by which bulk stress and tilt are made forces: about π times the half-width of
-        the first contact, and a power of 2, which does not round.
+        """The length by which bulk stress and tilt are made forces.
+
+        It is about π times the half-width of the first contact, and a power of 2, which does not
+        round.
         """
         return 2.0 ** round(math.log2(math.pi * self.plain(*self._first).half_width))
 
@@ -220,9 +224,11 @@ class History(Sequence[Solution]):
         return complex(loads.Q, loads.sigma * self._tau * self.arm) if loads.sigma else loads.Q
 
     def contact(self, loads: Loads) -> Interval:
+        """The contact under these loads, which is one patch."""
         return self.plain(*loads.normal).as_one_patch.edges.contact
 
     def half_width(self, loads: Loads) -> float:
+        """The half-width of the contact under these loads."""
         return self.plain(*loads.normal).half_width
 
     def plain(self, P: float, turn: float = 0.0) -> Solution:
@@ -283,6 +289,7 @@ class History(Sequence[Solution]):
 
     @property
     def period(self) -> float:
+        """The period of the profile, inf if it does not repeat itself."""
         return self.scene.profile.period
 
     @cached_property
@@ -306,8 +313,13 @@ class History(Sequence[Solution]):
         return self.dissipation(turn).contacts.contact(P).interval
 
     def rows(self) -> list[dict[str, Any]]:
-        """For files: the loads of each point, its stick zones, and the energy dissipated up to it
-        if that is known.
+        """The points of the path for files.
+
+        Returns
+        -------
+        list of dict
+            The loads of each point, its stick zones, and the energy dissipated up to it if that is
+            known.
         """
         turned = "tilt" if self.path.tilt else "moment"
         rows = []
@@ -376,14 +388,17 @@ class PathSolution(Solution):
 
     @cached_property
     def normal(self) -> Normal | SeveralPatches | FullContact:
+        """The contact without shear, as of `Solution`."""
         return self._plain.normal
 
     @cached_property
     def in_patches(self) -> SeveralPatches | FullContact:
+        """The contact in several patches, as of `Solution`."""
         return self._plain.in_patches
 
     @cached_property
     def pressure(self) -> SlopeDensity:
+        """The pressure p(x), a stress, as of `Solution`."""
         return self._plain.slope_density
 
     @property
@@ -393,6 +408,7 @@ class PathSolution(Solution):
 
     @cached_property
     def tangential(self) -> Slip:
+        """The state of slip at this point of the path."""
         return PathSlip(self.history, self.index)
 
     @property
@@ -409,6 +425,7 @@ class PathSolution(Solution):
         return self.history.energy(self.index) if self.sheared else 0.0
 
     def with_(self, **changes: Any) -> Solution:
+        """Raises ValueError: a changed scene or path has to be followed again."""
         raise ValueError(
             "this solution is a point of a path: change the scene or the path, and follow it again"
         )

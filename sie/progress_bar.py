@@ -17,6 +17,7 @@ class Progress:
         self.seen = wanted and sys.stderr is not None and sys.stderr.isatty()
 
     def advance(self, points: int) -> None:
+        """Counts further points as done, and draws the bar if it is due."""
         self.done += points
         now = time.monotonic()
         elapsed = now - self.start
@@ -30,5 +31,6 @@ class Progress:
         print(told, end="", file=sys.stderr, flush=True)
 
     def clear(self) -> None:
+        """Wipes the bar, if it was drawn."""
         if self.drawn:
             print("\r" + " " * (BAR + 50) + "\r", end="", file=sys.stderr, flush=True)

@@ -117,7 +117,18 @@ class Solution:
             raise explained(error, self.scene.profile) from None
 
     def one_patch(self) -> Normal:
-        """The contact if it is one patch. Raises ContactError if it is not."""
+        """The contact if it is one patch.
+
+        Returns
+        -------
+        Normal
+            Its edges, load, moment and tilt.
+
+        Raises
+        ------
+        ContactError
+            If it is not one patch.
+        """
         if not (self.scene.profile.convex and "convexity" in self.economy):
             _ = self.inequalities
         return self.unverified
@@ -155,7 +166,25 @@ class Solution:
         return self._several or self.patches_under(self.normal_load, self.tilt)
 
     def patches_under(self, load: float, tilt: float) -> SeveralPatches | FullContact:
-        """The contact of the same profile under another load and tilt, in several patches."""
+        """The contact of the same profile under another load and tilt, in several patches.
+
+        Parameters
+        ----------
+        load : float
+            P, a force per unit length.
+        tilt : float
+            The tilt, a pure number.
+
+        Returns
+        -------
+        SeveralPatches or FullContact
+            The contact without shear.
+
+        Raises
+        ------
+        ContactError
+            If no patches are certified.
+        """
         plain = replace(
             self.scene,
             normal_load=load,
@@ -176,8 +205,9 @@ class Solution:
 
     @cached_property
     def unverified(self) -> Normal:
-        """The contact that carries the load and the moment; bodies may overlap there, or be in
-        tension.
+        """The contact that carries the load and the moment.
+
+        Bodies may overlap there, or be in tension.
         """
         return normal_contact(self.scene, self.tol, self.economy)
 
@@ -265,9 +295,7 @@ class Solution:
 
     @property
     def sheared(self) -> bool:
-        """Whether the shear is found after the pressure: partial slip, or similar bodies
-        sliding.
-        """
+        """Whether the shear is found after the pressure: partial slip, or similar bodies."""
         scene = self.scene
         elsewhere = scene.epsilon or scene.bonded or scene.coupled
         return sheared(scene, self.economy) and not elsewhere
@@ -299,8 +327,28 @@ class Solution:
         near: Interval | None = None,
         one_sign: bool = False,
     ) -> Slip:
-        """The state after Q and τ on this contact without shear; `under` gives it under other
-        loads and tilts, `near` is as of `load_step`, `one_sign` as of `slip`.
+        """The state after Q and τ on this contact without shear.
+
+        Parameters
+        ----------
+        loads : tuple of float
+            Q, a force per unit length, and τ, a stress.
+        under : callable
+            The contact in several patches as a function of load and tilt.
+        near : Interval, optional
+            As in `load_step`.
+        one_sign : bool, optional
+            Whether slip is positive at both edges, whatever Q and τ.
+
+        Returns
+        -------
+        Slip
+            The zones of stick and slip, and the shear.
+
+        Raises
+        ------
+        ContactError
+            If Q exceeds f P, or no zones of stick and slip meet all conditions.
         """
         if self._several is None:
             try:
@@ -313,8 +361,22 @@ class Solution:
         return state
 
     def load_step(self, Q: float, tau: float, near: Interval | None = None) -> Step:
-        """The load Q and the strain τ on this contact of one patch; `near` is a stick zone that may
-        be close to the one sought: it saves work, and does not change the answer.
+        """The load Q and the strain τ on this contact of one patch.
+
+        Parameters
+        ----------
+        Q : float
+            The tangential load, a force per unit length.
+        tau : float
+            τ, a stress.
+        near : Interval, optional
+            A stick zone that may be close to the one sought. It saves work, and does not change
+            the answer.
+
+        Returns
+        -------
+        Step
+            What the states of slip are found from.
         """
         scene, tol, economy, normal = self.scene, self.tol, self.economy, self.as_one_patch
         under = partial(
@@ -334,6 +396,7 @@ class Solution:
 
     @cached_property
     def certificate(self) -> Certificate | PatchCertificate:
+        """The certificate that `check` returns, measured once."""
         if self.scene.bonded:
             return full_stick_certificate(
                 self.normal.edges, self.normal_and_shear, self.scene, self.tol
@@ -397,8 +460,9 @@ class Solution:
 
     @property
     def gap_volume(self) -> float:
-        """∫ of the gap between the patches, or over one period, where there is an indenter: what a
-        fluid would fill, volume per length of the line of contact.
+        """∫ of the gap between the patches, or over one period, where there is an indenter.
+
+        A fluid would fill this volume per length of the line of contact.
         """
         several = self._several
         return several.gap_volume if isinstance(several, SeveralPatches) else 0.0
@@ -752,8 +816,7 @@ class Solution:
         return self.certificate
 
     def trace_reports(self) -> tuple[TraceReport, ...]:
-        """The measured traces in the profile: what was done with them, and what their noise
-        implies.
+        """The measured traces in the profile, with their treatment and what their noise implies.
 
         The error of the pressure that a report states is estimated from the misfit of the spline.
         The certificate measures something else: how well the equations are solved for this spline.

@@ -19,6 +19,7 @@ PARTS = {
 
 
 def labelled(axes: dict[str, list[Any]], wanted: dict[str, Any], answers: list[Answer]) -> Any:
+    """The answers over the axes, an xarray Dataset where xarray is installed."""
     answers = _of_one_rank(answers)
     shape = tuple(map(len, axes.values()))
     shapes: dict[str, tuple[int, ...]] = {}

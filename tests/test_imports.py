@@ -24,6 +24,7 @@ HOUSES = {"sie": Path(sie.__file__).parent, "analytic": Path(analytic.__file__).
 LAYERS = (
     (
         "interrupt",
+        "inheritance",
         "errors",
         "messages",
         "files",

@@ -1,5 +1,4 @@
-"""The two functions that the rounded flat is made of, and the logarithms in them, at full relative
-accuracy.
+"""The two functions of the rounded flat, and the logarithms in them, to full relative accuracy.
 
     A(y) = (1+y²) atan(y)/y - 1   = sum_k -2 (-y²)^k/(4k²-1)        0 <= y <= 1
     B(y) = 1 - (1-y²) artanh(y)/y = sum_k  2 y^(2k)/(4k²-1)  = -A(iy); 0 <= y <= 1, or complex
@@ -35,9 +34,7 @@ def atan_excess(lib: Library, y2: Number) -> Number:
 
 
 def artanh_excess(lib: Library, y2: Number, c: Number) -> Number:
-    """artanh(y)/y - 1 of y² and c = 1 - y². For y² > 1 give |c|: this is then its principal
-    value.
-    """
+    """artanh(y)/y - 1 of y² and c = 1 - y²; for y² > 1 the principal value, of c = |1 - y²|."""
     return pick(lib, abs(y2) < SMALL_SQUARE, _artanh_series, _artanh_closed, y2, c)
 
 

@@ -1,5 +1,6 @@
-"""Incomplete beta functions of the edge exponents, as the sliding rounded flat needs them: at full
-relative accuracy.
+"""Incomplete beta functions of the edge exponents, to full relative accuracy.
+
+The sliding rounded flat needs them.
 
 With 0 < alpha < 1, the exponent of p at an edge being 1 - alpha there,
 
@@ -50,9 +51,11 @@ def phi(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
 def rim_moment(
     lib: Library, n: int, alpha: Number, rim: Number, length: Number
 ) -> tuple[Number, Number]:
-    """∫_0^d (d-r)^n r^(alpha-1) (L-r)^(-alpha) dr, d the rim and L > d the length, and the change
-    of its logarithm with ln d at fixed d/r and L/r, less alpha + n: Y F'/F in d^(n+alpha)
-    L^(-alpha) B(alpha, n+1) F(Y), F = 2F1(alpha, alpha; alpha+n+1; Y).
+    """The moment F = ∫_0^d (d-r)^n r^(alpha-1) (L-r)^(-alpha) dr and how it grows with the rim.
+
+    d is the rim and L > d the length. The second number is the change of ln F with ln d at fixed
+    d/r and L/r, less alpha + n: Y F'/F in d^(n+alpha) L^(-alpha) B(alpha, n+1) F(Y), F = 2F1(alpha,
+    alpha; alpha+n+1; Y).
     """
     Y = rim / length
     total, weighted, term = 1 + 0 * Y, 0 * Y, 1 + 0 * Y
@@ -93,8 +96,9 @@ def _one(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
 
 
 def _phi_below(lib: Library, alpha: Number, y: Number, c: Number) -> Number:
-    """phi = (1+w)^(2 alpha) sum_n alpha e_n w^n/(n + alpha), where sum_n e_n w^n = (1+w)^(1-2
-    alpha)/(1-w).
+    """phi = (1+w)^(2 alpha) sum_n alpha e_n w^n/(n + alpha).
+
+    The e_n are those of sum_n e_n w^n = (1+w)^(1-2 alpha)/(1-w).
     """
     root = lib.sqrt(c)
     w = (1 - root) / (1 + root)

@@ -22,8 +22,7 @@ def root(lib: Library, z: Number, b: Number) -> Number:
 
 
 def on_cut(lib: Library, z: Number, b: Number, low: Number = 0) -> Number:
-    """Whether z is a real point of the contact, where the limit depends on the side, or in floats
-    as good as one.
+    """Whether z is, in floats, a real point of the contact, where the limit depends on the side.
 
     The half-width is b + low, in case it has more digits than b.
     """
@@ -41,7 +40,8 @@ def in_plane(
     lib: Library, cut: Number, side: int,
     limit: Callable[..., Number], value: Callable[..., Number], *args: Number,
 ) -> Number:  # fmt: skip
-    """`limit(lib, *args, side=side)` on the cut, `value(lib, *args)` off it. ValueError for other
-    sides.
+    """`limit(lib, *args, side=side)` on the cut, `value(lib, *args)` off it.
+
+    ValueError for other sides.
     """
     return pick(lib, cut, partial(limit, side=side_of_cut(side)), value, *args)

@@ -72,8 +72,9 @@ def _bounded_near(lib: Library, z: Number, b: Number, eps: Number, rho: Number) 
 
 
 def _bounded_far(lib: Library, z: Number, b: Number, eps: Number, rho: Number) -> Number:
-    """2 rho X/b = (1 - rho²) ((1+rho)/(1-rho))^(2 eps) = sum_n y_n rho^n, with (n+1) y_(n+1) = 4
-    eps y_n + (n-3) y_(n-1).
+    """2 rho X/b = (1 - rho²) ((1+rho)/(1-rho))^(2 eps) as the series sum_n y_n rho^n.
+
+    The coefficients obey (n+1) y_(n+1) = 4 eps y_n + (n-3) y_(n-1).
     """
     before, now = 4 * eps, 8 * eps * eps - 1
     total, power = (1 - now) + 0 * rho, rho * 1

@@ -1,5 +1,6 @@
-"""Complete elliptic integrals by the arithmetic-geometric mean of Gauss, quadratically convergent
-in any precision.
+"""Complete elliptic integrals by the arithmetic-geometric mean of Gauss.
+
+The mean converges quadratically in any precision.
 
 From a_0 > b_0, a_(n+1) = (a_n + b_n)/2, b_(n+1) = sqrt(a_n b_n), c_(n+1) = (a_n - b_n)/2, to their
 common limit. With k'² = (b_0/a_0)² = 1 - k² (Borwein & Borwein, Pi and the AGM, 1987, chapter 1;
@@ -14,8 +15,9 @@ from analytic._core.numbers import Library, Number, bits, everywhere
 
 
 def means(lib: Library, a: Number, b: Number, c: Number) -> Iterator[tuple[Number, Number]]:
-    """(a_n, c_n) for n = 1, 2, ... from a_1 = a, b_1 = b, c_1 = c, which may have more digits than
-    (a_0 - b_0)/2.
+    """(a_n, c_n) for n = 1, 2, ... from a_1 = a, b_1 = b, c_1 = c.
+
+    c may have more digits than (a_0 - b_0)/2.
     """
     small = 2.0 ** (-bits(lib) / 2 - 2)  # then the next c is below half a unit of a
     while True:
@@ -42,8 +44,9 @@ def ratio_D(lib: Library, k: Number, kc: Number) -> Number:
 
 
 def third_kind(lib: Library, kc: Number, p: Number) -> Number:
-    """∫_0^(pi/2) sin²/((cos² + p sin²) sqrt(cos² + k'² sin²)), p > 0: Bulirsch's cel(k', p, 0, 1)
-    (Numer. Math. 13, 1969).
+    """∫_0^(pi/2) sin²/((cos² + p sin²) sqrt(cos² + k'² sin²)) for p > 0.
+
+    This is Bulirsch's cel(k', p, 0, 1) (Numer. Math. 13, 1969).
     """
     g, e, m = lib.sqrt(p), kc, 1
     q, a, b = kc, 0 * (kc * p), 1 / g

@@ -47,8 +47,9 @@ def cartesian(real_part: Number, imaginary_part: Number, lib: Library) -> Number
 
 
 def scaled(factor: Number, number: Number, lib: Library) -> Number:
-    """A real factor times a complex number, part by part: NumPy's product would make nan of 1 * (0
-    + inf j).
+    """A real factor times a complex number, part by part.
+
+    NumPy's product would make nan of 1 * (0 + inf j).
     """
     return cartesian(factor * number.real, factor * number.imag, lib)
 

@@ -1,6 +1,4 @@
-"""The parameters of the closed forms: what each of them is, and the refusal of those without
-meaning.
-"""
+"""The parameters of the closed forms: their meanings, and the refusal of those without meaning."""
 
 import math
 import sys
@@ -65,8 +63,9 @@ POSITIONS = ("x", "y", "z")
 
 
 def real(name: str, value: Number, lib: Library) -> Number:
-    """`value` as float or array of float64, or as context number. ValueError unless it is real and
-    finite.
+    """`value` as float or array of float64, or as context number.
+
+    ValueError unless it is real and finite.
     """
     if np.ma.is_masked(value):
         raise ValueError(f"{name} has masked entries; leave them out, or fill them.")

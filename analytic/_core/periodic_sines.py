@@ -1,5 +1,6 @@
-"""Sines of pi z/L and their quotients, for functions that repeat with the period L, at any distance
-from the axis.
+"""Sines of pi z/L and their quotients, at any distance from the axis.
+
+They serve functions that repeat with the period L.
 """
 
 from typing import Any
@@ -32,8 +33,9 @@ def cotangent(lib: Library, z: Number, L: Number) -> Number:
 
 
 def one_minus_square(lib: Library, z: Number, a: Number, L: Number) -> Number:
-    """1 - sin²(pi a/L)/sin²(pi z/L) = sin(pi (z-a)/L) sin(pi (z+a)/L)/sin²(pi z/L), from the
-    distances to ±a.
+    """1 - sin²(pi a/L)/sin²(pi z/L), from the distances to ±a.
+
+    It is sin(pi (z-a)/L) sin(pi (z+a)/L)/sin²(pi z/L).
     """
     up, flip = _above(lib, z)
     whole = _q_minus_one(lib, up, L)

@@ -38,9 +38,7 @@ def pick(
 def together(
     lib: Library, function: Callable[..., Number], *calls: tuple[Number, ...]
 ) -> tuple[Number, ...]:
-    """`function(lib, *call)` for each call, in one pass over arrays, which costs less than
-    several.
-    """
+    """`function(lib, *call)` for each call, arrays in one pass, which costs less than several."""
     if lib is not np:
         return tuple(function(lib, *call) for call in calls)
     return tuple(function(lib, *(np.array(args) for args in zip(*calls, strict=True))))

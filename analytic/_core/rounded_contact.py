@@ -112,8 +112,9 @@ def coefficient(lib: Library, n: int, contact: Contact) -> Number:
 
 
 def _overlap(lib: Library, n: int, contact: Contact) -> Number:
-    """∫_0^theta sin(mt) sin(t) dt = [cos(theta) sin(m theta) - m sin(theta) cos(m theta)]/(m²-1), m
-    = 2n+1 > 1.
+    """∫_0^theta sin(mt) sin(t) dt for m = 2n+1 > 1.
+
+    It is [cos(theta) sin(m theta) - m sin(theta) cos(m theta)]/(m²-1).
     """
     short, long = partial(_overlap_short_flat, n), partial(_overlap_long_flat, n)
     return pick(lib, contact.a < contact.b / 2, short, long, contact)
@@ -145,8 +146,9 @@ def _overlap_closed(n: int, lib: Library, theta: Number) -> Number:
 
 
 def _overlap_series(n: int, lib: Library, theta: Number) -> Number:
-    """Powers of theta, for (2n+2) theta < 1. The differences in the coefficients are of integers,
-    hence exact.
+    """The overlap in powers of theta, for (2n+2) theta < 1.
+
+    The differences in the coefficients are of integers, hence exact.
     """
     total = 0 * theta
     for k in range(bits(lib) // 6 + 3, 0, -1):  # 1/(2k+1)! falls by more than six bits a term

@@ -1,5 +1,4 @@
-"""The zones of partial slip under a rounded flat, and differences of loads and pressures that keep
-their digits.
+"""Zones of partial slip under a rounded flat, from differences that keep their digits.
 
 The mathematics and the notation are those of `cattaneo_rounded`.
 """
@@ -63,8 +62,9 @@ def _slip_of_rest(lib: Library, P: Number, contact: Contact, used: Traction) -> 
 
 
 def _slip_of_load(lib: Library, P: Number, contact: Contact, used: Traction) -> Number:
-    """b - c by Newton's method for the load that the slip zone has lost, which is concave in b - c,
-    so that the steps rise to the root.
+    """b - c by Newton's method for the load that the slip zone has lost.
+
+    That load is concave in b - c, so that the steps rise to the root.
     """
     a, rim = contact.a, contact.rim
     target = P * used.used / contact.E * contact.R

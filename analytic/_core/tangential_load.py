@@ -19,8 +19,9 @@ NAMES = ("largest_load", "least_load", "tangential_load")
 
 
 class Traction(NamedTuple):
-    """The part of the friction that a tangential load uses: used = Q/(fP), and left = 1 - Q/(fP),
-    each to all its digits.
+    """The part of the friction that a tangential load uses, and what is left.
+
+    used = Q/(fP) and left = 1 - Q/(fP), each to all its digits.
     """
 
     used: Number
@@ -50,8 +51,9 @@ def turned(
     largest_load: Number,
     tangential_load: Number,
 ) -> tuple[Traction, Traction]:
-    """The tractions of Q_max and of (Q_max - Q)/2, after which the load is down to Q. ValueError
-    unless |Q| <= Q_max.
+    """The tractions of Q_max and of (Q_max - Q)/2, after which the load is down to Q.
+
+    ValueError unless |Q| <= Q_max.
     """
     top = traction(lib, friction, normal_load, largest_load, "largest_load")
     Q, most = (
@@ -103,8 +105,9 @@ def integral(lib: Library, integrand: Callable[[Number, Number], Number]) -> Num
 
 
 def _rest(f: Number, P: Number, Q: Number) -> Number:
-    """f P - Q, rounded once, also where it is a small difference: by Dekker's exact product of the
-    significands.
+    """f P - Q, rounded once, also where it is a small difference.
+
+    Dekker's product of the significands is exact.
     """
     (f, m), (P, n) = np.frexp(f), np.frexp(P)
     product = f * P

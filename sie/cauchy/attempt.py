@@ -47,6 +47,7 @@ class Attempt(NamedTuple):
         return max(float(self.tails.max()), float(self.residuals.max()))
 
     def unresolved(self, tol: float) -> NDArray[np.bool_]:
+        """Whether each part is not resolved to tol: its tail or its residual is too large."""
         tails = self.tails > np.maximum(DECAYED * tol, self.rounding)
         residuals = self.residuals > np.maximum(tol, self.noise)
         unresolved: NDArray[np.bool_] = tails | residuals
@@ -90,6 +91,7 @@ def attempted(
     terms: list[Terms],
     spreads: Callable[[], list[Spread]] = list,
 ) -> Attempt:
+    """The density of these coefficients, with its residuals, tails and rounding."""
     largest = max(float(np.abs(c).max()) for c in coefficients)
     measured = [
         _measured(problem, i, c, of, largest)

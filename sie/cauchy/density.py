@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 from sie.numerics import jacobi
 from sie.numerics.interval import EPS
 from sie.numerics.jacobi_weight import FAINT, Weight
@@ -116,6 +117,7 @@ class Part:
 
     @cached_property
     def resultant(self) -> Any:
+        """∫ φ dx of this part."""
         if not self.map.is_even:
             return self.nodes[3].sum().item()
         return (self.coefficients[0] / jacobi.recurrence(self.weight, 1).first).item()
@@ -293,14 +295,17 @@ class JacobiDensity(Density):
 
     @property
     def intervals(self) -> tuple[tuple[float, float], ...]:
+        """The ends (x1, x2) of each interval, lengths."""
         return tuple((part.map.x1, part.map.x2) for part in self.parts)
 
     @property
     def intensities(self) -> tuple[tuple[Any, Any], ...]:
+        """The intensities at both ends of each interval."""
         return tuple(part.intensities for part in self.parts)
 
     @property
     def intensity_errors(self) -> tuple[tuple[float, float], ...]:
+        """The estimated errors of `intensities`, in the same order."""
         return tuple(part.intensity_errors for part in self.parts)
 
     @property
@@ -320,13 +325,16 @@ class JacobiDensity(Density):
                 out[inside] = part.value(to_right[inside], to_left[inside])
         return out
 
+    @override
     def hilbert(self, x: ArrayLike) -> Array:
         F = self.cauchy(arguments.reals("x", x), side=0)
         return F if np.issubdtype(self._kind, np.complexfloating) else F.real
 
+    @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Array:
         return self._summed(_cauchy, z, side)
 
+    @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Array:
         return self._summed(_cauchy_derivative, z, side)
 

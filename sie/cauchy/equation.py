@@ -277,6 +277,7 @@ class CauchyEquation:
 
     @cached_property
     def problem(self) -> Problem:
+        """The equation on its maps, with weights and conditions, as the solver takes it."""
         return Problem(
             maps(self.interval, self.weights),
             self.weights,

@@ -53,9 +53,11 @@ class Problem:
 
     @property
     def is_transform(self) -> bool:
+        """Whether a transform solves it: one interval without a further kernel."""
         return self.k is None and len(self.maps) == 1
 
     def first_sizes(self) -> tuple[int, ...]:
+        """The numbers of coefficients to begin with, one for each interval."""
         on_affine = SMALLEST if len(self.maps) == 1 else SMALLEST_OF_SEVERAL
         return tuple(on_affine if isinstance(m, Affine) else SMALLEST_GRADED for m in self.maps)
 
@@ -89,6 +91,7 @@ def constant_of(problem: Problem, weight: Weight) -> Any:
 
 
 def real_if_real(value: complex) -> Any:
+    """The real part of a number without imaginary part, otherwise the number."""
     return value.real if value.imag == 0.0 else value
 
 
@@ -199,6 +202,7 @@ def _numeric(name: str, values: Array) -> Array:
 
 
 def solved(matrix: Array, rhs: Array) -> Array:
+    """The solution of a linear system. ContactError if the system is singular."""
     try:
         found = np.linalg.solve(matrix, rhs)
     except np.linalg.LinAlgError:

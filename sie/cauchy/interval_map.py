@@ -62,6 +62,7 @@ class Affine:
 
     @property
     def r(self) -> float:
+        """Half the length of the interval."""
         return 0.5 * (self.x2 - self.x1)
 
     @property
@@ -101,6 +102,7 @@ class Graded:
 
     @cached_property
     def length(self) -> float:
+        """The length of the interval."""
         return self.x2 - self.x1
 
     @cached_property
@@ -120,9 +122,11 @@ class Graded:
 
     @property
     def is_even(self) -> bool:
+        """Whether ρ is dx/ds."""
         return self.powers == (1, 1)
 
     def distances(self, right: Array, left: Array) -> tuple[Array, Array, Array, Array]:
+        """As of `Affine.distances`, for a graded map."""
         cosh = np.cosh(0.5 * (self._v1 + self.h * left))
         to_right = (
             np.sinh(0.5 * self.h * right)
@@ -145,17 +149,20 @@ class Graded:
         return rho + np.zeros_like(from_A), rest + np.zeros_like(from_A)
 
     def inverse(self, to_right: Array, to_left: Array) -> tuple[Array, Array, Array]:
+        """As of `Affine.inverse`, for a graded map."""
         from_A, from_B = to_left + self.before, to_right + self.behind
         right = log1p(to_right / self.behind) + log1p(to_right / from_A)
         left = log1p(to_left / self.before) + log1p(to_left / from_B)
         return right / self.h, left / self.h, self._split(from_A, from_B)[0]
 
     def steepening(self, left: Array) -> Array:
+        """As of `Affine.steepening`, for a graded map."""
         p, q = self.powers
         out: Array = 0.5 * self.h * ((p - q) - (p + q) * np.tanh(0.5 * (self._v1 + self.h * left)))
         return out
 
     def smooth(self, sigma: Array, right: Array, left: Array) -> Array:
+        """As of `Affine.smooth`, for a graded map."""
         s = 0.5 * (left - right)
         p, q = self.powers
         constant: Any = 0.5 * (q - p)

@@ -158,6 +158,7 @@ def _enlarged(sizes: tuple[int, ...], more: NDArray[np.bool_]) -> tuple[int, ...
 
 
 def consistent(found: Attempt) -> JacobiDensity:
+    """The density of an attempt. ContactError if no solution meets the right-hand side."""
     if found.defect > INCONSISTENT:
         raise ContactError(
             "the right-hand side is not consistent: bounded ends ask for an integral of g that "

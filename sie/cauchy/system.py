@@ -177,6 +177,7 @@ class System:
 
     @cached_property
     def rhs(self) -> Array:
+        """The right-hand side, in the order of the rows."""
         return np.concatenate((self.values, self._projected(self.sampled[0])))[self.order]
 
     def matrix(self) -> Array:
@@ -220,6 +221,7 @@ class System:
         )
 
     def solution(self) -> Array:
+        """The unknowns, by LAPACK if they are few and otherwise by GMRES."""
         return self.by_lapack() if len(self.rhs) <= DENSE else self.by_gmres()
 
     def by_lapack(self) -> Array:
@@ -295,6 +297,7 @@ class System:
         ]
 
     def attempt(self, unknown: Array) -> Attempt:
+        """The density of these unknowns, with its residuals, tails and rounding."""
         N = sum(self.sizes)
         c, d = unknown[:N], unknown[N:] / self._free_columns[1]
         smooth = self.kernel @ self._weighted(c)

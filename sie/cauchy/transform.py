@@ -34,6 +34,7 @@ Array = NDArray[Any]
 
 
 def by_transform(problem: Problem, n: int) -> Attempt:
+    """The attempt with n coefficients, by transforms in place of a linear system."""
     (interval,), (weight,) = problem.maps, problem.weights
     m, constant, kappa = n - weight.kappa, constant_of(problem, weight), weight.kappa
     s, analysed = _transform(weight.inverse, m)

@@ -1,5 +1,4 @@
-"""The certificate of coupled partial slip: equations (1) and (12), measured on values of p and q
-alone.
+"""The certificate of coupled partial slip: equations (1) and (12), measured on p and q alone.
 
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)       max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p       in stick
@@ -149,8 +148,9 @@ def _marks(state: CoupledContact) -> tuple[float, ...]:
 
 
 def _panels(width: float, power: float, nearest: float) -> tuple[Array, Array, Array]:
-    """Distances from both ends and weights: panels that shrink towards both; LAST nodes at an end
-    with a power.
+    """Distances from both ends and weights, on panels that shrink towards both ends.
+
+    There are LAST nodes at an end with a power.
     """
     half, at_edge = 0.5 * width, power != 0.0
     levels = math.ceil(math.log(1.0 / nearest) / math.log(RATIO))

@@ -1,5 +1,6 @@
-"""The certificate of dissimilar bodies under P, then Q: equations (1) and (12), measured on p and
-q alone, as in `coupled_check`.
+"""The certificate of dissimilar bodies under P, then Q: equations (1) and (12).
+
+They are measured on p and q alone, as in `coupled_check`.
 
     residual   max |1/π PV∫p/(x - t) dt - β q - E*/2 h'| / peak   in the whole contact
     of (12)    max |γ - γ'| / largest |q|,   γ = 1/π PV∫q/(x - t) dt + β p   in stick

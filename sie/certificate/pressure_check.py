@@ -135,8 +135,9 @@ def _by_rule(slope: Slope, contact: Interval, rule: Rule) -> EdgeIntegrals:
 
 
 def _finite(p: Array) -> Array:
-    """p with its infinities dropped: a node that rounding put on a corner of the profile has the
-    weight of rounding.
+    """p with its infinities dropped.
+
+    A node that rounding put on a corner of the profile has the weight of rounding.
     """
     return np.where(np.isfinite(p), p, 0.0)
 
@@ -148,8 +149,9 @@ def _slopes(slope: Slope, contact: Interval, at: Array) -> tuple[Array, Array, A
 
 
 def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
-    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there: what is left of the
-    integrand is smooth.
+    """1/π PV∫p/(x - t) - E*/2 H between the nodes, by subtracting p there.
+
+    What is left of the integrand is smooth.
     """
     at, x = rule.between, rule.x
     values = density(at)
@@ -173,8 +175,9 @@ def _residual(density: SlopeDensity, H: Array, rule: Rule, p: Array) -> Array:
 
 
 def _implied(residual: Array, contact: Interval, at: Array) -> float:
-    """The largest error of p that leaves this residual: r = Σ r_n T_n is what sqrt(1 - s²) Σ r_n
-    U_{n-1} leaves, fitted to the points.
+    """The largest error of p that leaves this residual.
+
+    r = Σ r_n T_n, fitted to the points, is what sqrt(1 - s²) Σ r_n U_{n-1} leaves.
 
     A constant r_0 belongs to edges in the wrong place, where the pressure is wrong by more than
     r_0.
@@ -187,8 +190,9 @@ def _implied(residual: Array, contact: Interval, at: Array) -> float:
 
 
 def _rounding(density: SlopeDensity, change: Array, rule: Rule, p: Array) -> tuple[float, float]:
-    """The part of the errors that rounding of x explains: of ∫p dx, and of the equation between
-    the nodes, a stress.
+    """The part of both errors that rounding of x explains.
+
+    The errors are that of ∫p dx, and that of the equation between the nodes, a stress.
 
     It is |p'| ulp(x), with p' from node to node, or p over twice the distance to an edge where that
     is less: noise of p must not pass for rounding. `change` is that of H in one ulp between nodes.

@@ -40,8 +40,9 @@ POINTS = 48  # at which the residual is measured: between the longest panels, wh
 
 
 class Rule(NamedTuple):
-    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels, which no
-    node is near.
+    """Nodes x at angles from the right edge, weights of ∫ dx, and ends of large panels.
+
+    No node is near the ends of large panels.
 
     `inner` nodes, in `ends`, are not next to an edge.
     """
@@ -152,8 +153,9 @@ def _shorter_than_graded(cut: Array, ends: Array) -> NDArray[np.bool_]:
 
 
 def _panels_of_many(contact: Interval, slope: Slope, also: Array) -> tuple[Array, Array]:
-    """The same where the slope has many breaks: one panel a piece, graded where a break needs
-    it; and middles of the largest pieces.
+    """The panels where the slope has many breaks, and the middles of the largest pieces.
+
+    Each piece is one panel, graded where a break needs it.
     """
     cut = angles(contact, inner(contact, slope.breaks))
     ends = np.concatenate(([0.0], cut, [np.pi]))
@@ -188,8 +190,9 @@ def _levels_of_few(slope: Slope, also: Array) -> int:
 
 
 def _levels(slope: Slope, contact: Interval) -> NDArray[np.int64]:
-    """The number of gradings at each break inside, after which the error of NODES nodes for
-    (x - e)^(m+1) ln|x - e| is rounding.
+    """The number of gradings at each break inside.
+
+    After so many, the error of NODES nodes for (x - e)^(m+1) ln|x - e| is rounding.
     """
     b = slope.breaks[1:-1]
     inside = (contact.from_left(b) > 0.0) & (contact.from_right(b) > 0.0)

@@ -207,6 +207,7 @@ class ShearCertificate:
 
     @property
     def rows(self) -> tuple[tuple[str, str], ...]:
+        """The measures with their values, as printed."""
         return (
             ("shear equation (12) in stick, residual / peak", f"{self.residual:.1e}"),
             ("equilibrium, |∫q - Q| / ∫|q|", f"{self.equilibrium:.1e}"),
@@ -218,6 +219,7 @@ class ShearCertificate:
 
     @property
     def remarks(self) -> tuple[str, ...]:
+        """The kind of slip."""
         if self.advancing:
             return (f"slip: {self.kind}",)
         return (f"slip: {self.kind}, in total displacements: {RETREAT}",)

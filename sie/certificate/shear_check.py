@@ -125,6 +125,7 @@ def integrals(terms: list[Term], at: Array) -> tuple[float, Array, float, Array]
 
 
 def excess(state: Slip, contact: Interval, x: Array, p: Array, q: Array) -> float:
+    """The largest |q| - f p in stick, or error of |q| = f p in slip."""
     # A node on a corner, where p is infinite, was set to 0.
     worst = float(np.where(p > 0.0, np.abs(q) - p, -np.inf).max())
     margin = ENDS * (contact.r + abs(contact.m))
@@ -165,6 +166,7 @@ def points(state: Slip, terms: list[Term]) -> Array:
 
 
 def finite(values: Array) -> Array:
+    """The values, with 0 in place of infinities."""
     return np.where(np.isfinite(values), values, 0.0)
 
 

@@ -117,7 +117,13 @@ class TraceReport:
     unsure_patches: int = 0
 
     def as_dict(self) -> dict[str, Any]:
-        """The report as numbers, lists and strings by name, for JSON."""
+        """The report for JSON.
+
+        Returns
+        -------
+        dict
+            Numbers, lists and strings by name.
+        """
         pairs = {"outliers": list(map(list, self.outliers)), "edge_errors": list(self.edge_errors)}
         named = {"gaps": [gap._asdict() for gap in self.gaps], "mended": self.mended._asdict()}
         return asdict(self) | pairs | named

@@ -72,8 +72,9 @@ class EdgeIntegrals(NamedTuple):
         )
 
     def settled(self, before: Interval, after: Interval, target: float) -> EdgeIntegrals:
-        """The integrals of the contact with smooth edges that carries target = P/G, to which the
-        last small step leads from where these were taken.
+        """The integrals of the contact with smooth edges that carries target = P/G.
+
+        The last small step leads to it from the contact where these were taken.
 
         That step adds p ~ (α + β (x - m)) / sqrt(r² - (x - m)²), which takes the tilt I0/π back:
         the moment about x = 0 becomes G (m target - r² C2) with the m, r and C2 from before.
@@ -107,8 +108,9 @@ def edge_integrals(
     keep_zero: bool = False,
     epsilon: float = 0.0,
 ) -> EdgeIntegrals:
-    """The integrals over the contact; with `lower` (the axis of a symmetric one) over the half
-    right of it.
+    """The integrals over the contact.
+
+    With `lower` (the axis of a symmetric one) they are taken over the half right of it.
     """
     if not contact.r < math.inf:
         raise OverflowError("an edge of the contact is beyond all doubles")
@@ -183,8 +185,9 @@ def _jumps(g: Geometry) -> Array:
 
 
 def _rises(H: Array, k: NDArray[np.int64]) -> Array:
-    """The rises of H at both ends (2, K) of the pieces k, from its values there; 0 where two pieces
-    meet within rounding.
+    """The rises of H at both ends (2, K) of the pieces k, from its values there.
+
+    They are 0 where two pieces meet within rounding.
 
     Rounding divided by the square root of a distance of 1e-222 from an edge would exceed all else.
     """

@@ -72,8 +72,10 @@ class Polish:
     def both(
         self, contact: Interval, target: float, left_sharp: bool, touch: tuple[float, float]
     ) -> tuple[Interval, EdgeIntegrals, bool]:
-        """The contact that carries target = P/G, its edge integrals, and whether the residuals
-        came down to rounding. It holds all of `touch`, but for rounding where that is no break.
+        """The contact that carries target = P/G, its edge integrals, and whether Newton settled.
+
+        It has settled if the residuals came down to rounding. The contact holds all of `touch`, but
+        for rounding where that is no break.
         """
         (lo, hi), breaks = self.slope.domain, self.slope.break_points
         z1, z2 = ((z, 0.0) if z in breaks else None for z in touch)
@@ -120,8 +122,9 @@ class Polish:
         lever: float,
         tilted: Callable[[Interval, float], EdgeIntegrals],
     ) -> tuple[Interval, EdgeIntegrals, float] | None:
-        """The contact with smooth edges that carries target = P/G at x = lever, its edge integrals
-        and its tilt; None if Newton's steps find none.
+        """The contact with smooth edges that carries target = P/G at x = lever.
+
+        Its edge integrals and its tilt come with it; None if Newton's steps find none.
 
         Whatever the tilt, it is the one that makes I0 vanish. An edge that moves outwards then adds
         p ~ sqrt((x - x1)/(x2 - x)) or the mirror image of it, whose resultants are G r J/2 and act
@@ -163,8 +166,9 @@ class Polish:
     def symmetric(
         self, contact: Interval, target: float, z: float, most: int, reach: float = math.inf
     ) -> tuple[Interval, bool]:
-        """The same of a symmetric contact, one unknown; it ends after `most` steps, or at one that
-        is longer than `reach` r.
+        """The symmetric contact that carries target = P/G, and whether it settled: one unknown.
+
+        It ends after `most` steps, or at one that is longer than `reach` r.
 
         With r JR changing by no more than VARIES times itself over the distance to the next break
         or to z, what a step leaves is known.
@@ -198,8 +202,9 @@ class Polish:
         return contact, False
 
     def centred(self, contact: Interval, low: float, high: float) -> tuple[Interval, EdgeIntegrals]:
-        """The contact of the same half-width whose centre, between low and high, balances the
-        slope: I0 = 0.
+        """The contact of the same half-width whose centre balances the slope: I0 = 0.
+
+        The centre is between low and high.
         """
         bracket, r = Bracket((low, 0.0), (high, 0.0), (True, True)), contact.r
         m, earlier = (contact.m, 0.0), [math.inf, math.inf]
@@ -222,8 +227,9 @@ class Polish:
         return contact, k
 
     def _sideways(self, contact: Interval, over: float, rise: float) -> float:
-        """The distance by which both edges move right so that over = r I0 vanishes, by the edge
-        that is next to a break.
+        """The distance by which both edges move right so that over = r I0 vanishes.
+
+        It follows from the edge that is next to a break.
         """
         to_left = abs(self.nearest(contact, LEFT)[1])
         to_right = abs(self.nearest(contact, RIGHT)[1])
@@ -248,9 +254,7 @@ class Polish:
     # -- a step ------------------------------------------------------------------------------------
 
     def nearest(self, contact: Interval, side: int) -> tuple[float, float]:
-        """The break nearest to an edge, and how far behind the edge it lies: negative if it is
-        ahead.
-        """
+        """The break nearest to an edge, and its distance behind it, negative if it is ahead."""
         breaks, x, distance = self.slope.break_points, contact.x2, contact.from_right
         if side == LEFT:
             x, distance = contact.x1, contact.from_left
@@ -263,8 +267,9 @@ class Polish:
     def outwards(
         self, contact: Interval, side: int, over: float, rise: float, share: float = 1.0
     ) -> float:
-        """The distance by which an edge moves outwards so that its residual `over`, which grows by
-        `rise`, vanishes.
+        """The distance by which an edge moves outwards so that its residual vanishes.
+
+        The residual `over` grows by `rise`.
 
         `share` is the part of a break's contribution at this edge that enters the residual.
         """

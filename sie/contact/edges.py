@@ -54,8 +54,9 @@ UNEVEN = 1e-30  # the left side is not sought nearer than this fraction of the r
 
 
 class Found(NamedTuple):
-    """A contact, which edges are sharp, and its edge integrals if they are known (but for the
-    rounding of its edges).
+    """A contact, which of its edges are sharp, and its edge integrals if they are known.
+
+    They are known but for the rounding of its edges.
     """
 
     contact: Interval
@@ -96,8 +97,9 @@ class Search:
         return EdgeIntegrals(0.0, 2.0 * half.I1, 0.0, J0, J0, 0.0, 0.0, size, size)
 
     def load(self, contact: Interval, k: EdgeIntegrals) -> float:
-        """P of the contact whose edges are smooth wherever they can be: the larger of G r K1 and G
-        r K2.
+        """P of the contact whose edges are smooth wherever they can be.
+
+        It is the larger of G r K1 and G r K2.
         """
         return self.half_modulus * contact.r * (k.I1 + abs(k.I0))
 
@@ -217,8 +219,9 @@ class Search:
     # -- general contact ---------------------------------------------------------------------------
 
     def general(self, load: float) -> Found:
-        """Both edges, for a given load and tilt; each is smooth, or sharp at the end of the
-        indenter.
+        """Both edges for a given load and tilt.
+
+        Each is smooth, or sharp at the end of the indenter.
         """
         right = self._right_edge(load)
         if right is not None:
@@ -242,8 +245,9 @@ class Search:
         )
 
     def _right_edge(self, load: float) -> Found | None:
-        """The contact whose right edge is smooth, and its left edge may be sharp; None if the right
-        edge is sharp too.
+        """The contact whose right edge is smooth, and whose left edge may be sharp.
+
+        None if the right edge is sharp too.
         """
         z1, z2 = self.touch()
         lo, hi = self.slope.domain
@@ -284,8 +288,9 @@ class Search:
     def _left_edge(
         self, z: tuple[float, float], right: float, guess: float
     ) -> tuple[Interval, EdgeIntegrals, float]:
-        """x1 with I0 = 0 for x2 = z2 + right, or the end of the indenter where I0 >= 0 even there
-        (a sharp edge); and z1 - x1.
+        """x1 with I0 = 0 for x2 = z2 + right, its edge integrals, and z1 - x1.
+
+        Where I0 >= 0 even at the end of the indenter, x1 is that end (a sharp edge).
         """
         lo = self.slope.domain[0]
         x2, tail2 = two_sum(z[1], right)

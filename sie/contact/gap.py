@@ -36,8 +36,9 @@ LONGEST = 0.5
 
 
 def gap(x: Array, density: SlopeDensity, slope: Slope, more: More = None) -> Array:
-    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter. `slope` includes the
-    tilt.
+    """The gap at x (1-d): 0 in contact, inf beyond the ends of the indenter.
+
+    `slope` includes the tilt.
 
     `more(x, side)` is added to the outward derivative of the gap: what else opens it.
     """
@@ -116,8 +117,9 @@ def _on_one_side(
 
 
 def _cuts(farthest: float, theta_max: float, side: float, contact: Interval, slope: Slope) -> Array:
-    """Ends of the panels in θ: graded from the breaks inside, cut at those outside, never longer
-    than LONGEST.
+    """Ends of the panels in θ, never farther apart than LONGEST.
+
+    The panels are graded from the breaks inside and cut at those outside.
     """
     inner = slope.breaks[
         (contact.from_left(slope.breaks) > 0.0) & (contact.from_right(slope.breaks) > 0.0)

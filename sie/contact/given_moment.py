@@ -27,8 +27,9 @@ FIRST_STEP, GROWTH = 2.0**-6, 1.5
 
 
 def under_load(search: Search, load: float, moment: float) -> Edges | None:
-    """The contact and the tilt where both edges are smooth; None if none was found, or an edge
-    is at the end of the indenter.
+    """The contact and the tilt where both edges are smooth.
+
+    None if none was found, or an edge is at the end of the indenter.
     """
     target, lever = load / search.half_modulus, moment / load
     lo, hi = search.slope.domain
@@ -68,8 +69,9 @@ def under_load(search: Search, load: float, moment: float) -> Edges | None:
 
 
 def of_half_width(search: Search, r: float, moment: float) -> Edges | None:
-    """The contact of half-width r with smooth edges, and its tilt, of those that have the
-    moment the nearest to where the untilted profile touches; None if none was found.
+    """The contact of half-width r with smooth edges that has the moment, and its tilt.
+
+    Of several it is the one nearest to where the untilted profile touches; None if none was found.
 
     Whatever the centre m, the tilt -I0/π balances the slope. Then M = G r (m I1 - r (C2 -
     I0/2)) and dM/dm = G r (r (JR + JL)/4 + m (JR - JL)/2): one unknown. M need not grow with m,
@@ -131,8 +133,9 @@ def _first_change(
     bounds: tuple[float, float],
     r: float,
 ) -> Bracket | None:
-    """Two places, found by growing steps to both sides, between which the excess changes its sign
-    under load.
+    """Two places between which the excess changes its sign under load.
+
+    They are found by growing steps to both sides.
     """
     last = {side: (centre, *at(centre)) for side in (-1.0, 1.0)}
     step = FIRST_STEP * r

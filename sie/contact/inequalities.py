@@ -129,8 +129,9 @@ def relative_gaps(density: SlopeDensity, slope: Slope) -> tuple[Array, Array]:
 
 
 def intervals_below(x: Array, values: Array) -> Intervals:
-    """The intervals where values are below -TOLERATED, from where they change sign between two of
-    the points.
+    """The intervals where values are below -TOLERATED.
+
+    They begin and end where values change sign between two of the points.
     """
     order = np.argsort(x, kind="stable")
     x, values = x[order], values[order]
@@ -165,8 +166,9 @@ def _among(intervals: Intervals) -> str:
 
 
 def _scan(contact: Interval, slope: Slope) -> Array:
-    """Points inside every piece in the contact, evenly in the angle: many where there are few
-    pieces.
+    """Points inside every piece in the contact, evenly in the angle.
+
+    There are many in each where there are few pieces.
     """
     resolution = refined(slope, contact.x1, contact.x2, EPS) if slope.functions else slope
     ends = np.concatenate(([0.0], angles(contact, inner(contact, resolution.breaks)), [np.pi]))
@@ -176,8 +178,9 @@ def _scan(contact: Interval, slope: Slope) -> Array:
 
 
 def _beside(contact: Interval, slope: Slope) -> Array:
-    """Points beside the contact, out to FAR half-widths or the ends of the indenter, its breaks
-    among them.
+    """Points beside the contact, out to FAR half-widths or the ends of the indenter.
+
+    Its breaks are among them.
     """
     lo, hi = slope.domain
     distance = contact.r * AHEAD
@@ -187,8 +190,9 @@ def _beside(contact: Interval, slope: Slope) -> Array:
 
 
 def _opens_everywhere(x: Array, density: SlopeDensity, slope: Slope) -> bool:
-    """Whether the gap grows outwards at x, at the breaks among them from both sides: then it need
-    not be integrated.
+    """Whether the gap grows outwards at x, so that it need not be integrated.
+
+    At the breaks among x both sides count.
 
     Between its breaks a polynomial slope or a power has no feature that x misses; a function may.
     """

@@ -53,8 +53,9 @@ def normal_contact(
     economy: Collection[str] = ECONOMY,
     seen: tuple[float, ...] | None = None,
 ) -> Normal:
-    """The edges, load, moment and tilt of a scene. Raises ContactError if one patch of contact
-    cannot answer it.
+    """The edges, load, moment and tilt of a scene.
+
+    Raises ContactError if one patch of contact cannot answer it.
 
     `seen` are the breaks found in a larger contact of the same profile, which need not be looked
     for again.
@@ -73,8 +74,9 @@ def normal_contact(
 def _within_scale(
     scene: Scene, tol: float, economy: Collection[str], seen: tuple[float, ...] | None
 ) -> Normal:
-    """`_contact`; LoadError where doubles cannot hold it: its places are too few, or its squares
-    are no doubles.
+    """`_contact`, and LoadError where doubles cannot hold it.
+
+    Its places are then too few, or its squares are no doubles.
     """
     if (
         scene.normal_load is not None
@@ -234,8 +236,9 @@ def _smooth(scene: Scene, slope: Slope, tol: float, symmetry: bool) -> Normal | 
 
 
 def _refuse_infinite_ends(slope: Slope) -> None:
-    """Raises LoadError where the slope is infinite at an end of the indenter, towards which no
-    series resolves it.
+    """Raises LoadError where the slope is infinite at an end of the indenter.
+
+    No series resolves the slope towards such an end.
     """
     ends = np.array([end for end in slope.domain if math.isfinite(end)])
     infinite = ends[~np.isfinite(slope(ends))]
@@ -286,8 +289,9 @@ def contact_under(
     near: Interval | None = None,
     seen: tuple[float, ...] | None = None,
 ) -> Normal:
-    """The contact of a scene's profile under another load, at another tilt; `near` is that under a
-    load that may be almost the same.
+    """The contact of a scene's profile under another load, at another tilt.
+
+    `near` is that under a load that may be almost the same.
     """
     profile = scene.profile
     upright = profile.axis is not None and tilt == 0.0 and "symmetry" in economy

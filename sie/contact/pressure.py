@@ -77,8 +77,9 @@ def upright_law(scene: Scene, economy: Collection[str], tilt: float = 0.0) -> Po
 
 
 def slope_series(slope: Slope, contact: Interval, tol: float) -> np.ndarray | None:
-    """Chebyshev coefficients of H over the whole contact, None if a break lies inside or they do
-    not decay.
+    """Chebyshev coefficients of H over the whole contact.
+
+    None if a break lies inside or they do not decay.
     """
     breaks = slope.break_points
     inner = bisect_right(breaks, contact.x1), bisect_left(breaks, contact.x2)

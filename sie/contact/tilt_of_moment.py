@@ -21,8 +21,9 @@ MISSED = 1e-9  # of the load times its farthest lever: a moment missed by more w
 def refuse_outside(
     moment: float, load: float, window: tuple[float, float], domain: tuple[float, float]
 ) -> None:
-    """Raises LoadError where the load acts beyond the window on which the slope is resolved, or
-    beyond the indenter.
+    """Raises LoadError where the load acts too far outside.
+
+    That is beyond the window on which the slope is resolved, or beyond the indenter.
     """
     if window[0] < moment / load < window[1]:
         return
@@ -86,8 +87,10 @@ def tilt_of_moment(
 def _carried(
     edges_at: Callable[[float], Edges], tilt: float, known: float, most: int
 ) -> tuple[float, Edges | None, int]:
-    """The edges at a tilt, or half the way back to a known one as often as the profile cannot be
-    tilted by so much; and the tilts tried.
+    """The edges at a tilt that the profile allows, and the number of tilts tried.
+
+    The tilt goes half the way back to a known one as often as the profile cannot be tilted by so
+    much.
     """
     for tried in range(1, most + 1):
         if abs(tilt - known) <= 4.0 * EPS * abs(known):
@@ -100,8 +103,9 @@ def _carried(
 
 
 def _fall_of_moment(edges: Edges, search: Search, at_fixed_width: bool) -> float:
-    """-dM/d(tilt): π/2 G r² (1 - 4ε²) at constant load; at constant half-width the load changes
-    too, dm/d(tilt) = -π/J0, dP/dm = G r J1.
+    """-dM/d(tilt), which is π/2 G r² (1 - 4ε²) at constant load.
+
+    At constant half-width the load changes too: dm/d(tilt) = -π/J0, dP/dm = G r J1.
     """
     r, G = edges.contact.r, search.half_modulus / math.cos(math.pi * search.epsilon)
     falls = 0.5 * math.pi * G * r * r * (1.0 - 4.0 * search.epsilon**2)

@@ -147,8 +147,10 @@ class ChangingContact:
         return (sign * (self.path.shear(self.end) - self.path.shear(self.start)) - rise) / o.jump
 
     def strain(self, contact: Interval) -> float:
-        """E*/2 times the rate of the tilt. Where it follows from the moment M, dp = [dP/π - G dθ
-        (x - m)]/w carries dM = m dP - π/2 G r² dθ.
+        """E*/2 times the rate of the tilt.
+
+        Where it follows from the moment M, dp = [dP/π - G dθ (x - m)]/w carries dM = m dP - π/2 G
+        r² dθ.
         """
         turned, G = self.end.turn - self.start.turn, 0.5 * self.path.scene.Estar
         if not self.path.curved:
@@ -227,8 +229,9 @@ class ChangingContact:
         return o.upper + (carried(share) - carried(self.shares(o)[0])) / o.jump
 
     def _crossed(self, x: float) -> float:
-        """The share of the step at which an edge passes x: the last time if x comes into contact,
-        the first if it leaves.
+        """The share of the step at which an edge passes x.
+
+        It is the last time if x comes into contact, the first if it leaves.
         """
         right = x > self._contact(0.5).m
 

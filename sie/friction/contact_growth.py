@@ -129,8 +129,9 @@ class ContactGrowth:
         return 0.0
 
     def _near(self, y: float) -> Contact | None:
-        """By Newton from what the contacts of other loads say, None if that does not settle or an
-        edge is sharp.
+        """The contact by Newton's method from what the contacts of other loads say.
+
+        None if that does not settle or an edge is sharp.
         """
         guess = self._guess(math.log(y))
         if guess is None:
@@ -147,8 +148,9 @@ class ContactGrowth:
             self._known.insert(k, point)
 
     def _guess(self, at: float) -> Interval | None:
-        """From the four nearest loads: the distances of the edges are power laws, about, and cubics
-        in logarithms.
+        """The contact as guessed from the four nearest loads.
+
+        The distances of the edges are nearly power laws, and cubics in logarithms fit them.
         """
         if len(self._known) < 2:
             return None
@@ -166,8 +168,10 @@ class ContactGrowth:
 
 
 def near_contact(search: Search, load: float, guess: Interval, top: float) -> Contact | None:
-    """The contact under a load by Newton from another one, None if that does not settle or an edge
-    is sharp; `top` is the largest load, next to which rounding of the slope is small.
+    """The contact under a load by Newton's method from another one.
+
+    None if that does not settle or an edge is sharp. `top` is the largest load, next to which
+    rounding of the slope is small.
     """
     contact, target, previous = guess, load / search.half_modulus, NEAR
     touch, (lo, hi) = search.touch(), search.slope.domain

@@ -1,5 +1,7 @@
-"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction: zones,
-tractions, slip, gap and dissipated energy, from P' and the half-width b (`coupled_normal`).
+"""The contact of dissimilar bodies under a symmetric convex profile, pressed with friction.
+
+Zones, tractions, slip, gap and dissipated energy follow from P' and the half-width b
+(`coupled_normal`).
 
 β < 0 only turns the sign of the shear and of the slip.
 """
@@ -228,8 +230,9 @@ class CoupledContact:
         return H
 
     def raised(self, y: Array) -> Array:
-        """2/E* times the integral of that from b to each y >= b: how far the surfaces part less
-        than the profile rises.
+        """2/E* times the integral of that from b to each y >= b.
+
+        The surfaces part by so much less than the profile rises.
         """
         ahead = y - self.b
         none = np.full(len(y), np.inf)

@@ -140,8 +140,10 @@ class Growth:
 
 
 def tangential_energy(state: ShearedContact) -> float:
-    """The energy dissipated while Q grew at constant P. Raises ContactError where that is not
-    found to a part CERTIFIED."""
+    """The energy dissipated while Q grew at constant P.
+
+    Raises ContactError where that is not found to a part CERTIFIED.
+    """
     growth, reason = Growth(state), ""
     for part in STARTS:
         try:

@@ -95,15 +95,17 @@ class FlatPunch:
 
 
 def nodes_for(ratio: float, digits: float = DIGITS) -> int:
-    """How many nodes of a Gauss rule for even functions on (-1, 1) resolve singularities at ±i
-    ratio.
+    """The number of nodes of a Gauss rule that resolves singularities at ±i ratio.
+
+    It holds for even functions on (-1, 1).
     """
     return math.ceil(digits / (4.0 * math.asinh(ratio))) + SPARE
 
 
 def long_rule(ratio: float, a: float, b: float) -> tuple[Array, Array, Array]:
-    """Nodes on (0, 1), their distances from 1, and weights of functions with the powers a at 1 and
-    b at 0, whose nearest singularities are at half the interval's length times ratio.
+    """Nodes on (0, 1), their distances from 1, and weights for the powers a at 1 and b at 0.
+
+    The nearest singularities are at half the interval's length times ratio.
 
     A long interval is cut, as few nodes cost less to find.
     """

@@ -1,5 +1,4 @@
-"""Pressure, shear and slip of the flat punch in coupled partial slip, as functions of 0 <= t =
-x/b.
+"""Pressure, shear and slip of the flat punch in coupled partial slip, for 0 <= t = x/b.
 
 Two functions give all of them (notation of `coupled_flat`; S is derived in
 docs/derivations/coupled_slip.md):
@@ -253,8 +252,9 @@ class FlatFunctions:
 
     @cached_property
     def _difference(self) -> Function:
-        """S as N - A n, whose error is rounding of numbers of order one: it serves where p needs
-        S.
+        """S as N - A n, whose error is rounding of numbers of order one.
+
+        It serves where p needs S.
         """
         punch, theta = self.punch, self.theta
         aG = self._a * punch.square * (self._scale / math.pi) * punch.kernel_of_one

@@ -1,5 +1,6 @@
-"""How the load of a symmetric convex profile grows with its contact, where pressure and shear are
-coupled.
+"""The growth of the load of a symmetric convex profile with its contact.
+
+Pressure and shear are coupled.
 
 Beside the contact of half-width x, at its edge, equation (1) reads, with P'(s) = dP/ds,
 
@@ -48,8 +49,9 @@ NEAR = 0.5  # of a panel's length: nearer it is integrated on panels that shrink
 
 
 class Piece(NamedTuple):
-    """E*/2 h' on lo <= x <= hi as a function of x - lo; whether it jumps at lo, and is not smooth
-    there.
+    """E*/2 h' on lo <= x <= hi as a function of x - lo.
+
+    With it comes whether it jumps at lo, and whether it is not smooth there.
     """
 
     lo: float
@@ -99,8 +101,9 @@ def solved_growth(flat: FlatFunctions, pieces: list[Piece]) -> tuple[GrowthPanel
 
 
 def _missed(panel: GrowthPanel) -> float:
-    """The load that the last coefficients of a series carry, 0 where they are small beside the
-    others.
+    """The load that the last coefficients of a series carry.
+
+    It is 0 where they are small beside the others.
     """
     size, length = np.abs(panel.series), panel.hi - panel.lo
     tail = float(size[-3:].max())
@@ -137,8 +140,9 @@ def _panels(flat: FlatFunctions, origin: float, piece: Piece, power: float) -> l
 
 
 def _narrowest(power: float) -> float:
-    """The part of the half-width on which P' from a kink (power > 0) or a corner carries nothing:
-    its power is 1/2 and -1/2 there, as far as the slip zone is narrower.
+    """The part of the half-width on which P' from a kink (power > 0) or a corner carries nothing.
+
+    Its power is 1/2 and -1/2 there, as far as the slip zone is narrower.
     """
     return EPS**0.75 if power > 0.0 else EPS
 
@@ -198,8 +202,9 @@ def _up_to(flat: FlatFunctions, panel: GrowthPanel, part: float, x: Array, beyon
 
 
 def _longest(panel: GrowthPanel) -> float:
-    """The length of a panel of integrals over a part of this one: where P' is a polynomial of s,
-    it varies faster in the logarithm of a distance.
+    """The length of a panel of integrals over a part of this one.
+
+    Where P' is a polynomial of s, it varies faster in the logarithm of a distance.
     """
     return LONGEST if panel.behind < math.inf else 0.5 * LONGEST
 
@@ -207,8 +212,9 @@ def _longest(panel: GrowthPanel) -> float:
 def load_slope(
     flat: FlatFunctions, growth: tuple[GrowthPanel, ...], ahead: float, x: Array
 ) -> Array:
-    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b: 1/π ∫p/(x - t) dt beside the
-    contact.
+    """∫P' D(x/s) ds/s up to b = origin + ahead for each x > b.
+
+    It is 1/π ∫p/(x - t) dt beside the contact.
     """
     total = np.zeros(len(x))
     for panel in growth:

@@ -1,5 +1,6 @@
-"""The search for the contact of dissimilar bodies under a symmetric convex profile, pressed with
-friction: P' and the half-width.
+"""The search for the contact of dissimilar bodies pressed with friction: P' and the half-width.
+
+The profile is symmetric and convex.
 
 The half-width b comes from P = ∫P' ds. It is not larger than without friction, as friction
 stiffens the contact: the frictionless contact bounds the search, and refuses what no contact can
@@ -179,8 +180,9 @@ def _root(load: Callable[[float], float], P: float, farthest: float) -> float:
 
 
 def _refuse_falling(growth: tuple[GrowthPanel, ...], ahead: float, axis: float) -> None:
-    """Raises ContactError where P' < 0: the profile is not convex, and the contact would recede
-    there.
+    """Raises ContactError where P' < 0.
+
+    The profile is then not convex, and the contact would recede there.
     """
     for panel in growth:
         s, mass = panel.places

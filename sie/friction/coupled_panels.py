@@ -67,8 +67,10 @@ def totals(owner: NDArray[np.intp], values: Array, n: int) -> Array:
 
 
 def shrinking(length: Array, before: Array, after: Array) -> tuple[Array, ...]:
-    """Panels of intervals: whose, beginning, length, what is left behind them, and which of
-    three rules: at the start, between, at the end.
+    """Panels of intervals, as arrays.
+
+    These are the interval of each, its beginning, its length, what is left behind it, and the
+    number of its rule: at the start, between, or at the end.
 
     From either end they grow in proportion to the distance from the singularity beyond it.
     """

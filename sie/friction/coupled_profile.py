@@ -76,8 +76,9 @@ class GrowthPanel:
         return behind * np.expm1(math.log1p(length / behind) * part)
 
     def rule(self, length: float, n: int, shift: float = 0.0) -> tuple[Array, Array]:
-        """Places ahead of lo and weights of ds on a first part of the panel, for P' (s - lo)^shift
-        times a smooth function.
+        """Places ahead of lo and weights of ds on a first part of the panel.
+
+        They serve P' (s - lo)^shift times a smooth function.
         """
         x, _, w = with_weight(n, 0.0, self.power + shift)
         if self.behind == math.inf:
@@ -93,8 +94,9 @@ class GrowthPanel:
         return self.lo + ahead, weight * self(ahead)
 
     def load(self, ahead: float) -> float:
-        """∫P' ds from its beginning to origin + ahead, which may lie before the panel, on it or
-        beyond.
+        """∫P' ds from its beginning to origin + ahead.
+
+        That end may lie before the panel, on it or beyond.
         """
         if ahead <= self.lo:
             return 0.0
@@ -134,8 +136,10 @@ class Kernel(NamedTuple):
 
 
 class Part(NamedTuple):
-    """Intervals of s for some of the x: where they begin, beyond x and beyond lo of the panel;
-    lengths; and scales.
+    """Intervals of s for some of the x.
+
+    They are given by their beginnings, beyond x and beyond lo of the panel, their lengths and
+    scales.
 
     before, after   distances from either end to the next singularity, inf if there is none
     powers          exponents at both ends
@@ -226,8 +230,9 @@ class Superposition:
         return total
 
     def _parts(self, kernel: Kernel, panel: GrowthPanel, x: Array, b: Array) -> Iterator[Part]:
-        """The intervals of s - origin that lie on the panel and below b, by what they begin and
-        end at.
+        """The intervals of s - origin that lie on the panel and below b.
+
+        They come in groups, by what they begin and end at.
         """
         begin = (x - panel.origin) + x * kernel.above
         end = x / kernel.lo - panel.origin if kernel.lo else np.full(len(x), np.inf)
@@ -252,8 +257,9 @@ class Superposition:
         at: tuple[Array, Array, Array],
         own: tuple[bool, bool],
     ) -> Part:
-        """The intervals (lo, hi) of some x, which begin or end at the kernel's own places, or the
-        panel's.
+        """The intervals (lo, hi) of some x.
+
+        They begin or end at the kernel's own places, or the panel's.
         """
         (x, lo, hi), (own_start, own_end) = at, own
         c, origin = self.flat.c, panel.origin

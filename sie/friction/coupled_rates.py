@@ -160,8 +160,11 @@ def _slip_rule(length: float, stick: float, edge: float) -> tuple[Array, Array, 
 
 
 def tangential_shift(state: State) -> float:
-    """The shift: that of γ by the logarithm of its shear, with ∫γ dx = β P/2 on either
-    side of the axis under P alone, less that of a bonded contact."""
+    """The shift, less that of a bonded contact.
+
+    It is that of γ by the logarithm of its shear, with ∫γ dx = β P/2 on either side of the axis
+    under P alone.
+    """
     from scipy.special import digamma  # noqa: PLC0415 -- heavy, and for dissimilar bodies only
 
     search, start = state.search, state.trial.zones.e2

@@ -219,8 +219,9 @@ class ShearedContact:
 
     @property
     def least_gain(self) -> float:
-        """The least slip under Q along Q in a slip zone, over the largest; positive by the friction
-        law, and 0 where it is less than the error of γ.
+        """The least slip under Q along Q in a slip zone, over the largest.
+
+        By the friction law it is positive. It is 0 where it is less than the error of γ.
         """
         left, right = self._gained
         gained = np.append(left(left.cuts) - left(left.cuts[-1:]), right(right.cuts))

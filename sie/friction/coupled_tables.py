@@ -38,8 +38,9 @@ def joined(*parts: Points) -> Points:
 
 
 def stretched(length: Any, before: Any, after: Any, grown: Array, left: Array) -> tuple[Any, ...]:
-    """Places of an interval by v = ln((B + y)/(C + L - y)), where `grown` of v lies behind and
-    `left` ahead: the distances y and L - y from its ends, and dy/dv.
+    """Places of an interval by v = ln((B + y)/(C + L - y)): y and L - y, and dy/dv.
+
+    `grown` of v lies behind and `left` ahead. y and L - y are the distances from the ends.
 
     A function that is singular at y = -B and y = C + L, and nowhere else on the line beside the
     interval, is analytic in v for |Im v| < π.
@@ -106,8 +107,9 @@ class Table:
 
 @lru_cache(maxsize=1)
 def _in_powers() -> Array:
-    """The matrix that takes a Chebyshev series to powers: of few terms, which decay, no digits are
-    lost.
+    """The matrix that takes a Chebyshev series to powers.
+
+    Series have few terms, which decay, and lose no digits.
     """
     rows = [np.polynomial.chebyshev.cheb2poly(row) for row in np.eye(DEGREE)]
     matrix = np.zeros((DEGREE, DEGREE))
@@ -123,8 +125,9 @@ def chopped(c: Array) -> Array:
 
 
 def summed(c: Array, y: Array) -> Array:
-    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays: of many points it takes half the
-    time.
+    """Σ c_n T_n(y) by Clenshaw's recurrence in three arrays.
+
+    For many points it takes half the time.
     """
     twice, higher, high = 2.0 * y, np.zeros_like(y), np.full_like(y, c[-1] if len(c) > 1 else 0.0)
     spare = np.empty_like(y)

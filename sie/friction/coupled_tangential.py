@@ -229,8 +229,10 @@ class TangentialSearch:
 
     @cached_property
     def _bounds(self) -> tuple[float, float]:
-        """What the stick zone may reach: the contact under P alone on the left, its stick zone on
-        the right.
+        """The bounds of the stick zone.
+
+        On the left this is the edge of the contact under P alone, on the right the end of its stick
+        zone.
         """
         return -self.normal.b, self.normal.c
 
@@ -305,8 +307,9 @@ class TangentialSearch:
         )
 
     def _followed(self, now: Trial, load: float, Q: float) -> tuple[Trial, float]:
-        """The state under Q, in steps of the load from that of another; else the last one that was
-        found, with its load.
+        """The state under Q, in steps of the load from that of another.
+
+        If a step finds none, it is the last one that was found, with its load.
         """
         angle, end = (math.asin(math.sqrt(q / self.limit)) for q in (load, Q))
         stride, change = math.copysign(STRIDE, end - angle), np.zeros(4)

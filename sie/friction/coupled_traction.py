@@ -41,8 +41,9 @@ TOGETHER = 2**18  # entries of a matrix that are computed at once
 
 
 class Panels(NamedTuple):
-    """Panels of 0 <= y <= b, ascending: ends, series (n, DEGREE), and the exponent at b of the
-    last.
+    """Panels of 0 <= y <= b, ascending: ends, series (n, DEGREE), and an exponent.
+
+    The exponent is that of the last panel at b.
     """
 
     lo: Array
@@ -266,8 +267,9 @@ def _inner_panel(c: Array, z: Complex, lo: float, hi: float) -> tuple[Complex, C
 def _edge_panel(
     c: Array, power: float, z: Complex, lo: float, hi: float
 ) -> tuple[Complex, Complex]:
-    """The same for ((hi - t)/(hi - lo))^power Σ c_n T_n; with u = (hi - t)/(hi - lo), ζ that of
-    z.
+    """The same for ((hi - t)/(hi - lo))^power Σ c_n T_n.
+
+    u = (hi - t)/(hi - lo), and ζ is that of z.
     """
     length = hi - lo
     zeta = (hi - z) / length
@@ -283,8 +285,9 @@ def _edge_panel(
 def _recurred(
     c: Array, s: Complex, start: tuple[Complex, Complex], moments: Array
 ) -> tuple[Complex, Complex]:
-    """Σ c_n K_n and Σ c_n K_n', K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 -
-    moments_0/2.
+    """Σ c_n K_n and Σ c_n K_n' by the recurrence of K_n.
+
+    K_{n+1} = 2 s K_n - K_{n-1} - moments_n, K_1 = s K_0 - moments_0/2.
     """
     K, dK = before, dbefore = start
     now, dnow = s * K - 0.5 * moments[0], K + s * dK

@@ -65,8 +65,9 @@ class Zones(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """Places in the stick zone, their distances from its ends, and weights of (x - e1)^-a1 (e2 -
-    x)^-a2 dx.
+    """Places in the stick zone, their distances from its ends, and weights.
+
+    The weights are those of (x - e1)^-a1 (e2 - x)^-a2 dx.
     """
 
     x: Array
@@ -259,8 +260,9 @@ class StickProblem:
         )
 
     def _stuck(self, cos: float) -> float:
-        """∫(f p - q) dx = cos πθ ∫ (β (1 + f²) A - (1 + κ²) γ_d)/(1 - β²) x dx/R, R = (x - e1)^a1
-        (e2 - x)^a2.
+        """∫(f p - q) dx = cos πθ ∫ (β (1 + f²) A - (1 + κ²) γ_d)/(1 - β²) x dx/R.
+
+        R = (x - e1)^a1 (e2 - x)^a2.
         """
         m, beta, f = self.map, self.beta, self.friction
         place = m.place(m.below, m.above)

@@ -176,8 +176,9 @@ class Dissipation:
     # -- across many breaks ------------------------------------------------------------------------
 
     def _crosses_many_breaks(self, P: float, L: float, Y: float, at_L: float, at_Y: float) -> bool:
-        """Whether the front of a trace crosses so many breaks that a panel for each costs more than
-        two potentials (and no digits).
+        """Whether a panel for each break that the front of a trace crosses costs too much.
+
+        Two potentials then cost less, and lose no digits.
         """
         if len(self.contacts.breaks) <= MANY or self.contacts.search.slope.functions:
             return False
@@ -197,8 +198,9 @@ class Dissipation:
         return of_load - (2.0 + rise) * (T_Y - T_L) - (at_Y - Y) * S_Y + (at_L - L) * S_L
 
     def _potentials(self, y: float) -> tuple[float, float]:
-        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2, <h> the mean of the height above the
-        lowest point in the angle φ.
+        """S = y ln r - π G <h> and T = (y S - π G ∫p h dx)/2.
+
+        <h> is the mean of the height above the lowest point in the angle φ.
 
         Because δ - h is the potential of p in the contact, and the mean of a potential over a
         contact is its Robin constant.

@@ -157,8 +157,9 @@ class ContactTable:
         )
 
     def _refuse_other_starts(self) -> None:
-        """ContactError where the contact at first touch carries a load: it was in several
-        patches.
+        """Raises ContactError where the contact at first touch carries a load.
+
+        It was then in several patches.
         """
         contact = Interval(self.first_centre - self.start, self.first_centre + self.start)
         if self.start < self.end:

@@ -108,8 +108,9 @@ class GrowthPanels:
             panels[k:k] = self._resolved(at_break or start, end, at_break > 0.0)
 
     def _break_below(self, level: float, top: float, limit: float) -> float:
-        """The level at which an edge passed the nearest break, where that is not far below, nor
-        below `limit`; otherwise 0.
+        """The level at which an edge passed the nearest break.
+
+        It is 0 where that is far below the edge, or below `limit`.
         """
         here, there = self._contacts.contact(level).interval, self._contacts.contact(top).interval
         found = [0.0]
@@ -137,8 +138,9 @@ class GrowthPanels:
     def _resolved(
         self, lo: float, hi: float, kinked: bool, whole: float = 0.0, below: bool = False
     ) -> list[Panel]:
-        """Panels from lo to hi; `whole` is the length of all that are asked for, of which a short
-        one may miss more.
+        """Panels from lo to hi.
+
+        `whole` is the length of all that are asked for, of which a short one may miss more.
 
         An edge passes a break at lo (`kinked`), at hi (`below`), or neither.
         """

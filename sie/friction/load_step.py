@@ -77,8 +77,10 @@ class Step:
 
     @cached_property
     def parts(self) -> tuple[tuple[complex, complex], ...]:
-        """The changes of Λ and S from one tested time to the next: one part, if both are in
-        proportion to time, and more where the tilt follows from a moment.
+        """The changes of Λ and S from one tested time to the next.
+
+        This is one part, if both are in proportion to time, and more where the tilt follows from a
+        moment.
         """
         if not self.contacts.curved:
             return ((self.rise, self.pull),)
@@ -178,8 +180,9 @@ class Step:
 
     @property
     def bared(self) -> float:
-        """The share of the step after which the top layer is gone without slip; at least 1 where it
-        is not.
+        """The share of the step after which the top layer is gone without slip.
+
+        It is at least 1 where the layer is not gone.
         """
         top = self.memory.top
         if top is None or not self.bares or not in_proportion(top.thickness, self.rise):
@@ -206,8 +209,9 @@ class Step:
         return max(self.contacts.contact(loads).r for loads in (self.before.loads, self.loads))
 
     def late(self) -> TurningPoint | None:
-        """A new front that an edge of a shrinking contact holds up at first: at the end of the step
-        it has passed whatever slipped before.
+        """A new front that an edge of a shrinking contact holds up at first.
+
+        At the end of the step it has passed whatever slipped before.
         """
         sign, contact = -self.k, self.contacts.contact(self.loads)
         front, ahead = sign * self.pull - self.rise, sign * (self.pull - self.k * self.rise)
@@ -250,9 +254,7 @@ class Step:
     # -- conditions --------------------------------------------------------------------------------
 
     def _at_ends(self, change: complex, r: float) -> tuple[float, float]:
-        """The effect of a change of Λ or S at the left and the right end of a zone of half-width
-        r.
-        """
+        """The effect of a change of Λ or S at the two ends of a zone of half-width r."""
         turn = math.pi * r / self.contacts.arm * change.imag if change.imag else 0.0
         return change.real + turn, change.real - turn
 

@@ -58,8 +58,9 @@ def named(k: int, loads: Loads, step: Callable[[], Result]) -> Result:
 
 
 def steady_points(scene: Scene, path: Path, contacts: Contacts) -> tuple[TurningPoint, ...]:
-    """The turning points A, B, A of a steady cycle; the layers are those of the change from one to
-    the other alone.
+    """The turning points A, B, A of a steady cycle.
+
+    The layers are those of the change from one to the other alone.
 
     What slips in one direction on the way to B slips back on the way to A. Hence q_A - q_B =
     s f (p_A + p_B) there, and in the stick zone, where that is 2 s f p^ less,

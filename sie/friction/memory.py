@@ -219,8 +219,9 @@ class LoadMemory:
     def _followed(
         self, sign: float, rise: complex, shear: complex, within: Within | None
     ) -> tuple[LoadMemory, float, SlipEvent]:
-        """Slip of this sign until the end of the step, or until the edges catch up with it: (new
-        memory, part of the step, slip), depths counted from the level then.
+        """Slip of this sign until the end of the step, or until the edges catch up with it.
+
+        (new memory, part of the step, slip), depths counted from the level then.
         """
         pull = sign * shear - rise  # what the front carries in the whole step
         layer, left, timed = self.top, pull, True

@@ -21,8 +21,9 @@ from .slip_state import Slip, Slipping
 
 
 def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval], float]) -> float:
-    """∫∫ f p d|g| dx while the states follow each other from time 0 to 1, P changes by dP and E*/2
-    times the tilt at the rate `strain` of the contact.
+    """∫∫ f p d|g| dx while the states follow each other from time 0 to 1.
+
+    Meanwhile P changes by dP and E*/2 times the tilt at the rate `strain` of the contact.
     """
     whole = _held(state(1.0)) - _held(state(0.0))
 

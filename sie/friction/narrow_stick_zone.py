@@ -73,8 +73,9 @@ def narrow_stick_zone(
 def _balanced(
     frames: tuple[EdgeFrame, EdgeFrame], contact: Interval, drive: Drive
 ) -> tuple[int, float]:
-    """The point where slip to and fro balance Q: which edge it is nearer to (0 left, 1 right), and
-    how far from it.
+    """The point where slip to and fro balance Q.
+
+    It is given by the edge that it is nearer to (0 left, 1 right), and its distance from it.
     """
     near, depth = 0, 0.0
     for near, sign in ((0, drive.left), (1, drive.right)):

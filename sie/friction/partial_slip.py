@@ -64,8 +64,9 @@ HARDLY = 1e-40
 
 
 def slip(step: Step, one_sign: bool = False) -> Slip:
-    """The state of a scene's contact after its Q and σ; `one_sign`: slip is positive at both edges,
-    whatever Q and σ, as in a layer of a memory.
+    """The state of a scene's contact after its Q and σ.
+
+    With `one_sign`, slip is positive at both edges, whatever Q and σ, as in a layer of a memory.
 
     Raises ContactError where no single stick zone answers.
     """
@@ -109,8 +110,9 @@ def _tilt_of_strain(step: Step, sign: float) -> float:
 
 
 def _one_signed(step: Step, sign: float) -> OneSignedSlip:
-    """Slip in the direction `sign`, from the normal problem of the tilted profile under the reduced
-    load.
+    """Slip in the direction `sign`.
+
+    It follows from the normal problem of the tilted profile under the reduced load.
     """
     scene, P, f, Q = step.scene, step.normal_load, step.scene.friction, step.Q
     load = max(remaining(f, P, Q) if sign * Q >= 0.0 else P + abs(Q) / f, HARDLY * P)
@@ -123,8 +125,9 @@ def _one_signed(step: Step, sign: float) -> OneSignedSlip:
 
 
 def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
-    """Slip in one direction although the strain is large, if it fits: the stick zone within the
-    contact, |q| <= f p there.
+    """Slip in one direction although the strain is large, if it fits.
+
+    It fits if the stick zone is within the contact and |q| <= f p there.
     """
     try:
         tried = _one_signed(step, sign)
@@ -147,8 +150,9 @@ def _fitting(step: Step, sign: float) -> OneSignedSlip | None:
 
 
 def _two_signed(step: Step) -> TwoSignedSlip:
-    """Slip in both directions: to the left of the stick zone in that of τ, to the right of it
-    against it.
+    """Slip in both directions.
+
+    To the left of the stick zone it is in that of τ, to the right of it against it.
     """
     contact, G = step.pressure.contact, step.pressure.half_modulus
     f, Q, tau = step.scene.friction, step.Q, step.tau

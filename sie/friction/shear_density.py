@@ -138,8 +138,9 @@ class TwoSignedShear(Density):
         return q.reshape(x.shape)
 
     def _side(self, right: bool) -> tuple[float, SlipZone, float]:
-        """(f times the sign of slip next to z, the zone on the other side, the sign of its
-        integral).
+        """(signed f, the zone on the other side of z, the sign of its integral).
+
+        The sign of f is that of slip next to z.
         """
         drive = self.zones.drive
         return (

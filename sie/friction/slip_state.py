@@ -90,9 +90,7 @@ class Slip(ABC):
 
     @property
     def contacts(self) -> tuple[Any, ...]:
-        """The contacts in several patches, beside that of the pressure, that the shear is made
-        of.
-        """
+        """The contacts in several patches, beside that of the pressure, that make up the shear."""
         return ()
 
     @abstractmethod
@@ -117,8 +115,9 @@ class Slip(ABC):
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:
-        """The zones that slipped since the last turning point as (lo, hi, sign of q), in the order
-        of time; |q| = f p in those in contact.
+        """The zones that slipped since the last turning point as (lo, hi, sign of q).
+
+        They are in the order of time; |q| = f p in those in contact.
 
         Where slip turned while P fell, the zones of the first direction lie beside the contact,
         which has left them.

@@ -110,8 +110,10 @@ def edge_frame(density: SlopeDensity, slope: Slope, side: float) -> EdgeFrame:
 
 @dataclass(frozen=True, eq=False)
 class SlipZone:
-    """Quadrature over a slip zone: distances from the stick zone's end and from the edge of
-    contact, and the forces p ds there.
+    """Quadrature over a slip zone.
+
+    It is given by distances from the stick zone's end and from the edge of contact, and the forces
+    p ds there.
     """
 
     length: float
@@ -129,8 +131,9 @@ class SlipZone:
         return float(self.force @ np.sqrt(self.from_stick / (self.from_stick + 2.0 * rho)))
 
     def pull(self, distance: Array, rho: float) -> Array:
-        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end, on its
-        side away from the zone.
+        """∫p/(|R| |s - x|) ds for x at these distances (1-d) from the stick zone's near end.
+
+        The places x lie beyond that end, away from the slip zone.
         """
         weight = self.force / np.sqrt(self.from_stick * (self.from_stick + 2.0 * rho))
         out = np.empty(distance.shape)
@@ -146,8 +149,9 @@ class SlipZone:
         return out
 
     def _gathered(self, weight: Array) -> tuple[Array, Array]:
-        """A few places in the zone and the weights there that act beyond its length like all: 1/(d
-        + s) is a short series in s.
+        """A few places in the zone, and weights that act beyond its length like all of them.
+
+        1/(d + s) is a short series in s.
         """
         u = chebyshev.points(GATHERED)
         series = chebyshev.polynomials(GATHERED, 2.0 * self.from_stick / self.length - 1.0)
@@ -157,8 +161,9 @@ class SlipZone:
 
 
 def slip_zone(frame: EdgeFrame, length: float) -> SlipZone:
-    """The slip zone of this length at an edge: s = edge - length cos²(ψ/2), graded towards the
-    stick zone and towards breaks.
+    """The slip zone of this length at an edge: s = edge - length cos²(ψ/2).
+
+    It is graded towards the stick zone and towards breaks.
 
     In ψ a smooth edge and a sharp one are both harmless.
     """

@@ -69,8 +69,10 @@ class Sliding(Slipping):
 
     @cached_property
     def _resolved(self) -> Slope:
-        """On the contact alone: a strain may move the lowest point of the whole profile out of it;
-        then an edge slips last.
+        """The slope, resolved on the contact alone.
+
+        A strain may move the lowest point of the whole profile out of the contact; then an edge
+        slips last.
         """
         x1, x2 = self.contact.x1, self.contact.x2
         return refined(self.unloaded.within(x1, x2), x1, x2, EPS)
@@ -232,8 +234,9 @@ class TwoSignedSlip(Slipping):
         return gap(-frame.side * distance, formal, slope, self._more(formal.contact))
 
     def _more(self, stick: Interval) -> Callable[[Array, float], Array]:
-        """What the other zone's shear, and strain that nothing holds back, add to the outward
-        derivative of slip/f.
+        """The part of the outward derivative of slip/f from outside the zone.
+
+        It is that of the other zone's shear, and of strain that nothing holds back.
         """
         G, rho = self.pressure.half_modulus, stick.r
 
@@ -253,8 +256,9 @@ class TwoSignedSlip(Slipping):
 
 
 def _advancing(state: Slipping, step: Step, half_widths: tuple[float, float]) -> bool:
-    """Whether the zones of slip grow while the stick zone shrinks between these half-widths: s2 (Q
-    - π ρ τ) >= 0 <= s1 (Q + π ρ τ).
+    """Whether the zones of slip grow while the stick zone shrinks between these half-widths.
+
+    s2 (Q - π ρ τ) >= 0 <= s1 (Q + π ρ τ).
     """
     Q, tau = step.Q, step.tau
     return all(

@@ -182,8 +182,9 @@ def _pressure(solution: Solution, points: int) -> dict[str, Any]:
 
 
 def _patches(solution: Solution) -> dict[str, Any]:
-    """The patches [[x1, x2], ..], their loads, length and gaps, where there are several or the
-    contact repeats.
+    """The patches [[x1, x2], ..], their loads, length and gaps.
+
+    They are written where there are several or the contact repeats.
     """
     period = solution.scene.profile.period
     if len(solution.patches) < 2 and math.isinf(period):

@@ -13,9 +13,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path as File
 from typing import Any
 
-from sie.messages import shortened, suggestion
+from sie.messages import suggestion
 from sie.problem.load_path import Path
 from sie.profiles.trace_files import read_table
+
+from .toml_values import refuse_unread
 
 # Each point is solved and listed, all of them within seconds.
 MOST_POINTS = 2000
@@ -85,12 +87,7 @@ def _of_file(name: str, named: Sequence[str] | None, folder: File) -> dict[str, 
     try:
         table = read_table(folder / name)
     except OSError as problem:
-        absent = isinstance(problem, FileNotFoundError)
-        why = "there is no such file" if absent else problem.strerror
-        raise ValueError(
-            f'path = "{shortened(name)}" is not read, {why}: '
-            "give the file of the loads, from where the scene file is, or rows [P, Q, σ]"
-        ) from None
+        refuse_unread(name, problem, "rows [P, Q, σ], or the file of the loads")
     if len(table.rows) > MOST_POINTS:
         raise ValueError(
             f"{table.file} has {len(table.rows)} lines, more than {MOST_POINTS}: keep those at "

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from sie.messages import choices, nearest, shortened, suggestion
+from sie.messages import choices, nearest, suggestion
 from sie.profiles.base import Profile
 from sie.profiles.kinds import KINDS
 from sie.profiles.row import Periodic, Row
@@ -23,10 +23,11 @@ from .scene_tables import (
     read_values,
     require,
 )
-from .toml_values import number, table_of, text
+from .toml_values import number, refuse_unread, table_of, text
 
 
 def profile_of(value: Any, folder: pathlib.Path) -> Profile:
+    """The profile that a [profile] table describes. ValueError for a bad table."""
     first = dict(table_of("profile", value))
     plus = first.pop("plus", [])
     period = first.pop("period", None)
@@ -125,9 +126,4 @@ def _trace(folder: pathlib.Path, path: str, **options: Any) -> Sampled:
     try:
         return Sampled.read(folder / path, **options)
     except OSError as problem:
-        absent = isinstance(problem, FileNotFoundError)
-        why = "there is no such file" if absent else problem.strerror
-        raise ValueError(
-            f'path = "{shortened(path)}" is not read, {why}: '
-            "give the trace's file, from where the scene file is"
-        ) from None
+        refuse_unread(path, problem, "the trace's file")

@@ -116,8 +116,9 @@ def pressure_summary(solution: Solution, units: Units) -> str:
 
 
 def gap_summary(solution: Solution, units: Units) -> str:
-    """The gap half a half-width beyond each edge, or in the middle of the way to the contact of the
-    next period where that is nearer.
+    """The gap half a half-width beyond each edge.
+
+    It is taken in the middle of the way to the contact of the next period where that is nearer.
     """
     if full(solution):
         return _rows(("gap", "none"))

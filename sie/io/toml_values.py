@@ -6,7 +6,7 @@ Each returns the value of the entry that `where` names, or raises ValueError wit
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NoReturn
 
 from sie.messages import shortened
 
@@ -141,3 +141,13 @@ def shown(value: Any) -> str:
     except ValueError:  # Python writes no integer of more than 4300 digits
         text = "an integer of thousands of digits"
     return shortened(" ".join(text.split()))
+
+
+def refuse_unread(path: str, problem: OSError, remedy: str) -> NoReturn:
+    """Raise ValueError for a file that a scene names and that cannot be read."""
+    absent = isinstance(problem, FileNotFoundError)
+    why = "there is no such file" if absent else problem.strerror
+    raise ValueError(
+        f'path = "{shortened(path)}" is not read, {why}: '
+        f"give {remedy}, from where the scene file is"
+    ) from None

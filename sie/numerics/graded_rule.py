@@ -31,8 +31,9 @@ def on_panels(cuts: Array) -> tuple[Array, Array]:
 
 
 def balanced(cuts: Array) -> Array:
-    """The same with panels halved until none is longer than 1/GRADING times its neighbours: what is
-    singular next door is then far enough.
+    """The cuts, with panels halved until none is longer than 1/GRADING times its neighbours.
+
+    What is singular on a neighbouring panel is then far enough.
     """
     while True:
         length = np.diff(cuts)

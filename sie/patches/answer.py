@@ -84,8 +84,9 @@ def asks_for_patches(profile: Profile) -> bool:
 
 
 def several_patches(scene: Scene) -> SeveralPatches | FullContact:
-    """Raises ContactError where no patches are certified, or the scene asks for what is not
-    covered.
+    """The contact of a scene in several patches.
+
+    Raises ContactError where no patches are certified, or the scene asks for what is not covered.
     """
     _refuse_uncovered(scene)
     try:

@@ -104,8 +104,9 @@ def conditioning(state: State, linear: Linear, given: Given) -> float:
 
 
 def _rounding(o: Operator, linear: Linear, load: float, peak: float) -> float:
-    """What changes where all smooth edges move by half an ulp, as if at random, and the slope by
-    its rounding: the largest of p over its peak, and of the load, these two in units of E*/2.
+    """The largest relative change of p or of the load by rounding of the edges and the slope.
+
+    All smooth edges move by half an ulp, as if at random. `load` and `peak` are in units of E*/2.
 
     An edge that moves is a point charge, which the conditions of the patches and of the load miss.
     """
@@ -131,8 +132,9 @@ class Measure(NamedTuple):
 
 
 def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
-    """A composite rule on the panels of an operator, and places between its points where the
-    equation is measured.
+    """A composite rule on the panels of an operator, and places between its points.
+
+    At the latter the equation is measured.
 
     The variable is bent at the ends of panels: p has breaks like s² ln s where H' of a spline has,
     and s^8 ln s is easy. At an edge p is smooth in the angle.
@@ -174,8 +176,10 @@ def _jumps_at_ends(o: Operator) -> Mask:
 
 
 def _cut(k: PatchPanels, jumps: Mask) -> tuple[Index, Array, Array]:
-    """Parts (panel, lowest angle, length) of the panels: whole, but beside a much shorter panel,
-    and at a jump of H, no longer than STEEP times their distance from there.
+    """Parts (panel, lowest angle, length) of the panels.
+
+    Panels are whole, but beside a much shorter panel, and at a jump of H, no part is longer than
+    STEEP times its distance from there.
 
     At a place on the shorter one the kernel is as steep as its length.
     """
@@ -203,8 +207,9 @@ def _cut(k: PatchPanels, jumps: Mask) -> tuple[Index, Array, Array]:
 
 
 def _bent(at_edge: Mask, nodes: int) -> tuple[Array, Array]:
-    """Gauss' nodes and weights on [0, 1] in a variable whose cube the distance from an end is; from
-    the upper end only where the lower one is an edge.
+    """Gauss' nodes and weights on [0, 1] in a bent variable.
+
+    Its cube is the distance from an end, the upper one only where the lower one is an edge.
     """
     g, w = chebyshev.gauss_legendre(nodes)
     both = g**3 * (10.0 - 15.0 * g + 6.0 * g * g), 30.0 * w * (g * (1.0 - g)) ** 2

@@ -68,8 +68,10 @@ class Chord:
         return _parity(turns) * np.cos(angle)
 
     def beyond(self, t: Points, x: Points) -> Any:
-        """d(t, x) of sources (m, s) that share an anchor (m, 1) and places (m, n) farther from that
-        than they are: (m, n, s). The addition theorem takes a sine of each, not of each pair.
+        """d(t, x) of sources (m, s) that share an anchor (m, 1) and places (m, n): (m, n, s).
+
+        The places are farther from the anchor than the sources. The addition theorem takes a sine
+        of each, not of each pair.
         """
         step = t.anchor - x.anchor
         if not self.periodic:

@@ -96,8 +96,9 @@ class PatchPressure(Density):
         return left[0] + right[0], left[1] + right[1]
 
     def _on_quarter_circles(self, side: float, room: Array, radius: Array) -> tuple[Array, Array]:
-        """Those integrals between the highest points of circles over the patches and their ends,
-        which are `room` beside the right edges (side = 1) or the left ones (side = -1).
+        """Those integrals between the highest points of circles over the patches and their ends.
+
+        The ends are `room` beside the right edges (side = 1) or the left ones (side = -1).
         """
         P = self.operator.patches
         g, w = chebyshev.gauss_legendre(NODES)
@@ -134,8 +135,9 @@ class PatchPressure(Density):
     # -- on the line -------------------------------------------------------------------------------
 
     def placed(self, x: Array) -> tuple[Points, Index, NDArray[np.bool_]]:
-        """x by the nearest edge of a patch; the patch that it is nearest to, and whether it is on
-        that.
+        """The places x by the nearest edge of a patch.
+
+        With them come the patch that each is nearest to, and whether it is on that.
         """
         P = self.operator.patches
         if P.chord.periodic:
@@ -299,8 +301,9 @@ class PatchPressure(Density):
         return out
 
     def _around(self, z: Complex, side: int) -> Complex:
-        """By Cauchy's formula on a circle that touches no traction; in contact from the values of p
-        beside it.
+        """The potential by Cauchy's formula on a circle that touches no traction.
+
+        In contact the values of p beside the place serve.
         """
         points, k, inside = self.placed(z.real)
         P = self.operator.patches

@@ -100,8 +100,9 @@ def work(lower: Level, upper: Level, period: float) -> float:
 
 
 def slip_rule(upper: Level, stick: Zones, period: float) -> tuple[Points, Array]:
-    """Places and weights on the patches beside the stick zones, in the angle between neighbouring
-    ends of zones and breaks, and graded towards them.
+    """Places and weights on the patches beside the stick zones.
+
+    They are in the angle between neighbouring ends of zones and breaks, and graded towards them.
     """
     breaks = np.array(upper.pressure.breaks)
     parts: list[tuple[float, float]] = []

@@ -42,8 +42,9 @@ CHUNK = 1 << 18
 
 @dataclass(frozen=True, eq=False)
 class FullPressure(Density):
-    """The pressure of full contact on [start, start + period], repeated; load per period;
-    half_modulus E*/2.
+    """The pressure of full contact on [start, start + period], repeated.
+
+    The load is per period; half_modulus is E*/2.
     """
 
     pieces: Pieces

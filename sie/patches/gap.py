@@ -63,8 +63,9 @@ def overlaps(o: Operator) -> tuple[Overlap, ...]:
 
 
 def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tuple[Overlap, ...]:
-    """Neighbouring places of overlap as one; each place comes with the width of the part that it is
-    on.
+    """Neighbouring places of overlap as one.
+
+    Each place comes with the width of the part that it is on.
     """
     found: list[Overlap] = []
     before = 0.0
@@ -81,8 +82,9 @@ def _gathered(bad: list[tuple[int, float, float, float]], largest: Array) -> tup
 
 
 class Side(NamedTuple):
-    """What is known of g on panels that count from an edge: Legendre coefficients (p, n) of sign Φ
-    and of the integrand, g at its start.
+    """The known values of g on panels that count from an edge.
+
+    These are Legendre coefficients (p, n) of sign Φ and of the integrand, and g at its start.
     """
 
     panels: GapPanels
@@ -166,8 +168,9 @@ def _series(c: Array, panel: Index, s: Array) -> Array:
 
 
 def _parts(o: Operator, panels: GapPanels) -> tuple[Index, Array, Array, NDArray[np.bool_]]:
-    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge); of voids
-    nothing.
+    """Panels cut at the breaks of H: (panel, lo, hi, whether it begins at the edge).
+
+    Voids have none.
     """
     pieces = o.pieces
     edge = panels.points.anchor[:, 0]

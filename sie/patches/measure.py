@@ -173,8 +173,9 @@ class Measure:
 
     @cached_property
     def beside(self) -> tuple[Array, Array]:
-        """The places close to each panel on the line, counted inwards from its edge: angles of
-        NEAR half-lengths from its middle, imaginary ones beside the patch.
+        """The places close to each panel on the line, counted inwards from its edge.
+
+        They are angles of NEAR half-lengths from its middle, imaginary ones beside the patch.
         """
         k = self.panels
         middle, reach = 0.5 * (k.lo + k.hi), NEAR * 0.5 * (k.hi - k.lo)
@@ -247,8 +248,9 @@ class Targets(NamedTuple):
 
 
 def _inward(o: Measure, panel: Index, x: Points) -> Any:
-    """Places (m, n) as they are counted inwards from the edge of panels (m,), in the period in
-    which they are nearer to the panel.
+    """Places (m, n) as they are counted inwards from the edge of panels (m,).
+
+    They are taken in the period in which they are nearer to the panel.
     """
     k, chord = o.panels, o.patches.chord
     step = x.anchor - k.points.anchor[panel]

@@ -168,8 +168,10 @@ def room(patches: Patches, corners: Array) -> Array:
 def solve(
     state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
 ) -> tuple[State, Event | None, int]:
-    """Edges that meet the conditions, or the event that stopped the search on its way; and the
-    number of steps. `accuracy`: half-widths that the last step may have, and the most steps.
+    """Edges that meet the conditions, or the event that stopped the search on its way.
+
+    The number of steps comes with them. `accuracy`: half-widths that the last step may have, and
+    the most steps.
     """
     enough, most = accuracy
     damping = Damping.none(2 * state.patches.number)
@@ -219,8 +221,10 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
 
 
 def relative_size(state: State, y: Array, asked: Array) -> float:
-    """The largest move over its half-width or a narrower gap, of what edges in doubles can tell, or
-    the largest change of a charge over the largest charge.
+    """The largest move of an edge or change of a charge, as a fraction.
+
+    Moves are divided by the half-width or a narrower gap, less what doubles do not resolve; changes
+    by the largest charge.
     """
     P, sharp = state.patches, state.sharp
     told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges)), 0.0)
@@ -251,8 +255,10 @@ def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tupl
 
 
 def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
-    """Whether the last step is small enough, what follows is by the steps' quadratic decrease, or
-    only rounding is left. Beside sharp edges a move is wrong as far as the charges before it were.
+    """Whether the last step is small enough.
+
+    It is so too if what follows is, by the steps' quadratic decrease, or if only rounding is left.
+    Beside sharp edges a move is wrong as far as the charges before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
     if last < enough:
@@ -263,8 +269,9 @@ def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:
-    """Patches whose edges are asked to pass each other, and gaps that are asked to close, several
-    times in a row; or the same of a single edge.
+    """The event of patches whose edges are asked to pass each other, or of gaps asked to close.
+
+    They are so several times in a row. The same holds of a single edge.
     """
     P, out = state.patches, asked * state.outward > 0.0
     single = insists >= INSISTS

@@ -60,8 +60,9 @@ class Answer(Protocol):
 def changes(
     several: Answer, known: Profile, samples: Sequence[Profile], spread: float, moment: bool
 ) -> PatchErrors:
-    """The changes where the profile changes by `known`, and by `spread` times as much as `samples`
-    do; all of the same period. `moment`: whether that is given, and the tilt changes.
+    """The changes where the profile changes by `known`, and by `spread` times the `samples`.
+
+    All are of the same period. `moment`: whether that is given, and the tilt changes.
     """
     P = several.found.state.patches
     angle = np.pi * (np.arange(PLACES) + 0.5) / PLACES

@@ -40,8 +40,9 @@ class Problem:
     given: Given
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
-        """h + tilt x on the window, up to a constant; a slope that is a function is resolved once
-        for all heights.
+        """The function h + tilt x on the window, up to a constant.
+
+        A slope that is a function is resolved once for all heights.
         """
         if not self.by_slope:
             return lambda x: self.height(x) + tilt * x

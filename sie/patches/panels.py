@@ -28,8 +28,10 @@ Runs = tuple[Index, Array, Array]
 
 
 class Rule(NamedTuple):
-    """Nodes on a panel; the first panel at an edge, over the angle of the nearest singularity, and
-    how the next ones grow.
+    """The nodes on a panel, and the lengths of panels.
+
+    The first panel at an edge is given over the angle of the nearest singularity, the next ones by
+    their growth.
     """
 
     nodes: int
@@ -111,8 +113,10 @@ def graded(first: float, growth: float, end: float) -> Array:
 
 
 def _graded(rule: Rule, nearest: Array, end: Array, breaks: tuple[Index, Array]) -> Runs:
-    """Panels of rows from 0 to `end` (R,), graded over the distance `nearest` (R,) of the nearest
-    singularity, cut at breaks (row, place) as well: the row and the ends of each, ascending.
+    """Panels of rows from 0 to `end` (R,): the row and the ends of each, ascending.
+
+    They are graded over the distance `nearest` (R,) of the nearest singularity, and cut at breaks
+    (row, place) as well.
     """
     first, every = rule.first * nearest, np.arange(len(end))
     steps = np.ceil(np.log(np.maximum(end / first, 1e-300) / SLACK) / np.log(rule.growth))
@@ -195,8 +199,9 @@ class GapPanels:
 
 
 def distance_of(parameter: Array, width: Array) -> tuple[Array, Array, Array]:
-    """(distance from the edge, root, derivative of the distance) at a parameter of a gap of this
-    width.
+    """(distance from the edge, root, derivative of the distance) at a parameter of a gap.
+
+    The gap has this width.
     """
     inner = np.isfinite(width)
     w = np.where(inner, width, 1.0)

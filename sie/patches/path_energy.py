@@ -76,8 +76,9 @@ class PathEnergy:
         return list(lost.values())
 
     def _of_states(self, index: int, o: SlippedLayer, sign: float) -> float:
-        """The energy that an overwritten layer dissipated, per jump, on a path with bulk stress or
-        tilt.
+        """The energy that an overwritten layer dissipated, per jump.
+
+        The path has bulk stress or tilt.
         """
         path, state = self.path, self.path.turning_points[index]
         if not any(o.surface):

@@ -1,5 +1,6 @@
-"""The slope H of a profile on its pieces: values, divided differences and rises that keep their
-digits.
+"""The slope H of a profile on its pieces.
+
+Its values, divided differences and rises keep their digits.
 
 On a piece H is a polynomial about an origin of its own, plus (where the profile has functions) a
 Chebyshev series. What the integrals ask for beside values are

@@ -19,8 +19,9 @@ ROUNDING = 1e-15  # of the largest coefficient: what of a series is left out
 
 
 def of_profile(profile: Profile, window: tuple[float, float], tol: float) -> Pieces:
-    """The slope of a profile with its walls, functions resolved on the window; several copies of a
-    periodic one.
+    """The slope of a profile with its walls, functions resolved on the window.
+
+    Of a periodic one there are several copies.
     """
     slope = profile.pieces
     pieces = _with_walls(from_slope(slope, window, tol), profile.walls, profile)

@@ -161,8 +161,9 @@ def _at_walls(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
 
 
 def _off_higher_sides(a: Array, b: Array, pieces: Pieces) -> tuple[Array, Array]:
-    """Patches of which no two meet at a wall: the higher side of it cannot touch there, and what
-    is short on it comes from a grid.
+    """Patches of which no two meet at a wall.
+
+    The higher side of it cannot touch there, and what is short on it comes from a grid.
     """
     walls = np.flatnonzero(pieces.void & (np.diff(pieces.ends) == 0.0))
     a, b = a.copy(), b.copy()

@@ -77,8 +77,9 @@ class PatchCertificate:
 
 
 def worst_of(found: Sequence[PatchCertificate]) -> PatchCertificate:
-    """The first, that of the pressure, with the worst numbers of all: what a shear is made of
-    counts as well.
+    """The first certificate, that of the pressure, with the worst numbers of all.
+
+    What a shear is made of counts as well.
     """
     return replace(
         found[0],

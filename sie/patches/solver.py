@@ -119,8 +119,9 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
 def _overlap_beyond(
     found: Found, problem: Problem, window: tuple[float, float]
 ) -> tuple[float, float]:
-    """A wider window where contact reaches the end of this one, or the bodies overlap beyond it,
-    where the load is a force.
+    """A wider window where this one is too narrow for a load that is a force.
+
+    It is so where contact reaches its end, or the bodies overlap beyond it.
     """
     lo, hi = found.operator.pieces.domain
     if problem.chord.periodic or (lo, hi) == problem.domain:
@@ -360,8 +361,9 @@ def fitted_window(problem: Problem) -> tuple[float, float]:
 
 
 def _first_window(problem: Problem) -> tuple[float, float]:
-    """The domain where it is bounded; otherwise about the breaks as far as the slope has to rise to
-    carry the load.
+    """The domain where it is bounded.
+
+    Otherwise the window extends about the breaks as far as the slope has to rise to carry the load.
     """
     lo, hi = problem.domain
     if np.isfinite(lo) and np.isfinite(hi):
@@ -379,8 +381,9 @@ def _first_window(problem: Problem) -> tuple[float, float]:
 
 
 def _levels(problem: Problem, window: tuple[float, float]) -> tuple[float, float]:
-    """The tilts between which the load has the given moment, on a coarse grid: M falls as the
-    tilt grows.
+    """The tilts between which the load has the given moment, on a coarse grid.
+
+    M falls as the tilt grows.
     """
     assert problem.given.moment is not None
     lo, hi = window

@@ -22,8 +22,9 @@ LAST = 5e-5  # relative change of the pressure in a step, below which a grid is 
 
 
 class Grid(NamedTuple):
-    """Cells of length dx from lo; p the pressure over E*/2 on each, and whether the grid is a
-    period.
+    """Cells of length dx from lo, and p, the pressure over E*/2 on each.
+
+    `periodic`: whether the grid is a period.
     """
 
     lo: float
@@ -43,8 +44,9 @@ def grid_pressure(
     load: float,
     periodic: bool,
 ) -> Grid:
-    """The pressure over E*/2 on a grid of the window; heights may be infinite where there is no
-    indenter.
+    """The pressure over E*/2 on a grid of the window.
+
+    Heights may be infinite where there is no indenter.
     """
     lo, hi = window
     n = min(COARSEST, cells)

@@ -37,8 +37,9 @@ class State:
 
 
 class Event(NamedTuple):
-    """What stopped the search: "vanish" and patch k, "merge" and the gap after patch k, "sharp" or
-    "smooth" and edge k.
+    """The event that stopped the search.
+
+    It is "vanish" and patch k, "merge" and the gap after patch k, "sharp" or "smooth" and edge k.
     """
 
     kind: str
@@ -55,8 +56,9 @@ class Tension(NamedTuple):
 
 
 class Overlap(NamedTuple):
-    """Where the bodies would overlap: [lo, hi] in gap k, most at x by `depth`; `largest` is the
-    largest g of that gap.
+    """An overlap of the bodies: [lo, hi] in gap k, most at x by `depth`.
+
+    `largest` is the largest g of that gap.
     """
 
     gap: int

@@ -29,8 +29,10 @@ SHORTEST = 64.0  # ulp: the half-length of a node that is no longer than the spa
 
 
 class Level(NamedTuple):
-    """The nodes of a level: middles, half-lengths, the first and last owner of their rows, and
-    charges (sets, nodes, CHARGES).
+    """The nodes of a level.
+
+    These are middles, half-lengths, the first and last owner of their rows, and charges (sets,
+    nodes, CHARGES).
     """
 
     middle: Array
@@ -44,8 +46,9 @@ class Level(NamedTuple):
 
 
 class Separation(NamedTuple):
-    """What acts on groups of targets: far nodes (level, node, group) by level, and near rows
-    (row, group), in the order of groups.
+    """The nodes and rows that act on groups of targets, in the order of groups.
+
+    These are far nodes (level, node, group) by level, and near rows (row, group).
     """
 
     far: list[tuple[Level, Index, Index]]
@@ -95,8 +98,9 @@ class Tree:
     def separated(
         self, chord: Chord, owner: Index, narrow: tuple[Array, Array], wide: tuple[Array, Array]
     ) -> Separation:
-        """The nodes far from groups in the intervals `wide`; those whose rows all are a group's
-        own have to be far from its interval `narrow` only.
+        """The nodes far from groups in the intervals `wide`.
+
+        Those whose rows all are a group's own have to be far from its interval `narrow` only.
         """
         groups = len(owner)
         if not self.levels:

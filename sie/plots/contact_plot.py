@@ -145,8 +145,9 @@ class _View:
 
     @cached_property
     def highest(self) -> float:
-        """The largest gap to be drawn, where there is an indenter; of a flat punch P/E*, the scale
-        of displacements.
+        """The largest gap to be drawn, where there is an indenter.
+
+        Of a flat punch it is P/E*, the scale of displacements.
         """
         largest = float(self.unloaded[np.isfinite(self.unloaded)].max())
         return largest or self.solution.normal_load / self.solution.scene.Estar

@@ -24,8 +24,9 @@ def refuse_sliding(friction: float, normal_load: float, Q: float) -> None:
 
 
 def _within(value: float, digits: int, side: int) -> str:
-    """A positive value to so many digits, not above it (side -1) or not below it (1), so that a
-    value from a message stays within it.
+    """A positive value to so many digits, not above it (side -1) or not below it (1).
+
+    A value taken from a message thus stays within it.
     """
     shown = f"{value:.{digits}g}"
     if side * float(shown) < side * value:

@@ -247,9 +247,7 @@ class Scene:
 
     @property
     def coupled(self) -> bool:
-        """Whether pressure and shear are one problem: dissimilar bodies that stick and slip in
-        part.
-        """
+        """Whether pressure and shear are one problem: dissimilar bodies in partial slip."""
         return self._slips_in_part and self.coupling == "full"
 
     @property
@@ -293,6 +291,7 @@ class Scene:
     @property
     def tau(self) -> float:
         """τ = E*/2 of the strain that the bulk stress σ causes in the body, in units of stress.
+
         1/π PV∫q/(x - t) dt has this value where the bodies stick (equation (12)): σ/4 for similar
         bodies. With modulus = E* the bodies are taken as similar.
         """

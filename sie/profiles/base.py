@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .power_law import PowerLaw
 from .slope import Slope
@@ -405,6 +406,7 @@ class Derived(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H on its declared breaks, the sum of the slopes of all parts."""
         parts, tilt = self._parts
         slopes = [
             (part.profile.pieces if part.sign > 0.0 else part.profile.pieces.mirrored())
@@ -418,6 +420,7 @@ class Derived(Profile):
         return slopes[0].tilted(tilt)
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         total = np.zeros(np.shape(x))
         todo: list[tuple[Profile, Array]] = [(self, x)]
@@ -445,12 +448,14 @@ class Derived(Profile):
 
     @cached_property
     def power_law(self) -> PowerLaw | None:
+        """The law of the part, placed; None for several parts or a tilted one."""
         part, *others = self.placed
         law = part.profile.power_law if part.tilt == 0.0 and not others else None
         return law and replace(law, axis=part.sign * law.axis + part.shift)
 
     @cached_property
     def convex(self) -> bool:
+        """Whether all parts are known to be convex; then h is."""
         return all(part.profile.convex for part in self._parts[0])
 
     @cached_property
@@ -534,8 +539,10 @@ class Tilted(_OfOne):
 
     @cached_property
     def axis(self) -> float | None:
+        """None: a tilted profile is not known to be symmetric."""
         return None
 
+    @override
     def tilted(self, slope: float) -> Profile:
         return self.profile.tilted(self.tilt + arguments.measure("tilted", slope))
 
@@ -548,6 +555,7 @@ class Shifted(_OfOne):
 
     @cached_property
     def reach(self) -> tuple[float, float]:
+        """The domain, to rounding. ValueError where doubles keep nothing of it."""
         lo, hi = _reach(self.profile)
         if not lo + self.dx < hi + self.dx:
             raise ValueError(
@@ -558,8 +566,10 @@ class Shifted(_OfOne):
 
     @cached_property
     def axis(self) -> float | None:
+        """The axis of the given profile, moved by dx."""
         return None if self.profile.axis is None else self.profile.axis + self.dx
 
+    @override
     def shifted(self, dx: float) -> Profile:
         return self.profile.shifted(self.dx + arguments.measure("shifted", dx))
 
@@ -570,13 +580,16 @@ class Mirrored(_OfOne):
 
     @cached_property
     def reach(self) -> tuple[float, float]:
+        """The domain, to rounding."""
         lo, hi = _reach(self.profile)
         return -hi, -lo
 
     @cached_property
     def axis(self) -> float | None:
+        """The axis of the given profile, mirrored at x = 0."""
         return None if self.profile.axis is None else -self.profile.axis
 
+    @override
     def mirrored(self) -> Profile:
         return self.profile
 
@@ -588,9 +601,11 @@ class Raised(_OfOne):
     dz: float
 
     @property
+    @override
     def parity(self) -> Parity:
         return self.profile.parity
 
+    @override
     def raised(self, dz: float) -> Profile:
         return self.profile.raised(self.dz + arguments.measure("raised", dz))
 
@@ -604,6 +619,7 @@ class Sum(Derived):
 
     @cached_property
     def reach(self) -> tuple[float, float]:
+        """The intersection of both domains. ValueError where there is none."""
         one, other = _reach(self.first), _reach(self.second)
         lo, hi = max(one[0], other[0]), min(one[1], other[1])
         if not lo < hi:
@@ -614,10 +630,12 @@ class Sum(Derived):
 
     @cached_property
     def axis(self) -> float | None:
+        """The axis that both profiles have, None if they have none in common."""
         return self.first.axis if self.first.axis == self.second.axis else None
 
     @cached_property
     def terms(self) -> tuple[Profile, ...]:
+        """The profiles that are added, none of which is a sum."""
         terms: list[Profile] = []
         todo: list[Profile] = [self]
         while todo:
@@ -629,9 +647,11 @@ class Sum(Derived):
         return tuple(terms)
 
     @property
+    @override
     def operands(self) -> tuple[Profile, ...]:
         return self.terms
 
     @property
+    @override
     def step(self) -> tuple[Any, ...]:
         return Sum, len(self.terms)

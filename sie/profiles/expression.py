@@ -185,6 +185,7 @@ class Expression:
         return ValueError(f"expression {shortened(self.text)!r} {problem}")
 
     def __call__(self, x: Array) -> Array:
+        """The values of the expression at x, of the shape of x."""
         stack: list[Any] = []
         # The caller refuses values that are not finite, and names the place.
         with np.errstate(all="ignore"):

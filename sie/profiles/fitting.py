@@ -138,10 +138,12 @@ class RoundedFlatFit:
 
     @property
     def rms(self) -> float:
+        """Root mean square of the residuals, a length."""
         return float(np.sqrt(np.mean(np.square(self.residuals))))
 
     @property
     def largest(self) -> float:
+        """The largest residual without its sign, a length."""
         return float(np.abs(self.residuals).max())
 
     def __repr__(self) -> str:

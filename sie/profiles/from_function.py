@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .base import Parity, Profile, of_any_x
 from .expression import Expression
@@ -131,16 +132,19 @@ class FromFunction(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = slope(x) on its declared breaks, resolved when a contact is known."""
         breaks = (self.ends[0], *self.declared, self.ends[1])
         flat = polynomial_slope(breaks, [0.0] * (len(breaks) - 1), [(0.0,)] * (len(breaks) - 1))
         return replace(flat, functions=(FunctionTerm(self.function),))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         zero = min(max(0.0, self.ends[0]), self.ends[1])
         return integral(self.pieces, zero, x)
 
     @property
+    @override
     def axis(self) -> float | None:
         return 0.0 if self.symmetric else None
 

@@ -27,8 +27,9 @@ def finite_ends(profile: Profile) -> tuple[float, ...]:
 
 
 def lowest_of(profiles: tuple[Profile, ...]) -> Runs:
-    """(lo, hi, lowest profile) between all breaks and crossings of the lowest ones, -1 where there
-    is none.
+    """(lo, hi, lowest profile) between all breaks and crossings of the lowest profiles.
+
+    The profile is -1 where there is none.
     """
     slopes = [profile.pieces for profile in profiles]
     ends = np.unique(

@@ -14,6 +14,7 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .base import Profile, of_any_x
 from .slope import JUMP, Slope, polynomial_slope
@@ -68,18 +69,22 @@ class Polynomial(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H, one polynomial on the whole line."""
         row = [k * _with_digits(c) for k, c in enumerate(self.coefficients)][1:]
         return polynomial_slope((-INF, INF), (0.0,), (row,))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         return np.asarray(polynomial.polyval(x, self.coefficients), dtype=float)
 
     @property
+    @override
     def axis(self) -> float | None:
         return None if any(self.coefficients[1::2]) else 0.0
 
     @property
+    @override
     def convex(self) -> bool:
         return not any(self.coefficients[3::2]) and min(self.coefficients[2::2], default=0.0) >= 0.0
 
@@ -140,6 +145,7 @@ class Piecewise(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H, a polynomial on each piece."""
         given = [tuple(map(_with_digits, row)) for row in self.coefficients]
         rows = [
             _well_placed(row, lo, hi)
@@ -148,6 +154,7 @@ class Piecewise(Profile):
         return polynomial_slope(self.ends, [o for o, _ in rows], [c for _, c in rows])
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         zero = min(max(0.0, self.ends[0]), self.ends[-1])
         lo, hi = np.minimum(x, zero), np.maximum(x, zero)
@@ -161,6 +168,7 @@ class Piecewise(Profile):
 
     @cached_property
     def axis(self) -> float | None:
+        """0 if breaks and coefficients are symmetric about x = 0, otherwise None."""
         mirrored = self.pieces.mirrored()
         same = np.array_equal(mirrored.breaks, self.pieces.breaks) and all(
             row == tuple(-c * (-1.0) ** j for j, c in enumerate(other))

@@ -163,6 +163,7 @@ class PowerSlope:
     coefficient: float
 
     def __call__(self, y: Array) -> Array:
+        """h' at the distances y from the axis."""
         return np.copysign(self.exponent * self.coefficient * np.abs(y) ** (self.exponent - 1.0), y)
 
 

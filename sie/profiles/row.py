@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .base import Profile, joined, of_any_x
 from .lowest_profile import finite_ends, lowest_of
@@ -89,6 +90,7 @@ class Row(Profile):
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:
+        """Gaps (lo, hi) between the profiles, and places lo = hi where h jumps."""
         found = [(lo, hi) for lo, hi, k in self.lowest if k < 0]
         for (_, x, one), (_, _, other) in pairwise(self.lowest):
             if (
@@ -136,6 +138,7 @@ class Row(Profile):
         return Slope(breaks, origins, zeros[:, None], zeros.astype(np.int64), (term,))
 
     @of_any_x
+    @override
     def height(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         return np.asarray(np.minimum.reduce([profile.height(x) for profile in self.profiles]))
@@ -156,6 +159,7 @@ class LowestSlope:
     row: Row
 
     def __call__(self, x: Array) -> Array:
+        """The slope of the lowest profile at x; 0 where there is none."""
         x = np.asarray(x, dtype=float)
         ends = np.array([hi for _, hi, _ in self.row.lowest[:-1]])
         which = np.array([k for _, _, k in self.row.lowest])[np.searchsorted(ends, x, side="right")]
@@ -234,8 +238,9 @@ class Periodic(Profile):
 
     @cached_property
     def repeated(self) -> Profile:
-        """The profile that is repeated: the given one, or the lowest of it and its neighbours
-        where the ends of an unbounded one do not meet.
+        """The profile that is repeated: the given one, or the lowest of it and its neighbours.
+
+        The latter is taken where the ends of an unbounded one do not meet.
         """
         if all(abs(end) < INF for end in self.profile.domain) or self._level(self.profile):
             return self.profile
@@ -283,9 +288,21 @@ class Periodic(Profile):
         )
 
     def within(self, x: Array) -> Array:
-        """The same places in the period that begins at `start`."""
+        """The same places in the period that begins at `start`.
+
+        Parameters
+        ----------
+        x : ndarray
+            Finite places, lengths of any shape.
+
+        Returns
+        -------
+        ndarray
+            Lengths, of the shape of x.
+        """
         return x - self.repeats * np.floor((x - self.start) / self.repeats)
 
+    @override
     def slope(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         finite = np.isfinite(x)
@@ -294,6 +311,7 @@ class Periodic(Profile):
         values = np.where(beyond, INF, self.pieces(np.minimum(inner, self.pieces.domain[1])))
         return np.where(finite, values, np.nan)[()]
 
+    @override
     def height(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         finite = np.isfinite(x)
@@ -306,13 +324,16 @@ class Periodic(Profile):
         return tuple(float(b) for b in self.pieces.breaks[1:-1])
 
     @property
+    @override
     def domain(self) -> tuple[float, float]:
         return -INF, INF
 
     @property
+    @override
     def axis(self) -> float | None:
         return self.profile.axis
 
+    @override
     def tilted(self, slope: float) -> Profile:
         if arguments.measure("tilted", slope) != 0.0:
             raise ValueError(
@@ -320,11 +341,14 @@ class Periodic(Profile):
             )
         return self
 
+    @override
     def shifted(self, dx: float) -> Profile:
         return Periodic(self.profile.shifted(dx), self.repeats)
 
+    @override
     def mirrored(self) -> Profile:
         return Periodic(self.profile.mirrored(), self.repeats)
 
+    @override
     def raised(self, dz: float) -> Profile:
         return Periodic(self.profile.raised(dz), self.repeats)

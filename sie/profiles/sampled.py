@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from . import fitting
 from .base import Profile, of_any_x
@@ -195,10 +196,12 @@ class Sampled(Profile):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H of the spline, a parabola between neighbouring points."""
         breaks, c = self._spline
         return Slope(breaks, breaks[:-1], c[:, 1:] * np.arange(1.0, 4.0), np.full(len(c), 2))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         breaks, c = self._spline
         k = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(c) - 1)
@@ -207,6 +210,7 @@ class Sampled(Profile):
         return np.where((x < breaks[0]) | (x > breaks[-1]), INF, h)
 
     @property
+    @override
     def ends_are_corners(self) -> tuple[bool, bool]:
         return False, False
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .base import Profile, of_any_x
 from .power_law import PowerLaw, PowerSlope
@@ -69,9 +70,11 @@ class Parabola(_Convex):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = x/radius."""
         return polynomial_slope((-INF, INF), (0.0,), ((0.0, 1.0 / self.radius),))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         return x * (x / (2.0 * self.radius))
 
@@ -110,11 +113,13 @@ class RoundedFlat(_Convex):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = 0 on the base, ±(|x| - half_flat)/radius beside it."""
         a, curvature = self.half_flat, 1.0 / self.radius
         return polynomial_slope(
             (-INF, -a, a, INF), (-a, 0.0, a), ((0.0, curvature), (0.0,), (0.0, curvature))
         )
 
+    @override
     def height(self, x: ArrayLike) -> Array:
         rim = np.maximum(np.abs(arguments.reals("x", x)) - self.half_flat, 0.0)
         with np.errstate(over="ignore"):  # the formula holds at every x, infinite ones included
@@ -156,9 +161,11 @@ class Flat(_Convex):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = 0 between the corners."""
         return polynomial_slope((-self.half_width, self.half_width), (0.0,), ((0.0,),))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         return np.where(np.abs(x) <= self.half_width, 0.0, np.where(np.isnan(x), x, INF))
 
@@ -201,9 +208,11 @@ class Wedge(_Convex):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = ±slope on the two sides of the tip."""
         return polynomial_slope((-INF, 0.0, INF), (0.0, 0.0), ((-self.rise,), (self.rise,)))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         return self.rise * np.abs(x)
 
@@ -252,6 +261,7 @@ class Power(_Convex):
 
     @cached_property
     def pieces(self) -> Slope:
+        """H = ±exponent coefficient |x|^(exponent - 1), polynomials if it can be."""
         m, A = self.exponent, self.coefficient
         if m.is_integer() and m <= 32:
             row = [0.0] * int(m - 1) + [m * A]
@@ -262,9 +272,11 @@ class Power(_Convex):
         return replace(smooth, functions=(FunctionTerm(PowerSlope(m, A)),))
 
     @of_any_x
+    @override
     def height(self, x: Array) -> Array:
         return self.coefficient * np.abs(x) ** self.exponent
 
     @property
+    @override
     def power_law(self) -> PowerLaw:
         return PowerLaw(self.exponent, self.coefficient)

@@ -145,6 +145,7 @@ class Slope:
 
     @cached_property
     def has_zero(self) -> bool:
+        """Whether H is 0 on a whole piece."""
         return bool(self.is_zero.any())
 
     @cached_property
@@ -182,6 +183,7 @@ class Slope:
 
     @cached_property
     def without_functions(self) -> Slope:
+        """The polynomial part of H."""
         return replace(self, functions=())
 
     @cached_property
@@ -270,9 +272,11 @@ class Slope:
 
     @property
     def domain(self) -> tuple[float, float]:
+        """The first and the last break, lengths."""
         return float(self.breaks[0]), float(self.breaks[-1])
 
     def tilted(self, tilt: float) -> Slope:
+        """The slope of h(x) + tilt x."""
         if tilt == 0.0:
             return self
         c = self.coefficients.copy()
@@ -318,6 +322,7 @@ class Slope:
         )
 
     def shifted(self, dx: float) -> Slope:
+        """The slope of h(x - dx)."""
         functions = tuple(replace(f, shift=f.shift + dx) for f in self.functions)
         breaks, origins = self.breaks + dx, self.origins + dx
         # A piece that is shorter than the doubles are apart there is gone.
@@ -385,8 +390,9 @@ def _distance(origins: Array, breaks: Array) -> Array:
 
 
 def recentred(slope: Slope, k: NDArray[np.int64], origins: Array, width: int) -> Array:
-    """Coefficients of the pieces k about new origins, by synthetic division (Horner); exact where
-    the origin stays.
+    """Coefficients of the pieces k about new origins, by synthetic division (Horner).
+
+    They are exact where the origin stays.
     """
     c = np.zeros((len(k), width))
     c[:, : slope.coefficients.shape[1]] = slope.coefficients[k]

@@ -14,6 +14,7 @@ class Row(NamedTuple):
     coefficients: tuple[float, ...]
 
     def at(self, x: float) -> float:
+        """H at x."""
         value = 0.0
         for c in self.coefficients:
             value = value * (x - self.origin) + c

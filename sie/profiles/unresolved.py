@@ -68,6 +68,7 @@ class Pieces(NamedTuple):
 
 
 def expanded(slope: Slope, resolved: Slope, contact: Interval) -> Pieces:
+    """The Chebyshev series of H on the pieces of its resolution inside a contact."""
     ends = resolved.breaks
     kept = np.flatnonzero((ends[1:] > contact.x1) & (ends[:-1] < contact.x2))
     lo, hi = ends[:-1][kept], ends[1:][kept]

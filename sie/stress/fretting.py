@@ -29,10 +29,15 @@ Array = NDArray[np.float64]
 class State(Protocol):
     """The attributes of a solution that a cycle uses."""
 
-    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress: ...
-    def slip(self, x: ArrayLike) -> Array: ...
+    def stress(self, x: ArrayLike, y: ArrayLike) -> Stress:
+        """The stress in the body."""
+
+    def slip(self, x: ArrayLike) -> Array:
+        """The slip g(x), a length."""
+
     @property
-    def shear(self) -> Any: ...
+    def shear(self) -> Any:
+        """The shear traction q."""
 
 
 @dataclass(frozen=True)
@@ -48,14 +53,17 @@ class Range:
 
     @property
     def range(self) -> Array:
+        """highest - lowest."""
         return self.highest - self.lowest
 
     @property
     def amplitude(self) -> Array:
+        """Half of the range."""
         return 0.5 * (self.highest - self.lowest)
 
     @property
     def mean(self) -> Array:
+        """The mean of the two extremes."""
         return 0.5 * (self.highest + self.lowest)
 
 

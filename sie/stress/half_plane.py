@@ -75,6 +75,7 @@ class Tractions:
 
     @property
     def known_poisson(self) -> float:
+        """Poisson's ratio. ValueError if it was not given."""
         return _known(
             self.poisson,
             "σ_zz and what depends on it need Poisson's ratio: give poisson beside modulus, or "
@@ -83,6 +84,7 @@ class Tractions:
 
     @property
     def known_body(self) -> Elastic:
+        """The body with its elastic constants. ValueError if they were not given."""
         return _known(
             self.body,
             "strains need the elastic constants of the body: give the body by young and "

@@ -59,6 +59,7 @@ class Mesh(NamedTuple):
 
 
 def mesh_of(tractions: Tractions) -> Mesh:
+    """The columns in which the stress of these tractions is scanned."""
     marks, singular = tractions.marks, tractions.singular
     r = 0.5 * float(marks[-1] - marks[0])
     if len(marks) > MANY_MARKS:  # those that resolve a cusp approach it over hundreds of octaves

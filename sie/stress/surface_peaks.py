@@ -39,6 +39,12 @@ class Measure(NamedTuple):
 
 
 class Maximum(NamedTuple):
+    """A local maximum of a measure of stress, and its place.
+
+    value    the maximum, a stress
+    x, y     its place, lengths
+    """
+
     value: float
     x: float
     y: float

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -95,6 +96,7 @@ def in_order(function: Callable[[Array], Any], x: Array) -> Any:
 
 
 def refuse_side(side: int) -> None:
+    """Raises ValueError unless side is -1, 0 or 1."""
     if not arguments.among(side, (-1, 0, 1)):
         raise ValueError(
             f"side = {side!r} is not -1, 0 or 1: +1 is the limit from the body (y > 0), -1 from "
@@ -345,26 +347,33 @@ class Zero(Density):
     moment: float = 0.0
 
     @property
+    @override
     def interval(self) -> tuple[float, float]:
         return 0.0, 0.0
 
+    @override
     def __call__(self, x: ArrayLike) -> Array:
         return on_line(np.zeros_like, x)
 
+    @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         return self._in_plane(np.zeros_like, z, side)
 
+    @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         return self._in_plane(np.zeros_like, z, side)
 
     @property
+    @override
     def bases(self) -> tuple[tuple[float, Density], ...]:
         return ()
 
     @property
+    @override
     def breaks(self) -> tuple[float, ...]:
         return ()
 
+    @override
     def hilbert(self, x: ArrayLike) -> Array:
         return on_line(np.zeros_like, x)
 

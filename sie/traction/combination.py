@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 
 from .base import ZERO, Density
 
@@ -30,8 +31,9 @@ CANCELLED = 1e-9  # a sum of strengths below this fraction of their sizes is rou
 
 @dataclass(frozen=True, eq=False)
 class Combination(Density):
-    """Σ factor × density, each zero outside its own interval; `resultant` and `moment` are theirs,
-    summed. `superposed` builds it.
+    """Σ factor × density, each zero outside its own interval.
+
+    `resultant` and `moment` are theirs, summed. `superposed` builds it.
 
     >>> Combination(((2.0, ZERO),)).resultant
     0.0
@@ -41,26 +43,32 @@ class Combination(Density):
 
     @cached_property
     def resultant(self) -> float:  # type: ignore[override]
+        """∫p dx, the sum of those of the terms."""
         return sum(factor * density.resultant for factor, density in self.terms)
 
     @cached_property
     def moment(self) -> float:  # type: ignore[override]
+        """∫p x dx, the sum of those of the terms."""
         return sum(factor * density.moment for factor, density in self.terms)
 
     @property
+    @override
     def interval(self) -> tuple[float, float]:
         lows, highs = zip(*(density.interval for _, density in self.terms), strict=True)
         return min(lows), max(highs)
 
     @property
+    @override
     def breaks(self) -> tuple[float, ...]:
         return tuple(sorted({b for _, density in self.terms for b in density.breaks}))
 
     @property
+    @override
     def singular(self) -> tuple[float, ...]:
         return tuple(sorted({b for _, density in self.terms for b in density.singular}))
 
     @property
+    @override
     def bases(self) -> tuple[tuple[float, Density], ...]:
         return tuple(
             (factor * inner, part)
@@ -69,6 +77,7 @@ class Combination(Density):
         )
 
     @property
+    @override
     def hilbert_at_edges(self) -> tuple[float, float]:
         x1, x2 = self.interval
         return self._limit(x1, 0), self._limit(x2, 1)
@@ -84,6 +93,7 @@ class Combination(Density):
             for factor, d in self.terms
         )
 
+    @override
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         flat = x.ravel()
@@ -102,8 +112,9 @@ class Combination(Density):
         return float(np.mean(self(self._beside(x))))
 
     def _steepness(self, x: float) -> float:
-        """The derivative where those of terms are infinite: finite where they cancel, each in
-        proportion to its strength if it has one.
+        """The derivative where those of terms are infinite.
+
+        It is finite where they cancel, each in proportion to its strength if it has one.
         """
         steep = [
             (factor, d.strength(x) or 1.0, float(d.cauchy_derivative(x).imag))
@@ -123,21 +134,26 @@ class Combination(Density):
         step = BESIDE * (hi - lo)
         return np.array([y for y in (x - step, x + step) if lo < y < hi])
 
+    @override
     def strength(self, x: float) -> float:
         return sum(factor * density.strength(x) for factor, density in self.terms)
 
+    @override
     def hilbert(self, x: ArrayLike) -> Array:
         total: Array = self._total([density.hilbert(x) for _, density in self.terms])
         return total
 
+    @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         values = [density.cauchy(z, side) for _, density in self.terms]
         return self._without_nan(values, z, lambda x: -side * float(self(x)))
 
+    @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         values = [density.cauchy_derivative(z, side) for _, density in self.terms]
         return self._without_nan(values, z, lambda x: side * self._steepness(x))
 
+    @override
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         pairs = [density.potentials(z, side) for _, density in self.terms]
         F = self._without_nan([F for F, _ in pairs], z, lambda x: -side * float(self(x)))
@@ -146,8 +162,9 @@ class Combination(Density):
     def _without_nan(
         self, values: list[Complex], z: ArrayLike, imaginary: Callable[[float], float]
     ) -> Complex:
-        """The sum of values at z, with the imaginary part from elsewhere at real z where terms are
-        infinite.
+        """The sum of values at z.
+
+        At real z where terms are infinite, its imaginary part comes from `imaginary`.
         """
         with np.errstate(invalid="ignore"):
             total: Complex = self._total(values)

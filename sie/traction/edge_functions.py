@@ -28,6 +28,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.inheritance import override
 from sie.numerics import lerch
 from sie.numerics.interval import EPS, Interval
 
@@ -140,6 +141,7 @@ class Powers(SquareRoot):
         self.epsilon, self.cos = epsilon, math.cos(math.pi * epsilon)
         self.at_left, self.at_right = 0.5 + epsilon, 0.5 - epsilon
 
+    @override
     def on_contact(self, x: Array, kinks_only: bool) -> tuple[Array, BreakFunction]:
         left, right = self.contact.from_left(x), self.contact.from_right(x)
         least = EPS if kinks_only else 0.0
@@ -160,6 +162,7 @@ class Powers(SquareRoot):
 
         return left**self.at_left * right**self.at_right, function_of
 
+    @override
     def beside(self, x: Array, on_right: bool) -> tuple[Array, BreakFunction]:
         left, right = np.abs(self.contact.from_left(x)), np.abs(self.contact.from_right(x))
 
@@ -172,6 +175,7 @@ class Powers(SquareRoot):
         X = left**self.at_left * right**self.at_right
         return X * (1.0 if on_right else -1.0), function_of
 
+    @override
     def upper(self, z: Complex) -> tuple[Points, BreakFunction]:
         left, right = self.contact.from_left(z), -self.contact.from_right(z)
         X = left**self.at_left * right**self.at_right
@@ -191,16 +195,19 @@ class Powers(SquareRoot):
         mean = self.at_left * right + self.at_right * left
         return Points(z, left, right, X, left * right / X, mean), function_of
 
+    @override
     def root(self, e_left: Any, e_right: Any) -> Any:
         return (
             2.0 * self.contact.r * e_left ** (2.0 * self.at_left) * e_right ** (2.0 * self.at_right)
         )
 
+    @override
     def dual_root(self, e_left: Any, e_right: Any) -> Any:
         return (
             2.0 * self.contact.r * e_left ** (2.0 * self.at_right) * e_right ** (2.0 * self.at_left)
         )
 
+    @override
     def quotient(self, z: Any) -> tuple[Any, Any]:
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
         less = np.expm1(self.epsilon * lerch.log1p(2.0 * r / right))

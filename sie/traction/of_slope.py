@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import Interval
 
@@ -49,6 +50,7 @@ class SlopeDensity(Density):
     moment: float
 
     @property
+    @override
     def interval(self) -> tuple[float, float]:
         return self.contact.x1, self.contact.x2
 
@@ -96,8 +98,9 @@ class SlopeDensity(Density):
 
     @abstractmethod
     def _far_pair(self, z: Complex) -> tuple[Complex, Complex]:
-        """The same far from the contact, without the constant that the first tends to where an edge
-        is singular.
+        """F and F' far from the contact.
+
+        The constant that F tends to where an edge is singular is left out.
         """
 
     @abstractmethod
@@ -107,8 +110,9 @@ class SlopeDensity(Density):
     resolves = True  # whether a slope that is a function is known by its values at some points only
 
     def resolved_slope(self, x: Array) -> Array:
-        """H inside the contact, x ascending, as the pressure uses it: for a function its
-        resolution.
+        """H inside the contact, x ascending, as the pressure uses it.
+
+        For a function this is its resolution.
         """
         return self._slope(x)
 
@@ -119,11 +123,13 @@ class SlopeDensity(Density):
 
     @property
     def _kinks(self) -> tuple[tuple[float, float], ...]:
-        """(break, +inf or -inf) inside the contact where p' is infinite; -inf where p itself is
-        infinite.
+        """(break, +inf or -inf) inside the contact where p' is infinite.
+
+        It is -inf where p itself is infinite.
         """
         return ()
 
+    @override
     def __call__(self, x: ArrayLike) -> Array:
         x = arguments.reals("x", x)
         flat = x.ravel()
@@ -151,8 +157,9 @@ class SlopeDensity(Density):
         return np.sqrt(ratio)
 
     def _singular_outside(self, left: Any, right: Any) -> Any:
-        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2 (complex: Im > 0;
-        real: beside the contact).
+        """k2/2 sqrt((s+1)/(s-1)) - k1/2 sqrt((s-1)/(s+1)), from z - x1 and z - x2.
+
+        These are complex (Im > 0), or real beside the contact.
         """
         root = (
             np.sqrt(left) / np.sqrt(right)
@@ -162,8 +169,9 @@ class SlopeDensity(Density):
         return 0.5 * (self.k2 * root - self.k1 / root)
 
     def gap_excess(self, x: Array) -> tuple[Array, Array]:
-        """(G, continued) of `_beside` in true units (a slope), singular ends included, for x on one
-        side of the contact.
+        """(G, continued) of `_beside` in true units (a slope), singular ends included.
+
+        All x are on one side of the contact.
         """
         G, continued = in_order(self._beside, x)
         if self.k1 or self.k2:
@@ -174,6 +182,7 @@ class SlopeDensity(Density):
             )
         return G, continued
 
+    @override
     def hilbert(self, x: ArrayLike) -> Array:
         return self._on_line(self._hilbert, x)
 
@@ -196,6 +205,7 @@ class SlopeDensity(Density):
     def _hilbert_inside(self, x: Array) -> Array:
         return self.half_modulus * self._slope(x)
 
+    @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
         def potential(flat: Complex) -> Complex:
             real = flat.imag == 0.0
@@ -211,6 +221,7 @@ class SlopeDensity(Density):
         F: Complex = self._in_plane(potential, z, side)
         return F
 
+    @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
         def derivative(flat: Complex) -> Complex:
             real = flat.imag == 0.0
@@ -225,6 +236,7 @@ class SlopeDensity(Density):
         dF: Complex = self._in_plane(derivative, z, side, derivative=True)
         return dF
 
+    @override
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:
         z = arguments.complexes("z", z)
         flat = z.ravel()
@@ -235,10 +247,12 @@ class SlopeDensity(Density):
         return self.cauchy(z, side), self.cauchy_derivative(z, side)
 
     @property
+    @override
     def singular(self) -> tuple[float, ...]:
         return self.interval
 
     @property
+    @override
     def hilbert_at_edges(self) -> tuple[float, float]:
         left, right = self._slope_at_edges
         return self.half_modulus * left, self.half_modulus * right
@@ -264,8 +278,9 @@ class SlopeDensity(Density):
         return self.half_modulus * np.array(self._far_pair(z)) + self._singular_pair(z, far=True)
 
     def _singular_pair(self, z: Complex, far: bool) -> Complex:
-        """The part of the singular ends in F and F', (2, n); `far` leaves out the limit
-        (k2 - k1)/2 of the first.
+        """The part of the singular ends in F and F', (2, n).
+
+        `far` leaves out the limit (k2 - k1)/2 of the first.
         """
         left, right, r = self.contact.from_left(z), -self.contact.from_right(z), self.contact.r
         root1, root2 = np.sqrt(left), np.sqrt(right)
@@ -300,13 +315,15 @@ class SlopeDensity(Density):
 
 @dataclass(frozen=True, eq=False)
 class TransformDensity(SlopeDensity):
-    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s). One DCT gave g;
-    nothing was solved.
+    """Smooth H = Σ g_n T_n(s) on the contact: p = E*/2 sqrt(1-s²) Σ g_{n+1} U_n(s).
+
+    One DCT gave g; nothing was solved.
     """
 
     series: Array
 
     @property
+    @override
     def slope_scale(self) -> float:
         return float(np.abs(self.series).max())
 
@@ -353,8 +370,9 @@ class TransformDensity(SlopeDensity):
         return outer_series(self.series, self.contact, z)
 
     def _powers(self, rho: Any) -> Any:
-        """Σ_{n>=0} g_n ρ^n by Horner; g_0 belongs to the singular ends, whose part of F tends to
-        -g_0 far away.
+        """Σ_{n>=0} g_n ρ^n by Horner's rule.
+
+        g_0 belongs to the singular ends, whose part of F tends to -g_0 far away.
         """
         total = np.zeros_like(rho)
         for g in self.series[:0:-1]:

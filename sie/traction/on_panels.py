@@ -29,6 +29,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.inheritance import override
 from sie.numerics import chebyshev, lerch
 from sie.numerics.interval import Interval
 from sie.profiles.power_law import Corner, PowerLaw, PowerSlope
@@ -61,6 +62,7 @@ class OnPanels(SlopeDensity):
         return -self.panels.edge.cos / math.pi
 
     @property
+    @override
     def slope_scale(self) -> float:
         return self.panels.scale
 
@@ -148,6 +150,7 @@ class OnPanels(SlopeDensity):
     def _slope(self, x: Array) -> Array:
         return self.panels.geometry.slope(x)
 
+    @override
     def resolved_slope(self, x: Array) -> Array:
         p, (lo, hi) = self.panels, self.panels.geometry.ends
         k = np.clip(np.searchsorted(hi, x), 0, len(hi) - 1)
@@ -203,6 +206,7 @@ class OnPanels(SlopeDensity):
         return (self.contact.x1, *sorted(e for e, _ in inner), self.contact.x2)
 
     @property
+    @override
     def breaks(self) -> tuple[float, ...]:
         inner = {
             e
@@ -219,9 +223,11 @@ class PanelDensity(OnPanels):
     panels: Panels
 
     @property
+    @override
     def epsilon(self) -> float:
         return self.panels.edge.epsilon
 
+    @override
     def moved(self, contact: Interval, dx: float, tail: float) -> Self:
         old = self.panels
         slope = old.geometry.slope.shifted(dx).shifted(tail)
@@ -243,10 +249,12 @@ class PowerDensity(OnPanels):
 
     @cached_property
     def panels(self) -> Panels:  # type: ignore[override]
+        """The panels of the declared pieces and their resolution on the contact."""
         pieces = refined(self.declared, self.contact.x1, self.contact.x2, self.resolution)
         return Panels(Geometry(pieces, self.contact))
 
     @property
+    @override
     def slope_scale(self) -> float:
         return self.law.slope(self.contact.r)
 
@@ -263,6 +271,7 @@ class PowerDensity(OnPanels):
     def _slope_at_edges(self) -> tuple[float, float]:
         return -self.slope_scale, self.slope_scale
 
+    @override
     def moved(self, contact: Interval, dx: float, tail: float) -> Self:
         law = replace(self.law, axis=self.law.axis + dx + tail)
         declared = self.declared.shifted(dx).shifted(tail)

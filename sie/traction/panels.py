@@ -227,6 +227,7 @@ class Panels:
 
     @cached_property
     def breaks(self) -> Breaks:
+        """The ends of the panels, with H and its jumps there."""
         g, last = self.geometry, len(self.series) - 1
         v = np.asarray(self.edge.dual_root(g.root_left, g.root_right))
         H = self._slope_at_ends.copy()

@@ -23,6 +23,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.inheritance import override
 from sie.numerics import chebyshev
 from sie.numerics.interval import EPS, Interval
 from sie.profiles.slope import SEEN_JUMP, Slope
@@ -90,8 +91,9 @@ class Geometry:
 
     @cached_property
     def angles(self) -> tuple[Array, Array | float, Array]:
-        """(angle of lo from the nearer edge, +1 if that edge is the left one else -1, angular
-        length), each (K, 1).
+        """(angle of lo from the nearer edge, sign of that edge, angular length), each (K, 1).
+
+        The sign is +1 if the nearer edge is the left one, else -1.
         """
         (a, c), (b, d) = self.root_left, self.root_right
         angle = 2.0 * np.arctan2(
@@ -123,8 +125,9 @@ class Geometry:
         return part
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array | float]:
-        """Gauss-Legendre in φ on every piece: offsets t - lo, angles from the nearer edge, weights,
-        all (K, n), and signs.
+        """Gauss-Legendre nodes in φ on every piece.
+
+        These are offsets t - lo, angles from the nearer edge and weights, all (K, n), and signs.
         """
         g, w = chebyshev.gauss_legendre(n)
         from_edge, sign, length = self.angles
@@ -181,9 +184,11 @@ class Geometry:
 
 
 class SlidingGeometry(Geometry):
-    """Pieces in the contact with quadrature for dt/w: Gauss-Jacobi in the angle on a piece that
-    ends at an edge, Gauss-Legendre in ln τ on others. The slope is broken at the middle of the
-    contact, so that no piece comes near both edges.
+    """Pieces in the contact with quadrature for dt/w.
+
+    It is Gauss-Jacobi in the angle on a piece that ends at an edge, Gauss-Legendre in ln τ on
+    others. The slope is broken at the middle of the contact, so that no piece comes near both
+    edges.
     """
 
     def __init__(
@@ -195,18 +200,22 @@ class SlidingGeometry(Geometry):
         self.epsilon = epsilon
 
     @property
+    @override
     def edge(self) -> Powers:
         return Powers(self.contact, self.epsilon)
 
     @property
+    @override
     def totals(self) -> Array:
         _, _, weight, _ = self.nodes(quadrature_order(0))
         out: Array = weight.sum(axis=1)
         return out
 
     def nodes(self, n: int) -> tuple[Array, Array, Array, Array]:
-        """Offsets t - lo, angles from the nearer edge, weights of dt/w, (K, N) with N >= n, and +1
-        where the left edge is the nearer.
+        """Nodes and weights of dt/w on every piece, (K, N) with N >= n, and signs.
+
+        The nodes are offsets t - lo and angles from the nearer edge. The sign is +1 where the left
+        edge is the nearer.
         """
         a, b, d = self.root_left[0], self.root_right[0], self.root_right[1]
         width = 2.0 * self.contact.r
@@ -241,8 +250,9 @@ class SlidingGeometry(Geometry):
         return offset, angle, weight, np.where(left, 1.0, -1.0)[:, None]
 
     def _at_edge(self, k: int, n: int) -> tuple[Array, Array, Array]:
-        """The piece between an edge and some point: the singular factor ψ^(∓2ε) of dt/w is in the
-        rule's weights.
+        """The nodes on the piece between an edge and some point.
+
+        The singular factor ψ^(∓2ε) of dt/w is in the rule's weights.
         """
         at_left = self.cut_left and k == 0
         sign = -2.0 * self.epsilon if at_left else 2.0 * self.epsilon
@@ -285,14 +295,16 @@ def edge_rule(n: int, power: float) -> tuple[Array, Array]:
 
 
 def quadrature_order(degree: int) -> int:
-    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact,
-    measured to reach rounding.
+    """Gauss-Legendre nodes for a polynomial slope of that degree on up to the whole contact.
+
+    The number was measured to reach rounding.
     """
     return 13 + int(1.15 * degree)
 
 
 def narrow_order(degree: int) -> int:
-    """The same on a piece of at most NARROW_ANGLE, where the angle adds 1e-16 to the polynomial's
-    own degree.
+    """The number of nodes for that degree on a piece of at most NARROW_ANGLE.
+
+    The angle there adds 1e-16 to the polynomial's own degree.
     """
     return 3 + degree // 2

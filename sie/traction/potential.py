@@ -55,6 +55,7 @@ class Block(NamedTuple):
 
     @property
     def closed(self) -> bool:
+        """Whether the closed form serves the block."""
         return self.s is not None
 
 
@@ -227,8 +228,9 @@ def _regions(p: Panels, z: Complex) -> list[Block]:
 
 
 def _meetings(p: Panels, blocks: list[Block], size: int) -> Meetings:
-    """Whether, for each point of a block, the next and the previous piece meet the block's own at a
-    break and their closed forms serve the point too.
+    """Whether, for each point of a block, the next and the previous piece join the block's own.
+
+    They join if they meet it at a break and their closed forms serve the point too.
     """
     meets = p.breaks.meets_next
     if p.many:
@@ -269,8 +271,9 @@ def _among(known: Index, wanted: Index) -> NDArray[np.bool_]:
 
 
 def _add_poles(p: Panels, k: Any, z: Complex, meet: tuple[Any, Any], N: Complex) -> None:
-    """Σ_e v(e) [H]_e / (z - e): where both pieces at a break serve, their poles cancel but for a
-    jump.
+    """Σ_e v(e) [H]_e / (z - e).
+
+    Where both pieces at a break serve, their poles cancel but for a jump.
     """
     b = p.breaks
     for end, value in (

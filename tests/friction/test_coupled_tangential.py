@@ -20,6 +20,7 @@ from sie.friction.coupled_gradient import SlipGradient
 from sie.friction.coupled_rates import SlipRate
 from sie.friction.coupled_tangential import TangentialSearch
 from sie.friction.coupled_zones import Map, Zones
+from sie.io import scene_file
 from sie.numerics.elliptic import modulus_of
 
 # (x1, e1, e2, x2) under a parabola, E* = 2, R = 1, P = π/2, by (β, f, Q/(f P)), to the digits that
@@ -126,14 +127,8 @@ def test_slope_of_the_surface_is_finite_one_double_beside_the_contact(flat_base)
 
 
 def test_a_steel_punch_on_titanium_is_answered():
-    punch = sie.Scene(
-        profile=sie.RoundedFlat(1.0, 50.0),
-        body=sie.Elastic(115e3, 0.32),
-        indenter=sie.Elastic(210e3, 0.3),
-        normal_load=600.0,
-        friction=0.3,
-        tangential_load=90.0,
-    )
+    pressed = scene_file.parse(scene_file.example("dissimilar")).scene
+    punch = replace(pressed, friction=0.3, tangential_load=75.0)
     solution = sie.solve(punch)
     certificate, similar = (
         solution.check(),
