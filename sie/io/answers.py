@@ -47,9 +47,7 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} where it is a sum over states, and where it is not known, as of
-    dissimilar bodies that slide.
-    """
+    """The dissipated energy; {} where it is a sum over states, or not known (full sliding)."""
     if energy_costs(solution.scene):
         return {}
     try:
