@@ -20,13 +20,13 @@ STAGES: dict[str, tuple[str, ...]] = {
     "edges": ("normal",),
     "pressure": ("normal", "pressure"),
     "gap": ("normal", "pressure"),
-    "shear": ("normal", "pressure", "tangential"),
+    **dict.fromkeys(("shear", "energy"), ("normal", "pressure", "tangential")),
     "check": ("normal", "pressure", "tangential", "certificate"),
     **dict.fromkeys(BODY, ("normal", "pressure", "tangential", "tractions")),
 }
 # ... for full stick, where one equation gives the pressure and the shear, ...
 FULL_STICK: dict[str, tuple[str, ...]] = {
-    **dict.fromkeys(("edges", "gap", "shear"), ("normal",)),
+    **dict.fromkeys(("edges", "gap", "shear", "energy"), ("normal",)),
     "pressure": ("normal", "pressure"),
     "check": ("normal", "certificate"),
     **dict.fromkeys(BODY, ("normal", "pressure", "tractions")),
@@ -123,7 +123,8 @@ def plan(
         return _of_full_stick(scene, names)
     if scene.coupled:
         return _of_coupled(scene, names)
-    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | {"shear": ("normal",)}
+    no_shear = dict.fromkeys(("shear", "energy"), ("normal",))
+    needed = STAGES if sheared(scene, economy) or scene.epsilon else STAGES | no_shear
     stages = {stage for w in names for stage in needed[w]}
     steps = (
         _resolution(scene, economy),
@@ -163,6 +164,7 @@ def _of_sheared(scene: Scene, names: tuple[str, ...]) -> Plan:
         Step("slip gradient", True, "that of P alone, kept in stick", "tangential_search"),
         Step("zones", True, "four edges, of contact and stick zone, by Newton", "coupled"),
         Step("edges", True, "found with the zones", "normal"),
+        _if_asked("energy", "energy" in names, "the power of friction, summed over states"),
     )
     inequalities = "the certificate measures p >= 0 and |q| <= f p"
     return Plan(steps + _of_both("with the edges", inequalities, stages, names))

@@ -30,9 +30,10 @@ from .contact.pressure import pressure
 from .errors import ContactError, InequalityError, LoadError, ResolutionError
 from .friction.contact_growth import ContactGrowth
 from .friction.coupled_contact import CoupledContact
+from .friction.coupled_energy import tangential_energy
 from .friction.coupled_normal import coupled_contact
-from .friction.coupled_rates import tangential_energy, tangential_shift
 from .friction.coupled_sheared import ShearedContact, sheared_contact
+from .friction.coupled_shift import tangential_shift
 from .friction.coupled_tangential import TangentialSearch, tangential_search
 from .friction.coupled_traction import OnHalves
 from .friction.dissipation import dissipated

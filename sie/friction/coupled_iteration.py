@@ -7,7 +7,7 @@ is shortened until the edges keep their order and the conditions are missed by l
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol, TypeVar
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,18 +39,31 @@ class Missing(Protocol):
 T = TypeVar("T", bound=Missing)
 
 
-def iterated(trial: Callable[[Array], T], edges: Array, room: Callable[[Array], Array]) -> T | None:
+class Root(NamedTuple, Generic[T]):
+    """The trial that meets the conditions, and ∂(what is missed)/∂(edges) next to it."""
+
+    trial: T
+    slopes: Array | None
+
+
+def iterated(
+    trial: Callable[[Array], T],
+    edges: Array,
+    room: Callable[[Array], Array],
+    slopes: Array | None = None,
+    settled: float = SETTLED,
+) -> Root[T] | None:
     """The trial that meets the conditions, None where none is reached.
 
-    `room` is how far each edge may move; it is not positive where edges are not allowed.
+    `room` is how far each edge may move; it is not positive where edges are not allowed. `slopes`
+    may be those of a state close by.
     """
     if not (room(edges) > 0.0).all():
         return None
     now = trial(edges)
-    slopes: Array | None = None
     for _ in range(MOST_STEPS):
         fresh = slopes is None
-        used = _slopes(trial, now, room) if slopes is None else slopes
+        used = _slopes(trial, now, room) if slopes is None else slopes.copy()
         step = np.asarray(-np.linalg.solve(used, now.missed), dtype=float)
         moved = _moved(trial, now, step, room)
         if moved is None:
@@ -62,11 +75,15 @@ def iterated(trial: Callable[[Array], T], edges: Array, room: Callable[[Array], 
         used += np.outer(moved.missed - now.missed - used @ made, made) / float(made @ made)
         slopes = used if moved.error <= RENEWED * now.error else None
         now = moved
-        if now.error <= SETTLED:
+        if now.error <= settled:
+            if settled > SETTLED:
+                return Root(now, used)
             # One step more: where q is much less than f p, Q is told by the last digits
             last = now.edges - np.asarray(np.linalg.solve(used, now.missed), dtype=float)
-            return min(now, trial(last), key=_error) if (room(last) > 0.0).all() else now
-    return now if now.error < STALLED else None
+            return Root(
+                min(now, trial(last), key=_error) if (room(last) > 0.0).all() else now, used
+            )
+    return Root(now, slopes) if now.error < STALLED else None
 
 
 def _error(one: Missing) -> float:

@@ -42,7 +42,7 @@ from sie.traction.piece_quadrature import SlidingGeometry
 
 from .coupled_contact import CoupledContact
 from .coupled_gradient import SlipGradient, Tabulated, tabulated
-from .coupled_iteration import iterated
+from .coupled_iteration import SETTLED, Root, iterated
 from .coupled_slip_rate import SlipRate
 from .coupled_zones import Rule, StickProblem, Zones, stick_rule
 
@@ -284,10 +284,17 @@ class TangentialSearch:
         return np.array([x1, e1, e2, x2])
 
     def _newton(self, edges: Array, Q: float) -> Trial | None:
+        root = self.next_to(edges, Q)
+        return root.trial if root else None
+
+    def next_to(
+        self, edges: Array, Q: float, slopes: Array | None = None, settled: float = SETTLED
+    ) -> Root[Trial] | None:
+        """The state under Q next to these edges, as `iterated` finds it; None where it does not."""
         try:
             # Edges that are tried may lie so near to each other that nothing is finite
             with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-                return iterated(lambda at: self.trial(at, Q), edges, self._room)
+                return iterated(lambda at: self.trial(at, Q), edges, self._room, slopes, settled)
         except (ArithmeticError, np.linalg.LinAlgError, ContactError):
             return None
 

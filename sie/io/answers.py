@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from sie.contact.small_strains import notes
 from sie.errors import ContactError
-from sie.problem.request import NEED_SHEAR, UNASKED
+from sie.problem.request import NEED_SHEAR, UNASKED, energy_costs
 from sie.solution import Solution
 
 from .scene_file import SceneFile
@@ -47,7 +47,9 @@ def slip_of(solution: Solution, x: Array) -> dict[str, Array]:
 
 
 def energy_of(solution: Solution) -> dict[str, float]:
-    """The dissipated energy; {} where it is not known, as of dissimilar bodies that slide."""
+    """The dissipated energy; {} where it is a sum over states, or not known (full sliding)."""
+    if energy_costs(solution.scene):
+        return {}
     try:
         return {"energy_lost": solution.energy_lost}
     except ContactError:

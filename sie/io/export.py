@@ -22,6 +22,7 @@ and, where they are wanted,
     gap         {x: [..], gap: [..]}
     shear       {stick [[lo, hi], ..], slipping [[lo, hi, sign of q], ..], resultant, moment,
                  energy_lost if known, x: [..], q: [..], slip: [..]}
+    energy      {energy_lost}; of dissimilar bodies under a tangential load only here, not in shear
     check       {residual, force, moment, lowest_pressure, lowest_gap, abscissae, resolution, edges,
                  tol, tension, overlap, notes, error, ok}
     stress      {x, xx, yy, xy: [..]} on the surface
@@ -155,6 +156,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
         "notes": list(notes_of(solution, file)),
     }
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
+    sections |= {"energy": lambda solution, _: {"energy_lost": solution.energy_lost}}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
     if isinstance(solution, PathSolution):
         out["path"] = solution.history.rows()

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sie.history import PathSolution
+from sie.problem.request import energy_costs
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
@@ -27,15 +28,17 @@ def summary(solution: Solution, file: SceneFile) -> str:
         "pressure": pressure_summary,
         "gap": gap_summary,
         "shear": shear_summary,
+        "energy": energy_summary,
         "stress": stress_summary,
         "yield": yield_summary,
         "tension": tension_summary,
         "check": check_summary,
     }
     scene = f"{solution.scene.profile!r}, E* = {solution.scene.Estar:.6g} {file.units.stress}"
-    parts = [
-        section(solution, file.units) for name, section in sections.items() if name in wanted(file)
-    ]
+    names = set(wanted(file))
+    if "shear" in names and not energy_costs(solution.scene):
+        names.discard("energy")  # it is printed with the shear
+    parts = [section(solution, file.units) for name, section in sections.items() if name in names]
     # The certificate contains the notes.
     notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
     head = f"{file.title}\n{scene}" if file.title else scene
@@ -151,6 +154,11 @@ def shear_summary(solution: Solution, units: Units) -> str:
     ]
     table = [_path_table(solution, units)] if isinstance(solution, PathSolution) else []
     return "\n\n".join([_rows(*rows), *table])
+
+
+def energy_summary(solution: Solution, units: Units) -> str:
+    """The dissipated energy."""
+    return _rows(("energy lost", f"{_number(solution.energy_lost)} {units.moment}"))
 
 
 def _zones(

@@ -9,23 +9,24 @@ from sie import arguments
 from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
-WANTS = ("edges", "pressure", "gap", "shear", "check", "stress", "yield", "tension")
+WANTS = ("edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension")
 # Attributes of the solution, and the quantities that they belong to.
 ALSO = {
     "half_width": "edges",
     "centre": "edges",
     "elastic_limit": "yield",
     "peak_tension": "tension",
+    "energy_lost": "energy",
 }
-ALSO |= dict.fromkeys(("stick", "slip", "shift", "energy_lost"), "shear")
+ALSO |= dict.fromkeys(("stick", "slip", "shift"), "shear")
 # The answer where nothing is asked for: the contact. The stress is asked for by name, as it may
-# need Poisson's ratio.
+# need Poisson's ratio, and the energy if it comes with the shear (`energy_costs`).
 UNASKED = ("edges", "pressure", "gap", "shear", "check")
 # Points of a table in the contact, and of a grid in the body, where no number is asked for.
 POINTS = 401
 GRID = (201, 101)
 # Quantities that depend on the shear traction.
-NEED_SHEAR = frozenset({"shear", "stress", "yield", "tension", "check"})
+NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check"})
 # Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
@@ -41,6 +42,11 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names
+
+
+def energy_costs(scene: Scene) -> bool:
+    """Whether the dissipated energy is a sum over states, and so only answered if asked for."""
+    return scene.coupled and scene.tangential_load != 0.0
 
 
 def sheared(scene: Scene, economy: Collection[str]) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from dataclasses import replace
@@ -13,10 +14,12 @@ import pytest
 import sie
 from sie.certificate.coupled_check import gradient_of_slip
 from sie.certificate.coupled_shear_check import sheared_certificate
+from sie.friction.coupled_energy import CERTIFIED, STARTS, Growth, _integral
 from sie.friction.coupled_functions import flat_functions
 from sie.friction.coupled_gradient import SlipGradient
 from sie.friction.coupled_sheared import ShearedContact
 from sie.friction.coupled_slip_rate import SlipRate
+from sie.friction.coupled_tangential import TangentialSearch
 from sie.friction.coupled_zones import Map, Zones
 from sie.io import scene_file
 from sie.numerics.elliptic import modulus_of
@@ -348,6 +351,44 @@ def test_energy_is_the_work_of_friction_on_the_slip():
     work = carried * (other.slip(x) - one.slip(x)) * np.sin(phi)
     lost = other.energy_lost - one.energy_lost
     assert lost == pytest.approx(work.sum() * 0.5 * (hi - lo) * math.pi / 1000, rel=1e-3)
+
+
+def trials_of(monkeypatch, function):
+    """How many times the conditions on four edges are computed."""
+    counted, trial = [], TangentialSearch.trial
+    monkeypatch.setattr(
+        TangentialSearch, "trial", lambda *args, **more: counted.append(0) or trial(*args, **more)
+    )
+    function()
+    return len(counted)
+
+
+def test_energy_finds_each_state_from_those_next_to_it(monkeypatch):
+    profile = sie.RoundedFlat(1.0, 50.0)
+    punch = solved(profile, beta=0.06, friction=0.1, part=0.5, load=0.01)
+    alone = trials_of(monkeypatch, lambda: solved(profile, 0.06, 0.1, 0.4, 0.01).coupled)
+    states = Growth(punch.coupled[1])
+    assert trials_of(monkeypatch, lambda: _integral(states, STARTS[0])) < states.states * alone / 2
+
+
+@pytest.mark.parametrize(
+    ("profile", "beta", "friction"),
+    [(sie.Parabola(1.0), 0.2, 0.5), (sie.RoundedFlat(0.5, 1.0), 0.1, 0.3)],
+)
+def test_energy_is_certified_where_the_edges_pass_kinks_and_next_to_sliding(
+    profile, beta, friction
+):
+    states = Growth(solved(profile, beta, friction, part=0.999).coupled[1])
+    assert states.passed
+    ends = np.unique([states.end, *states.passed, 0.02 * states.passed[-1]])
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    graded = np.array([0.0, 0.003, 0.05, 0.3, 0.7, 0.95, 0.997, 1.0])
+    total = 0.0
+    for lo, hi in itertools.pairwise(ends):
+        for first, last in itertools.pairwise(lo + (hi - lo) * graded):
+            half = 0.5 * (last - first)
+            total += half * weights @ [states.rate(first + half * (1.0 + x)) for x in nodes]
+    assert _integral(states, STARTS[0])[0] == pytest.approx(total, rel=CERTIFIED)
 
 
 @pytest.mark.parametrize("part", [0.05, 0.5, 0.99])

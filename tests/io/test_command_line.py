@@ -15,7 +15,7 @@ from command import run
 
 import sie
 from sie import cli as command
-from sie import files
+from sie import files, solution
 from sie.certificate.result import Certificate
 from sie.cli import main
 from sie.io import report, sample_points, scene_file
@@ -133,10 +133,38 @@ def test_only_wanted_quantities_are_printed(want, scene, capsys):
     out = capsys.readouterr().out
     marks = {
         "edges": "half-width", "pressure": "peak pressure", "gap": "\ngap", "shear": "\nshear",
-        "check": "integral equation",
+        "check": "integral equation", "energy": "energy lost",
         "stress": "\nstress ", "yield": "elastic limit", "tension": "peak tension",
     }  # fmt: skip
     assert {name for name, mark in marks.items() if mark in out} == {want}
+
+
+SHEARED_DISSIMILAR = """
+[profile]
+kind = "parabola"
+radius = 1.0
+[pair]
+modulus = 2.0
+dundurs = 0.2
+[load]
+normal_load = 1.0
+friction = 0.3
+tangential_load = 0.15
+"""
+
+
+@pytest.mark.parametrize("asked", [False, True])
+def test_the_energy_of_dissimilar_bodies_under_q_is_answered_only_if_asked_for(
+    asked, tmp_path, capsys, monkeypatch
+):
+    path, costs = tmp_path / "sheared.toml", []
+    path.write_text(SHEARED_DISSIMILAR)
+    monkeypatch.setattr(solution, "tangential_energy", lambda state: costs.append(state) or state.Q)
+    more = ["--want", "shear", "energy"] if asked else []
+    assert main(["solve", str(path), *more]) == 0
+    assert len(costs) == asked == ("energy lost" in capsys.readouterr().out)
+    main(["plan", str(path), *more])
+    assert ("skip  energy" in capsys.readouterr().out) != asked
 
 
 @pytest.mark.parametrize("name", ["scene.toml", "punch"])

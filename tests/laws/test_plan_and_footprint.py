@@ -82,6 +82,7 @@ ASK = {
     "pressure": lambda s: s.pressure(0.1),
     "gap": lambda s: s.gap(9.0),
     "shear": shear,
+    "energy": shear,
     "check": lambda s: s.check(),
     "stress": lambda s: s.stress(0.1, 0.2).xx,
     "tension": lambda s: s.peak_tension(),
