@@ -327,6 +327,7 @@ class Solution:
         loads: tuple[float, float],
         under: PatchesUnder,
         near: Interval | None = None,
+        *,
         one_sign: bool = False,
     ) -> Slip:
         """The state after Q and τ on this contact without shear.

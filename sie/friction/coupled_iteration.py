@@ -24,16 +24,13 @@ GAINED, RENEWED = 0.1, 0.3  # of the error: what a step has to gain, and above w
 
 
 class Missing(Protocol):
-    """The defects of the conditions at given edges, and the largest of these."""
+    """The defects of the conditions at given edges."""
 
     @property
     def edges(self) -> Array: ...
 
     @property
     def missed(self) -> Array: ...
-
-    @property
-    def error(self) -> float: ...
 
 
 T = TypeVar("T", bound=Missing)
@@ -73,9 +70,9 @@ def iterated(
             continue
         made = moved.edges - now.edges
         used += np.outer(moved.missed - now.missed - used @ made, made) / float(made @ made)
-        slopes = used if moved.error <= RENEWED * now.error else None
+        slopes = used if _error(moved) <= RENEWED * _error(now) else None
         now = moved
-        if now.error <= settled:
+        if _error(now) <= settled:
             if settled > SETTLED:
                 return Root(now, used)
             # One step more: where q is much less than f p, Q is told by the last digits
@@ -83,11 +80,11 @@ def iterated(
             return Root(
                 min(now, trial(last), key=_error) if (room(last) > 0.0).all() else now, used
             )
-    return Root(now, slopes) if now.error < STALLED else None
+    return Root(now, slopes) if _error(now) < STALLED else None
 
 
 def _error(one: Missing) -> float:
-    return one.error
+    return float(np.abs(one.missed).max())
 
 
 def _slopes(
@@ -111,7 +108,7 @@ def _moved(
         new = now.edges + part * step
         if (np.diff(new) > KEPT * np.diff(now.edges)).all() and (room(new) > 0.0).all():
             found = trial(new)
-            if found.error < max((1.0 - GAINED * part) * now.error, SETTLED):
+            if _error(found) < max((1.0 - GAINED * part) * _error(now), SETTLED):
                 return found
         part *= 0.5
     return None

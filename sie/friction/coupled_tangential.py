@@ -85,10 +85,6 @@ class Trial(NamedTuple):
     def edges(self) -> Array:
         return np.array(self.zones)
 
-    @property
-    def error(self) -> float:
-        return float(np.abs(self.missed).max())
-
 
 @dataclass(frozen=True, eq=False)
 class TangentialSearch:

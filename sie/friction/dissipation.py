@@ -62,7 +62,7 @@ def dissipated(state: Slip) -> float:
         return state.energy
     step = state.step
     if step.tau or not (step.scene.profile.convex or slope_rises(step.pressure, step.slope)):
-        return state.work  # a smaller load need not touch in one patch
+        return state.integrals.work  # a smaller load need not touch in one patch
     heat = Dissipation(step.scene, step.normal, step.tol, step.economy)
     fronts = [SlippedLayer(0.0, abs(step.Q), 1.0)]
     return float(heat.of_fronts([step.normal_load], fronts, state.friction)[0])

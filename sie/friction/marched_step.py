@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from sie.traction.base import Density
 from sie.traction.of_slope import SlopeDensity
 
 from .panel_shear import SAME, PanelShear
+from .slip_state import IntegralsOfSlip
 from .slip_zones import SlipZone, slip_zone
 
 Array = NDArray[np.float64]
@@ -148,38 +148,17 @@ class MarchedStep(ABC):
     # -- integrals ---------------------------------------------------------------------------------
 
     @cached_property
-    def _integrals(self) -> tuple[float, float, float, float]:
-        """∫f p |Δg| dx, ∫Δg dμ, f ∫|Δg| dμ and f ∫|Δg| (x - m) dμ, dμ = dx/(π w)."""
-        contact, f = self.pressure.contact, self.friction
-        work = shift = spread = lever = 0.0
+    def integrals(self) -> IntegralsOfSlip:
+        """Integrals of Δg."""
+        contact = self.pressure.contact
         marks = np.array([*self._places, *self.marks, *self.reach])
+        parts = []
         for side, sign, inner in zip((-1.0, 1.0), self.signs, self.reach, strict=True):
             edge = contact.x2 if side > 0.0 else contact.x1
             whole = FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks)
             zone = whole.zone(side * (edge - inner))
-            slip = sign * self.slip(edge - side * zone.from_edge)
-            far = 2.0 * contact.r - zone.from_edge
-            moved = zone.weight * slip / np.sqrt(zone.from_edge * far) / math.pi
-            work += f * float(zone.force @ slip)
-            shift += sign * float(moved.sum())
-            spread += f * float(moved.sum())
-            lever += f * side * float(moved @ (contact.r - zone.from_edge))
-        return work, shift, spread, lever
-
-    @property
-    def work(self) -> float:
-        """∫f p |Δg| dx."""
-        return self._integrals[0]
-
-    @property
-    def shift(self) -> float:
-        """What slip adds to the shift of the indenter, in a contact of constant width."""
-        return self._integrals[1]
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|Δg| dp dx for a change of P, and of E*/2 times the tilt."""
-        _, _, spread, lever = self._integrals
-        return dP * spread - math.pi * strain * lever
+            parts.append((zone, side, sign, sign * self.slip(edge - side * zone.from_edge)))
+        return IntegralsOfSlip.over(parts, self.friction, contact.r)
 
 
 def places(before: Held, pressure: SlopeDensity) -> tuple[float, ...]:

@@ -29,10 +29,14 @@ def work(state: Callable[[float], Slip], dP: float, strain: Callable[[Interval],
 
     def rate(time: float) -> float:
         found = state(time)
-        return found.work_of(dP, strain(found.contact)) if isinstance(found, Slipping) else 0.0
+        return (
+            found.integrals.work_of(dP, strain(found.contact))
+            if isinstance(found, Slipping)
+            else 0.0
+        )
 
     return whole - integral(rate, abs(whole))
 
 
 def _held(state: Slip) -> float:
-    return state.work if isinstance(state, Slipping) else 0.0
+    return state.integrals.work if isinstance(state, Slipping) else 0.0

@@ -286,7 +286,7 @@ def step_shift(history: Followed, index: int) -> float:
                 "slip adds in it is not covered",
                 step=index,
             )
-        return sum(part.shift for part in state.marched)
+        return sum(part.integrals.shift for part in state.marched)
     if any(any(o.surface) for event in state.slips for o in event.layers):
         return ChangingContact(history, index).shift
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -184,6 +184,40 @@ class NoSlip(Slip):
         return 0.0
 
 
+class IntegralsOfSlip(NamedTuple):
+    """Integrals of slip over the zones at both edges, with dμ = dx/(π w).
+
+    work     ∫f p |slip| dx
+    shift    ∫slip dμ: what slip adds to the shift of the indenter
+    spread   f ∫|slip| dμ
+    lever    f ∫|slip| (x - m) dμ
+    """
+
+    work: float
+    shift: float
+    spread: float
+    lever: float
+
+    @classmethod
+    def over(
+        cls, parts: Iterable[tuple[SlipZone, float, float, Array]], friction: float, half: float
+    ) -> IntegralsOfSlip:
+        """`parts`: zones, -1 at the left edge and 1 at the right, the sign of slip, and |slip|."""
+        work = shift = spread = lever = 0.0
+        for zone, side, sign, slip in parts:
+            from_other_edge = (2.0 * half - zone.length) + zone.from_stick
+            moved = zone.weight * slip / np.sqrt(zone.from_edge * from_other_edge) / math.pi
+            work += friction * float(zone.force @ slip)
+            shift += sign * float(moved.sum())
+            spread += friction * float(moved.sum())
+            lever += friction * side * float(moved @ (half - zone.from_edge))
+        return cls(work, shift, spread, lever)
+
+    def work_of(self, dP: float, strain: float) -> float:
+        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
+        return dP * self.spread - math.pi * strain * self.lever
+
+
 @dataclass(frozen=True, eq=False)
 class Slipping(Slip):
     """The common part of the states with slip: slip is sign f opening(x) on each side.
@@ -239,34 +273,19 @@ class Slipping(Slip):
         return left, right
 
     @cached_property
-    def _integrals(self) -> tuple[float, float, float, float]:
-        """∫f p |slip| dx, ∫slip dμ, f ∫|slip| dμ and f ∫|slip| (x - m) dμ, dμ = dx/(π w)."""
-        f, half = self.friction, self.contact.r
-        energy = shift = spread = lever = 0.0
-        for r, z, sign in zip(self.frames, self.zones, self.signs, strict=True):
-            if z.length > 0.0:
-                opening = f * self._opening(z.from_edge, r)
-                energy += f * float(z.force @ opening)
-                from_other_edge = (2.0 * half - z.length) + z.from_stick
-                moved = z.weight * opening / np.sqrt(z.from_edge * from_other_edge) / math.pi
-                shift += sign * float(moved.sum())
-                spread += f * float(moved.sum())
-                lever += f * r.side * float(moved @ (half - z.from_edge))
-        return energy, shift, spread, lever
-
-    def work_of(self, dP: float, strain: float) -> float:
-        """f ∫|slip| dp dx for a change of P, and of E*/2 times the tilt."""
-        _, _, spread, lever = self._integrals
-        return dP * spread - math.pi * strain * lever
-
-    @property
-    def work(self) -> float:
-        """∫|q| |slip| dx over the slip zones."""
-        return self._integrals[0]
+    def integrals(self) -> IntegralsOfSlip:
+        """Integrals over the zones."""
+        f, frames = self.friction, zip(self.frames, self.zones, self.signs, strict=True)
+        parts = [
+            (z, r.side, sign, f * self._opening(z.from_edge, r))
+            for r, z, sign in frames
+            if z.length > 0.0
+        ]
+        return IntegralsOfSlip.over(parts, f, self.contact.r)
 
     @property
     def shift(self) -> float:
-        return self._integrals[1]
+        return self.integrals.shift
 
     @property
     def slipped(self) -> tuple[tuple[float, float, float], ...]:

@@ -95,7 +95,7 @@ class PathEnergy:
         start, end = before.loads, path.turning_points[index].loads
         parts = path.turning_points[index].marched or self._march(index)
         if start.normal == end.normal:
-            return sum(part.work for part in parts)
+            return sum(part.integrals.work for part in parts)
         if path.curved:
             raise ContactError(
                 f"step {index} of the path, to {end}: it is marched, the tilt follows from the "

@@ -12,6 +12,7 @@ of Elastic Contacts (1993), ch. 2.
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self
@@ -207,34 +208,34 @@ class SlopeDensity(Density):
 
     @override
     def cauchy(self, z: ArrayLike, side: int = 1) -> Complex:
-        def potential(flat: Complex) -> Complex:
-            real = flat.imag == 0.0
-            F = np.empty(flat.shape, dtype=complex)
-            if real.any():
-                x = flat.real[real]
-                F[real] = on_surface(self._hilbert(x), self(x), side)
-            off = ~real
-            if off.any():
-                F[off] = reflected(lambda upper: self._both_in_upper(upper)[0], flat[off])
-            return F
+        def on_line(x: Array) -> Complex:
+            return on_surface(self._hilbert(x), self(x), side)
 
-        F: Complex = self._in_plane(potential, z, side)
+        F: Complex = self._in_plane(self._split(on_line, 0), z, side)
         return F
 
     @override
     def cauchy_derivative(self, z: ArrayLike, side: int = 1) -> Complex:
-        def derivative(flat: Complex) -> Complex:
+        def on_line(x: Array) -> Complex:
+            return self._on_surface(x, side)
+
+        dF: Complex = self._in_plane(self._split(on_line, 1), z, side, derivative=True)
+        return dF
+
+    def _split(self, on_line: Callable[[Array], Complex], which: int) -> Callable[..., Complex]:
+        """The potential (0) or its derivative (1) at flat places, those on the line apart."""
+
+        def values(flat: Complex) -> Complex:
             real = flat.imag == 0.0
-            dF = np.empty(flat.shape, dtype=complex)
+            out = np.empty(flat.shape, dtype=complex)
             if real.any():
-                dF[real] = self._on_surface(flat.real[real], side)
+                out[real] = on_line(flat.real[real])
             off = ~real
             if off.any():
-                dF[off] = reflected(lambda upper: self._both_in_upper(upper)[1], flat[off])
-            return dF
+                out[off] = reflected(lambda upper: self._both_in_upper(upper)[which], flat[off])
+            return out
 
-        dF: Complex = self._in_plane(derivative, z, side, derivative=True)
-        return dF
+        return values
 
     @override
     def potentials(self, z: ArrayLike, side: int = 1) -> tuple[Complex, Complex]:

@@ -50,15 +50,20 @@ def grid_codes() -> dict[str, Code]:
     return codes
 
 
+def timed(profile: sie.Profile, clock: Callable[[], float]) -> tuple[sie.Solution, int, float]:
+    """The solution under the mean pressure, the number of its patches, and the seconds."""
+    scene = sie.Scene(profile=profile, modulus=1.0, normal_load=MEAN)
+    start = clock()
+    solution = sie.solve(scene)
+    number = len(solution.patches)
+    return solution, number, clock() - start
+
+
 def roughness(quick: bool) -> Iterator[Record]:
     n = POINTS[not quick]
     yield Doing(f"rough profile, {n} points")
-    scene = sie.Scene(profile=rough(n), modulus=1.0, normal_load=MEAN)
-    start = perf_counter()
-    solution = sie.solve(scene)
-    number = len(solution.patches)
-    ours = perf_counter() - start
-    error = solution.check().error
+    solution, number, ours = timed(rough(n), perf_counter)
+    scene, error = solution.scene, solution.check().error
     rows: list[tuple[Any, ...]] = [("this package", None, error, 1e3 * ours)]
     yield Curve("rough: race", "this package", [ours], [error], "points",
                 {"strong": True, "colour": "black"})  # fmt: skip

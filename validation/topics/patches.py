@@ -30,7 +30,7 @@ import sie
 from analytic import flat_row, hertz, parabola_row, two_flats, two_parabolas, wavy
 from validation.harness.measures import apart, largest, mp
 from validation.harness.records import Claim, Curve, Doing, Record, Table, checked
-from validation.rivals.rough_profile import MEAN, SEED, roughness
+from validation.rivals.rough_profile import SEED, roughness, timed
 
 TITLE = "Contact in several patches"
 SECONDS = (15.0, 60.0)
@@ -344,11 +344,7 @@ def growing(quick: bool) -> Iterator[Record]:
     rows = []
     for points in sizes:
         yield Doing(f"growth, {points} points")
-        scene = sie.Scene(profile=shortening(points), modulus=1.0, normal_load=MEAN)
-        start = process_time()
-        solution = sie.solve(scene)
-        number = len(solution.patches)
-        seconds = process_time() - start
+        solution, number, seconds = timed(shortening(points), process_time)
         certificate: Any = solution.check()
         allowed = max(certificate.tol, certificate.measured_to)
         rows.append((points, number, 1e3 * seconds, certificate.error / allowed))
