@@ -241,7 +241,7 @@ class Equations:
             if size <= EPS:
                 break
             if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix)) > 0.0):
-                return None
+                break
             step = np.asarray(np.linalg.solve(matrix, -missed), dtype=np.float64)
             share = self._within(lengths, step)
             while share > LEAST_SHARE:
@@ -253,7 +253,8 @@ class Equations:
                 break
             lengths, missed = np.add(lengths, share * step), tried
         # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
-        found = size <= SETTLED and (np.diag(matrix) > 0.0).all()
+        # Where all beyond the end slipped before, the derivative is rounding of 0.
+        found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
         return lengths if found else None
 
     def _derivatives(self, lengths: Array, missed: Array) -> Array:
