@@ -44,9 +44,9 @@ LAYERS = (
     ("plan", "kept_stages"),
     ("solution",),
     ("smoothing_search", "history"),
-    ("sweep", "charts", "steady_cycle"),
+    ("sweep", "charts", "steady_cycle", "teaching"),
     ("io",),
-    ("plots",),
+    ("plots", "live"),
     ("command_parser", "cli", "__main__"),
 )
 
