@@ -31,6 +31,7 @@ LAYERS = (
         "streams",
         "arguments",
         "workers",
+        "higher_layers",
         "progress_bar",
         "sweep_result",
     ),
@@ -127,6 +128,16 @@ def test_no_module_of_the_solver_imports_itself_by_way_of_others():
         below.setdefault(module, set()).add(target)
     graph = graphlib.TopologicalSorter(below)
     graph.prepare()
+
+
+def test_the_modules_that_methods_hand_their_work_to_exist():
+    named = [
+        node.args[0].value
+        for path in modules("sie")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "higher_layers.module"
+    ]
+    assert named and {f"sie.{name}" for name in named} <= KNOWN
 
 
 def deepest_chain():

@@ -11,7 +11,8 @@ A cell of slip that is not known is empty.
 JSON always holds
 
     sie, title, units {length, force, stress, moment}
-    scene (the code that rebuilds it), modulus E*, dundurs β
+    scene {profile, body, load, ..}, the tables of a scene file, which sie.Scene.from_dict reads (of
+    a load path those of its last point), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
     patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
     several patches, or of one period of a contact that repeats; and there the period
@@ -58,6 +59,7 @@ from sie.solution import Solution
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
+from .scene_writing import tables_of
 
 Array = NDArray[np.float64]
 
@@ -142,7 +144,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
             "stress": units.stress,
             "moment": units.moment,
         },
-        "scene": repr(scene),
+        "scene": tables_of(scene),
         "modulus": scene.Estar,
         "dundurs": scene.beta,
         "edges": list(solution.edges),
