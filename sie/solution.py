@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -54,6 +54,7 @@ from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
+from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
 from .traction.base import ZERO, Density, on_line

@@ -12,7 +12,10 @@ from strategies import between, chains, parabolas, polynomials, powers, rounded_
 import sie
 from sie.io.export import strict_json
 from sie.io.scene_file import example, example_names, parse
+from sie.io.scene_schema import schema
 from sie.io.scene_writing import toml_text
+
+SCHEMA = schema()
 
 flats = st.builds(sie.Flat, half_width=between(0.5, 3.0))
 traces = st.builds(
@@ -76,6 +79,13 @@ def test_a_scene_reads_back_equal_from_its_dict_from_json_and_from_toml(profile,
     assert sie.Scene.from_dict(json.loads(strict_json(tables))) == scene
     assert parse(scene.to_toml()).scene == scene
     assert tomllib.loads(scene.to_toml()) == tables
+
+
+@given(profile=nameable(), of=bodies, load=loads)
+def test_the_schema_accepts_every_scene_that_is_written(profile, of, load):
+    jsonschema = pytest.importorskip("jsonschema")
+    tables = sie.Scene(profile=profile, **of, **load).to_dict()
+    jsonschema.Draft7Validator(SCHEMA).validate(tables)
 
 
 @pytest.mark.parametrize("name", example_names())
