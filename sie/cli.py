@@ -44,7 +44,7 @@ from .plan import plan
 from .problem.request import GRID
 from .solution import Solution, solve
 from .stages import LOG
-from .streams import discard_output, logged, print_error, print_text
+from .streams import discard_output, logged, print_error, print_text, terminal_width
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -351,7 +351,10 @@ def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
-    paragraphs = [summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
+    paragraphs = [
+        summary(solution, file, terminal_width()),
+        "\n".join(f"wrote {path}" for path in written),
+    ]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
 
