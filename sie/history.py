@@ -57,6 +57,7 @@ from .problem.load_path import Path
 from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
+from .progress_bar import counted
 from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
@@ -364,7 +365,7 @@ class History(Sequence[Solution]):
         """
         turned = "tilt" if self.path.tilt else "moment"
         rows = []
-        for state, point in zip(self.turning_points, self, strict=True):
+        for state, point in counted("turning points", zip(self.turning_points, self), len(self)):
             P, Q, sigma, turn = state.loads
             row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
             if self.path.tilt or self.path.moment:

@@ -28,7 +28,7 @@ import numpy as np
 from . import arguments
 from .errors import ContactError
 from .problem.scene import Scene
-from .progress_bar import Progress
+from .progress_bar import Bar, bar
 from .solution import Solution, solve
 from .sweep_result import Answer, labelled
 from .workers import outcomes
@@ -119,8 +119,8 @@ def sweep(
     chunk : int, optional
         Points in a chunk.
     progress : bool, optional
-        Whether a bar is drawn on standard error, if that is a terminal and the work takes more than
-        a second.
+        Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
+        `cli`) and the work takes more than a second.
 
     Returns
     -------
@@ -148,7 +148,7 @@ def sweep(
     points = list(_points(axes))
     size = _chunk_size(chunk, len(points), executor)
     chunks = [points[i : i + size] for i in range(0, len(points), size)]
-    run = _Run(Work(scene, wanted, tol), chunks, Progress(len(points), progress))
+    run = _Run(Work(scene, wanted, tol), chunks, bar("sweep", len(points), progress))
     try:
         if executor is None:
             run.here()
@@ -157,7 +157,7 @@ def sweep(
     except KeyboardInterrupt:
         raise Interrupted(labelled(axes, wanted, run.answers())) from None
     finally:
-        run.bar.clear()
+        run.bar.close()
     return labelled(axes, wanted, run.answers())
 
 
@@ -251,7 +251,7 @@ class _Run:
 
     work: Work
     chunks: list[list[Point]]
-    bar: Progress
+    bar: Bar
     found: dict[int, list[Answer]] = field(default_factory=dict)
 
     def here(self) -> None:
@@ -259,7 +259,7 @@ class _Run:
         for k, chunk in enumerate(self.chunks):
             self.found[k] = []
             last = _answer_into(self.found[k], self.work, chunk, last)
-            self.bar.advance(len(chunk))
+            self.bar.update(len(chunk))
 
     def through(self, executor: Executor) -> None:
         left: dict[int, Future[list[Answer]]] = {}
@@ -268,7 +268,7 @@ class _Run:
             with closing(outcomes(task, chunks, executor, left)) as done:
                 for k, future in done:
                     self._keep(k, future)
-                    self.bar.advance(len(self.chunks[k]))
+                    self.bar.update(len(self.chunks[k]))
         finally:
             for k, future in left.items():
                 self._keep(k, future)

@@ -54,6 +54,7 @@ from sie import __version__
 from sie.history import History, PathSolution
 from sie.problem.request import POINTS
 from sie.problem.scene import Scene
+from sie.progress_bar import counted
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
@@ -78,7 +79,9 @@ def history_text(history: History, file: SceneFile, points: int = POINTS) -> str
     """The tractions, the gap and the slip at every turning point of a load path, as CSV."""
     tables = []
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
-    for k, (state, solution) in enumerate(zip(history.turning_points, history, strict=True)):
+    points_of_path = zip(history.turning_points, history, strict=True)
+    counted_points = counted("turning points", points_of_path, len(history))
+    for k, (state, solution) in enumerate(counted_points):
         if state.loads.P == 0.0:
             continue
         columns = _columns(solution, points)

@@ -9,6 +9,7 @@ from itertools import chain, permutations
 import pytest
 
 import sie
+from sie import progress_bar
 from sie.cli import main
 from sie.command_parser import COMMANDS
 from sie.io import scene_file
@@ -130,6 +131,16 @@ def test_a_program_gets_the_stages_by_python_s_logging(caplog):
 def test_the_library_says_nothing_by_itself(capfd):
     sie.solve(scene_file.read("scene.toml").scene).check()
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("options", [["--history", "-"], ["--want", "shear"]])
+def test_a_long_path_shows_a_bar_on_a_terminal(options, folder, monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    (folder / "cycle.toml").write_text(scene_file.example("fretting-cycle"))
+    monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress_bar.sys.stderr, "isatty", lambda: True)
+    assert main(["solve", "cycle.toml", *options]) == 0
+    assert "turning points:" in capsys.readouterr().err
 
 
 # -- completion -----------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ loses nothing.
 import builtins
 import os
 import sys
+import threading
 from concurrent.futures import (
     BrokenExecutor,
     Executor,
@@ -430,14 +431,17 @@ def test_a_sweep_counts_the_patches_and_measures_their_length():
 
 
 def test_a_bar_is_shown_for_long_work_on_a_terminal_only(monkeypatch, capsys):
+    before = threading.active_count()
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(progress_bar, "PATIENCE", 0.0)
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    pytest.importorskip("tqdm")
     sie.sweep(SCENE, over={"normal_load": LOADS})
     assert "/3" in capsys.readouterr().err
+    assert threading.active_count() == before
     sie.sweep(SCENE, over={"normal_load": LOADS}, progress=False)
     assert capsys.readouterr().err == ""
 
