@@ -34,6 +34,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from . import higher_layers
 from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.inequalities import slope_rises
@@ -353,6 +354,30 @@ class History(Sequence[Solution]):
             for point in self.turning_points
         )
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
+
+    def plot(self, ax: Any = None, units: Any = None) -> Any:
+        """The loop of Q over the shift that slip allows, on axes of Matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own, which a notebook shows, if not given.
+        units : mapping of str to str, optional
+            Labels, as of `Solution.plot`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+
+        Raises
+        ------
+        ValueError
+            If the path has no loop, or for other axes or units.
+        ImportError
+            If Matplotlib is not installed.
+        """
+        return higher_layers.module("plots.one_axes").of_history(self, ax, units)
 
     def rows(self) -> list[dict[str, Any]]:
         """The points of the path for files.

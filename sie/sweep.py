@@ -31,6 +31,7 @@ from .problem.scene import Scene
 from .progress_bar import Bar, bar
 from .solution import Solution, solve
 from .sweep_result import Answer, labelled
+from .unit_labels import labels
 from .workers import outcomes
 
 Point = dict[str, Any]
@@ -97,6 +98,7 @@ def sweep(
     tol: float = 1e-13,
     chunk: int | None = None,
     progress: bool = True,
+    units: Mapping[str, str] | None = None,
 ) -> Any:
     """The wanted quantities of every scene of a grid of parameters.
 
@@ -121,12 +123,15 @@ def sweep(
     progress : bool, optional
         Whether a bar is drawn, on a terminal or in a notebook, if tqdm is installed (the extra
         `cli`) and the work takes more than a second.
+    units : mapping of str to str, optional
+        Labels of "length", "force" and "stress" for the attributes of the result; mm, N/mm and MPa
+        if they are not given. Nothing is converted.
 
     Returns
     -------
     xarray.Dataset or dict of ndarray
-        A Dataset where xarray is installed. Beside the values there is "reason", which says why a
-        point has none.
+        A Dataset where xarray is installed, with `long_name` and `units` of what the package names.
+        Beside the values there is "reason", which says why a point has none.
 
     Raises
     ------
@@ -143,7 +148,7 @@ def sweep(
     >>> [round(float(b), 6) for b in found["half_width"]]
     [0.56419, 1.128379]
     """
-    axes = _axes(scene, over)
+    axes, named = _axes(scene, over), labels(units)
     wanted = _wanted(want)
     points = list(_points(axes))
     size = _chunk_size(chunk, len(points), executor)
@@ -155,10 +160,10 @@ def sweep(
         else:
             run.through(executor)
     except KeyboardInterrupt:
-        raise Interrupted(labelled(axes, wanted, run.answers())) from None
+        raise Interrupted(labelled(axes, wanted, run.answers(), named)) from None
     finally:
         run.bar.close()
-    return labelled(axes, wanted, run.answers())
+    return labelled(axes, wanted, run.answers(), named)
 
 
 # -- the grid --------------------------------------------------------------------------------------

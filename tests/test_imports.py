@@ -34,6 +34,7 @@ LAYERS = (
         "workers",
         "higher_layers",
         "progress_bar",
+        "unit_labels",
         "sweep_result",
     ),
     ("numerics",),

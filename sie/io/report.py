@@ -108,16 +108,20 @@ def _patches(solution: Solution, units: Units) -> tuple[tuple[str, str], ...]:
 
 def pressure_summary(solution: Solution, units: Units, width: int = WIDE) -> str:
     """The peak pressure, the mean pressure, and the pressure as a picture in text."""
+    return f"{peak_summary(solution, units)}\n\n{text_picture(solution, units, width)}"
+
+
+def peak_summary(solution: Solution, units: Units) -> str:
+    """The peak pressure and the mean pressure."""
     largest, where = peak(solution)
     places = [_number(x, solution.half_width, SAME_PLACE) for x in where[:2]]
     places += [f"{len(where) - 2} more"] if len(where) > 2 else []
     value = f"{_number(largest)} {units.stress}" if math.isfinite(largest) else "infinite"
     mean = solution.normal_load / solution.contact_length
-    rows = named_rows(
+    return named_rows(
         ("peak pressure", f"{value} at x = {' and '.join(places)}"),
         ("mean pressure", f"{_number(mean)} {units.stress}"),
     )
-    return f"{rows}\n\n{text_picture(solution, units, width)}"
 
 
 def gap_summary(solution: Solution, units: Units) -> str:

@@ -475,6 +475,37 @@ def test_a_value_beyond_all_floats_costs_its_own_point_only():
     assert np.isfinite(found["half_width"]).tolist() == [True, False]
 
 
+def test_with_xarray_every_quantity_and_parameter_of_the_package_has_its_name_and_unit():
+    pytest.importorskip("xarray")
+    over = {"normal_load": [0.1, 0.2], "profile.radius": [1.0], "friction": [0.1]}
+    units = {"length": "m", "force": "N/m", "stress": "Pa"}
+    scene = replace(SCENE, profile=sie.Parabola(1.0), poisson=0.3)
+    found = sie.sweep(scene, over=over, want=list(sie.QUANTITIES), units=units)
+    for name, variable in {**found.data_vars, **found.coords}.items():
+        assert name == "reason" or set(variable.attrs) == {"long_name", "units"}, name
+    assert found["normal_load"].attrs["units"] == "N/m"
+    assert found["moment"].attrs["units"] == "N/m m" and found["error"].attrs["units"] == "1"
+    assert found["profile.radius"].attrs == {"long_name": "radius", "units": "m"}
+
+
+def test_a_quantity_of_the_user_has_no_name_or_unit_that_it_was_not_given():
+    pytest.importorskip("xarray")
+    want = {"tilt": own_quantity, "b": "half_width"}
+    found = sie.sweep(SCENE, over={"normal_load": [0.1]}, want=want)
+    assert found["tilt"].attrs == {}
+    assert found["b"].attrs == {"long_name": "half-width of the contact", "units": "mm"}
+
+
+def own_quantity(solution):
+    return 2.0 * solution.half_width
+
+
+@pytest.mark.parametrize("units", ["mm", {"lenght": "m"}, {"length": 1.0}])
+def test_units_that_are_no_labels_are_refused_before_any_work(units):
+    with pytest.raises(ValueError, match="are no labels of units"):
+        sie.sweep(SCENE, over={"normal_load": [0.1]}, units=units)
+
+
 def test_with_xarray_the_result_is_labelled():
     xarray = pytest.importorskip("xarray")
     found = sie.sweep(SCENE, over={"normal_load": LOADS, "tilt": TILTS}, want="half_width")
