@@ -61,7 +61,10 @@ def scene_of(tables: Mapping[str, Any]) -> Scene:
     """The scene of tables. ValueError for none, or for a path of loads."""
     if not isinstance(tables, Mapping):
         raise ValueError(f"{tables!r} are no tables: give a dict, like that of Scene.to_dict()")
-    file = from_tables(_with_infinities(tables))
+    try:
+        file = from_tables(_with_infinities(tables))
+    except RecursionError:
+        raise ValueError("the tables are nested too deeply for those of a scene") from None
     if file.path:
         raise ValueError(
             "[load] has a path, which is more than one scene: give normal_load, tangential_load "
@@ -71,12 +74,17 @@ def scene_of(tables: Mapping[str, Any]) -> Scene:
 
 
 def _with_infinities(value: Any) -> Any:
-    """The same with the texts that stand for infinity in JSON as numbers, and lists for tuples."""
+    """The same as TOML has it: numbers for JSON's texts of infinity, and lists for arrays."""
     if isinstance(value, Mapping):
+        strange = [key for key in value if not isinstance(key, str)]
+        if strange:
+            raise ValueError(f"the key {strange[0]!r} is not text: give the names of a scene file")
         return {key: _with_infinities(v) for key, v in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
     if isinstance(value, (list, tuple)):
         return [_with_infinities(v) for v in value]
-    return float(value) if value in INFINITIES else value
+    return float(value) if isinstance(value, str) and value in INFINITIES else value
 
 
 def tables_of(scene: Scene) -> Tables:

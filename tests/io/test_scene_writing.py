@@ -126,11 +126,26 @@ def test_a_profile_that_no_scene_file_can_name_is_refused(profile):
         scene.to_dict()
 
 
+def test_arrays_stand_for_lists_in_a_dict():
+    x = np.linspace(-1.0, 1.0, 9)
+    trace = {"kind": "sampled", "x": x, "h": tuple(x**2)}
+    loads = {"normal_load": np.float64(0.25)}
+    scene = sie.Scene.from_dict({"profile": trace, "pair": {"modulus": 1.0}, "load": loads})
+    assert scene == sie.Scene(profile=sie.Sampled(x, x**2), modulus=1.0, normal_load=0.25)
+
+
+NESTED = {}
+for _ in range(5000):
+    NESTED = {"profile": NESTED}
+
+
 @pytest.mark.parametrize(
     ("tables", "said"),
     [
         ({}, "there is no"),
         (3, "are no tables"),
+        ({"profile": {3: 1}, "load": {}}, "the key 3 is not text"),
+        (NESTED, "nested too deeply"),
         ({"profile": {"kind": "parabole", "radius": 1.0}, "load": {}}, "did you mean"),
         (
             {
