@@ -14,7 +14,7 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, get_args
 
 from sie.problem.material import Elastic, Plane
@@ -140,7 +140,7 @@ def _of_the_whole() -> Json:
 
 def _kinds(more: Json) -> list[Json]:
     """The tables of all kinds of profile, each with more keys."""
-    moved = more | _values(MODIFIERS, {})
+    moved = more | _values(MODIFIERS, _summaries(Profile, MODIFIERS))
     tables = [_kind(name, make, entries_of(make), moved) for name, make in KINDS.items()]
     of_file = _kind("sampled", Sampled.read, entries_of_file(), moved)
     indenters = {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/term"}}
@@ -150,7 +150,9 @@ def _kinds(more: Json) -> list[Json]:
 
 def _kind(name: str, make: Callable[..., Profile], entries: Entries, more: Json) -> Json:
     keys = {"kind": {"const": name}, **_values(entries.readers, _descriptions(make)), **more}
-    treatments = _values(TREATMENTS, {}) if KINDS[name] is Sampled else {}
+    treatments = (
+        _values(TREATMENTS, _summaries(Sampled, TREATMENTS)) if KINDS[name] is Sampled else {}
+    )
     return _object(keys | treatments, ("kind", *entries.required))
 
 
@@ -186,3 +188,8 @@ def _descriptions(described: Any) -> dict[str, str]:
     told = section[1] if section else ""
     found = re.findall(r"^(\w.*?) : .*\n((?:    .*\n?)+)", told, re.MULTILINE)
     return {name: " ".join(words.split()) for names, words in found for name in names.split(", ")}
+
+
+def _summaries(owner: type, names: Iterable[str]) -> dict[str, str]:
+    """The first line of the docstring of each method."""
+    return {name: (inspect.getdoc(getattr(owner, name)) or "").split("\n")[0] for name in names}
