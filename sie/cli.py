@@ -44,7 +44,14 @@ from .plan import plan
 from .problem.request import GRID
 from .solution import Solution, solve
 from .stages import LOG
-from .streams import discard_output, logged, print_error, print_text, terminal_width
+from .streams import (
+    broken_to_terminal,
+    discard_output,
+    logged,
+    print_error,
+    print_text,
+    terminal_width,
+)
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -167,7 +174,7 @@ def _compared(
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    print_text(f"{plan(file.scene, file.want)}\n")
+    print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
     return CERTIFIED
 
 

@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import sys
+import textwrap
 from collections.abc import Iterator
 from typing import TextIO
 
@@ -59,8 +60,24 @@ def _plain(line: str) -> str:
 
 def terminal_width() -> int:
     """The columns of the terminal; those of a report where output goes elsewhere."""
-    seen = sys.stdout is not None and sys.stdout.isatty()
-    return shutil.get_terminal_size((WIDE, 24)).columns if seen else WIDE
+    return shutil.get_terminal_size((WIDE, 24)).columns if _on_terminal() else WIDE
+
+
+def broken_to_terminal(table: str) -> str:
+    """The table with its last column broken to the terminal; unbroken where output goes elsewhere.
+
+    Its columns are at least two blanks apart.
+    """
+    if not _on_terminal():
+        return table
+    return "\n".join(
+        textwrap.fill(line, terminal_width(), subsequent_indent=" " * (line.rfind("  ") + 2))
+        for line in table.splitlines()
+    )
+
+
+def _on_terminal() -> bool:
+    return sys.stdout is not None and sys.stdout.isatty()
 
 
 def print_error(sentence: str) -> None:

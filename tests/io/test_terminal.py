@@ -65,3 +65,17 @@ def test_the_picture_is_as_wide_as_the_terminal(wide, printed, monkeypatch):
 def test_output_that_goes_to_a_file_is_80_columns_wide(printed, monkeypatch):
     monkeypatch.setenv("COLUMNS", "150")
     assert max(map(len, printed("parabola").splitlines())) == 80
+
+
+@pytest.mark.parametrize("wide", [60, 80, 200])
+def test_a_plan_is_broken_to_the_terminal_only(wide, tmp_path, monkeypatch, capsys):
+    path = tmp_path / "scene.toml"
+    path.write_text(example("row"))
+    main(["plan", str(path)])
+    plan = capsys.readouterr().out
+    monkeypatch.setattr(streams.sys.stdout, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("COLUMNS", str(wide))
+    main(["plan", str(path)])
+    broken = capsys.readouterr().out
+    assert max(map(len, broken.splitlines())) <= wide < 150 or broken == plan
+    assert broken.split() == plan.split()
