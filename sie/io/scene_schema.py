@@ -116,7 +116,7 @@ def _table(name: str) -> Json:
 
 def _body() -> Json:
     table = _object(_values(TABLES["body"], _descriptions(Elastic)))
-    given = [_all_of(("young", "poisson")), _all_of(("rigid",))]
+    given = [_all_of(("young", "poisson")), _all_of(("rigid",), {"rigid": {"const": True}})]
     return {"anyOf": [{"const": "rigid"}, table | {"anyOf": given}]}
 
 

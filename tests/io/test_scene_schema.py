@@ -113,6 +113,7 @@ REFUSED = {
     "an indenter and a modulus": 'indenter = "rigid"\n' + PAIR + WEDGE + LOAD,
     "a pair without modulus": "[pair]\npoisson = 0.3\n" + WEDGE + LOAD,
     "half a body": "[body]\nyoung = 1.0\n" + WEDGE + LOAD,
+    "a body that is not rigid": "[body]\nrigid = false\n" + WEDGE + LOAD,
     "another body": 'indenter = "rigit"\n' + BODY + WEDGE + LOAD,
     "a load and a width": PAIR + WEDGE + LOAD + "half_width = 1.0\n",
     "a load and a path": PAIR + WEDGE + LOAD + "path = [[1.0, 0.0]]\n",
