@@ -30,6 +30,9 @@ Units are free: any consistent set works, and nothing depends on scale.
 131.935
 """
 
+from typing import Any
+
+from . import higher_layers
 from . import interrupt as interrupt
 from .cauchy.equation import CauchyEquation
 from .certificate.trace_noise import TraceReport
@@ -101,3 +104,10 @@ __all__ = [
     "superposed",
     "sweep",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`sie.plots`, whose import needs Matplotlib, when it is asked for."""
+    if name == "plots":
+        return higher_layers.module("plots")
+    raise AttributeError(f"module 'sie' has no attribute {name!r}")

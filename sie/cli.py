@@ -2,21 +2,18 @@
 
     sie solve scene.toml            solve a scene, and print, draw or write the answer
         [--want WHAT ...] [--plot FILE] [--csv FILE] [--history FILE] [--json [FILE]]
-        [--field FILE] [--grid NXxNY] [--points N] [--tol T]
+        [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet] [--log LEVEL]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
         [--tol T] [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
         [--want WHAT ...]
     sie example [NAME]              a commented scene file; without NAME, the list of them
+    sie schema                      the JSON Schema of scene files, for editors
+    sie completion bash             a script by which the shell completes commands (needs shtab)
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --history, --json). No file that a scene or a command reads is written to. Exit codes:
-
-    0      solved
-    1      solved, but the certificate is not met, or the mesh result differs by more than --tol
-    2      refused, with one sentence on standard error and no file touched
-    130    interrupted
-    141    nobody reads the output any more; the files are written
+(--csv, --history, --json). No file that a scene or a command reads is written to. The exit codes
+are those of `command_parser.EXIT_CODES`.
 """
 
 from __future__ import annotations
@@ -46,7 +43,15 @@ from .messages import with_short_words
 from .plan import plan
 from .problem.request import GRID
 from .solution import Solution, solve
-from .streams import discard_output, print_error, print_text
+from .stages import LOG
+from .streams import (
+    broken_to_terminal,
+    discard_output,
+    logged,
+    print_error,
+    print_text,
+    terminal_width,
+)
 
 CERTIFIED, NOT_CERTIFIED, REFUSED, UNREAD = 0, 1, 2, 141
 
@@ -76,7 +81,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(argv: Sequence[str]) -> int:
     try:
         arguments = parse(argv)
-        status = COMMANDS[arguments.command](arguments)
+        with logged(getattr(arguments, "log", None)):
+            status = COMMANDS[arguments.command](arguments)
     except SystemExit as done:  # --help and --version
         status = int(done.code or 0)
     if sys.stdout is not None:
@@ -109,7 +115,7 @@ def _solve(arguments: argparse.Namespace) -> int:
     shown = contents.pop(pathlib.Path(STANDARD), None)
     text = shown.decode() if shown is not None else _report(solution, file, contents)
     certified = "check" not in file.want or solution.check().ok
-    _give(contents, text)
+    _give(contents, "" if arguments.quiet and shown is None else text)
     if not certified:
         print_error(
             f"the certificate is not met to {solution.tol:.0e}: "
@@ -149,7 +155,8 @@ def _compare(arguments: argparse.Namespace) -> int:
     }
     shown = contents.pop(pathlib.Path(STANDARD), None)
     paragraphs = [str(comparison), *(f"wrote {path}" for path in contents)]
-    _give(contents, "\n\n".join(paragraphs) + "\n" if shown is None else shown.decode())
+    report = "" if arguments.quiet else "\n\n".join(paragraphs) + "\n"
+    _give(contents, report if shown is None else shown.decode())
     return CERTIFIED if comparison.ok else NOT_CERTIFIED
 
 
@@ -167,7 +174,7 @@ def _compared(
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
-    print_text(f"{plan(file.scene, file.want)}\n")
+    print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
     return CERTIFIED
 
 
@@ -182,8 +189,29 @@ def _example(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
+def _schema(_arguments: argparse.Namespace) -> int:
+    from .io.scene_schema import schema_text  # noqa: PLC0415
+
+    print_text(schema_text())
+    return CERTIFIED
+
+
+def _completion(arguments: argparse.Namespace) -> int:
+    from .shell_completion import script  # noqa: PLC0415
+
+    print_text(script(arguments.shell))
+    return CERTIFIED
+
+
 OUTPUTS = ("plot", "csv", "history", "json", "field")
-COMMANDS = {"solve": _solve, "compare": _compare, "plan": _plan, "example": _example}
+COMMANDS = {
+    "solve": _solve,
+    "compare": _compare,
+    "plan": _plan,
+    "example": _example,
+    "schema": _schema,
+    "completion": _completion,
+}
 
 
 # -- checks of the requests ----------------------------------------------------------------------
@@ -211,6 +239,7 @@ def _scene(arguments: argparse.Namespace) -> SceneFile:
         if standard
         else scene_file.read(arguments.scene)
     )
+    LOG.info("read %s: %r", arguments.scene, file.scene)
     return replace(file, want=want or wanted(file))
 
 
@@ -329,7 +358,10 @@ def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
 
 
 def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
-    paragraphs = [summary(solution, file), "\n".join(f"wrote {path}" for path in written)]
+    paragraphs = [
+        summary(solution, file, terminal_width()),
+        "\n".join(f"wrote {path}" for path in written),
+    ]
     return "\n\n".join(p for p in paragraphs if p) + "\n"
 
 
@@ -337,6 +369,8 @@ def _give(contents: dict[pathlib.Path, bytes], text: str) -> None:
     """Write the files and print the text: both, or neither."""
     with files.writing(contents):
         print_text(text)
+    for path, data in contents.items():
+        LOG.info("wrote %s: %d bytes", path, len(data))
 
 
 def _sentence(problem: Exception) -> str:

@@ -17,11 +17,23 @@ COMMANDS = {
     "compare": "a mesh result against the exact one: error norms, best shift, a picture",
     "plan": "what would be computed, what would be skipped, and why",
     "example": "print a commented scene file to start from",
+    "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
+    "completion": "print a script by which a shell completes commands, options and files",
 }
 OPTIONS = (
     "--want", "--plot", "--csv", "--history", "--json", "--field", "--grid", "--points", "--tol",
-    "--help", "--version",
+    "--quiet", "--log", "--help", "--version",
 )  # fmt: skip
+# The files that a command reads, in the order of the command line.
+FILES = {"solve": ("scene",), "plan": ("scene",), "compare": ("scene", "mesh")}
+LEVELS = ("info", "debug")
+EXIT_CODES = """exit codes:
+  0    solved
+  1    solved, but the certificate is not met, or the mesh result differs by
+       more than --tol
+  2    refused, with one sentence on standard error and no file written
+  130  interrupted
+  141  nobody reads the output any more; the files are written"""
 STANDARD = "-"
 MOST_POINTS = 10**6
 TOL, MESH_TOL = 1e-13, 1e-2
@@ -45,49 +57,71 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
             f"did you mean {near}?" if near else f"say what to do with it, like sie solve {argv[0]}"
         )
         raise ValueError(f'there is no command "{argv[0]}": {remedy}')
-    arguments, unknown = _parser().parse_known_args(argv)
+    arguments, unknown = parser().parse_known_args(argv)
+    _order_files(arguments, argv, unknown)
     if unknown:
         near = nearest(unknown[0], OPTIONS)
         remedy = f"did you mean {near}?" if near else f"`sie {arguments.command} --help` explains"
         raise ValueError(f'"{unknown[0]}" is not understood: {remedy}')
-    words = getattr(arguments, "want", None) or []
-    if len(words) > 1 and arguments.scene is None and _names_a_scene(words[-1]):
-        arguments.scene = words.pop()  # --want takes all words that follow it, a scene too
     return arguments
 
 
-def _names_a_scene(word: str) -> bool:
-    return word not in WANTS and (
-        word == STANDARD or word.lower().endswith(".toml") or os.path.isfile(word)
-    )
+def _order_files(arguments: argparse.Namespace, argv: Sequence[str], unknown: list[str]) -> None:
+    """Give the command its files, those too that --want or --json took or that stand apart."""
+    names = FILES.get(arguments.command, ())
+    given = [getattr(arguments, name) for name in names]
+    files = [file for file in given if file is not None]
+    while unknown and len(files) < len(names) and not unknown[0].startswith("-"):
+        files.append(unknown.pop(0))
+    words, output = getattr(arguments, "want", None) or [], getattr(arguments, "json", None) or ""
+    if len(files) < len(names) and len(words) > 1 and _names_a_file(words[-1]):
+        files.append(words.pop())
+    if len(files) < len(names) and _names_a_file(output) and not output.endswith(".json"):
+        files.append(output)
+        arguments.json = STANDARD
+    for name, file in zip(names, sorted(files, key=list(argv).index), strict=False):
+        setattr(arguments, name, file)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="sie",
-        description="Plane elastic contact: edges, pressure, gap and stress, "
-        "with a certificate of their accuracy.",
-        allow_abbrev=False,
-    )
+def _names_a_file(word: str) -> bool:
+    toml = word == STANDARD or word.lower().endswith(".toml")
+    return word not in WANTS and (toml or os.path.isfile(word))
+
+
+def parser() -> argparse.ArgumentParser:
+    """The parser of all commands."""
+    common: dict[str, Any] = {
+        "allow_abbrev": False,
+        "epilog": EXIT_CODES,
+        "formatter_class": argparse.RawDescriptionHelpFormatter,
+    }
+    about = "Plane elastic contact: edges, pressure, gap and stress, and how exact they are."
+    parser = _Parser(prog="sie", description=about, **common)
     parser.add_argument("--version", action="version", version=f"sie {__version__}")
     metavar = "{" + ",".join(COMMANDS) + "}"
     subparsers = parser.add_subparsers(dest="command", required=True, metavar=metavar)
     commands = {
-        name: subparsers.add_parser(name, help=about, allow_abbrev=False)
+        name: subparsers.add_parser(name, help=about, description=about, **common)
         for name, about in COMMANDS.items()
     }
-    for name in ("solve", "compare", "plan"):
+    for name in FILES:
         commands[name].add_argument(
             "scene", nargs="?", metavar="scene.toml", help="the scene file; - is standard input"
         )
+        about = "say on standard error what is read, computed and written: info or debug"
+        commands[name].add_argument("--log", metavar="LEVEL", choices=LEVELS, help=about)
     for name in ("solve", "plan"):
         about = f"what to answer: {', '.join(WANTS)} ({', '.join(UNASKED)})"
         commands[name].add_argument("--want", nargs="+", metavar="WHAT", help=about)
     _add_outputs_of_solve(commands["solve"])
     _add_mesh_and_outputs(commands["compare"])
+    for name in ("solve", "compare"):
+        about = "print no report, only what goes to standard output by -"
+        commands[name].add_argument("--quiet", action="store_true", help=about)
     commands["example"].add_argument(
         "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
     )
+    commands["completion"].add_argument("shell", metavar="SHELL", help="bash, zsh or tcsh")
     return parser
 
 

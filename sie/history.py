@@ -34,6 +34,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from . import higher_layers
 from .certificate.result import ShearCertificate
 from .certificate.shear_check import marched_certificate
 from .contact.inequalities import slope_rises
@@ -57,6 +58,7 @@ from .problem.load_path import Path
 from .problem.path_scene import unsheared
 from .problem.request import ECONOMY
 from .problem.scene import Scene
+from .progress_bar import counted
 from .solution import Solution, solve
 from .traction.of_slope import SlopeDensity
 
@@ -353,6 +355,30 @@ class History(Sequence[Solution]):
         )
         return Plan(tuple(Step(f"step {k}", True, reason) for k, reason in enumerate(how)))
 
+    def plot(self, ax: Any = None, units: Any = None) -> Any:
+        """The loop of Q over the shift that slip allows, on axes of Matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own, which a notebook shows, if not given.
+        units : mapping of str to str, optional
+            Labels, as of `Solution.plot`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+
+        Raises
+        ------
+        ValueError
+            If the path has no loop, or for other axes or units.
+        ImportError
+            If Matplotlib is not installed.
+        """
+        return higher_layers.module("plots.one_axes").of_history(self, ax, units)
+
     def rows(self) -> list[dict[str, Any]]:
         """The points of the path for files.
 
@@ -364,7 +390,7 @@ class History(Sequence[Solution]):
         """
         turned = "tilt" if self.path.tilt else "moment"
         rows = []
-        for state, point in zip(self.turning_points, self, strict=True):
+        for state, point in counted("turning points", zip(self.turning_points, self), len(self)):
             P, Q, sigma, turn = state.loads
             row: dict[str, Any] = {"normal_load": P, "tangential_load": Q, "bulk_stress": sigma}
             if self.path.tilt or self.path.moment:

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import arguments
+from . import arguments, higher_layers
 from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
@@ -54,6 +54,7 @@ from .problem.request import ECONOMY, sheared
 from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
+from .stages import stage as cached_property  # its first reading is logged
 from .stress.half_plane import Stress, Tractions
 from .stress.yield_limit import Criterion, Peak, YieldPoint, elastic_limit, peak_tension
 from .traction.base import ZERO, Density, on_line
@@ -838,6 +839,41 @@ class Solution:
         if self.scene.bonded or self.scene.coupled or several is not None:
             return ()
         return trace_reports(self.scene, self.as_one_patch.edges, self.slope_density)
+
+    def plot(self, ax: Any = None, what: str = "pressure", units: Any = None) -> Any:
+        """One panel of the picture of the contact, on axes of Matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; axes of their own, which a notebook shows, if not given.
+        what : {"pressure", "gap", "shear", "slip", "stress"}, optional
+            The quantity; "stress" draws contours of √J2 in the body.
+        units : mapping of str to str, optional
+            Labels of "length", "force" and "stress"; mm, N/mm and MPa if not given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes that were drawn on.
+
+        Raises
+        ------
+        ValueError
+            For another name, axes or units, and for the shear of a contact without one.
+        ImportError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(1.0), modulus=1.0, normal_load=1.0)
+        >>> axes = sie.solve(scene).plot(what="gap")    # doctest: +SKIP
+        """
+        return higher_layers.module("plots.one_axes").of_solution(self, ax, what, units)
+
+    def _repr_html_(self) -> str:
+        return higher_layers.module("io.html_report").html(self)
 
     def with_(self, **changes: Any) -> Solution:
         """The solution of a changed scene, which keeps the stages that cannot have changed.

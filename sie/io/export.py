@@ -11,7 +11,8 @@ A cell of slip that is not known is empty.
 JSON always holds
 
     sie, title, units {length, force, stress, moment}
-    scene (the code that rebuilds it), modulus E*, dundurs β
+    scene {profile, body, load, ..}, the tables of a scene file, which sie.Scene.from_dict reads (of
+    a load path those of its last point), modulus E*, dundurs β
     edges [x1, x2], sharp [.., ..], half_width, centre, normal_load, moment, tilt, notes [text, ..]
     patches [[x1, x2], ..], patch_loads [number, ..], contact_length, gap_volume, where there are
     several patches, or of one period of a contact that repeats; and there the period
@@ -53,11 +54,13 @@ from sie import __version__
 from sie.history import History, PathSolution
 from sie.problem.request import POINTS
 from sie.problem.scene import Scene
+from sie.progress_bar import counted
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
+from .scene_writing import tables_of
 
 Array = NDArray[np.float64]
 
@@ -76,7 +79,9 @@ def history_text(history: History, file: SceneFile, points: int = POINTS) -> str
     """The tractions, the gap and the slip at every turning point of a load path, as CSV."""
     tables = []
     turned = [name for name in ("tilt", "moment") if getattr(history.path, name)]
-    for k, (state, solution) in enumerate(zip(history.turning_points, history, strict=True)):
+    points_of_path = zip(history.turning_points, history, strict=True)
+    counted_points = counted("turning points", points_of_path, len(history))
+    for k, (state, solution) in enumerate(counted_points):
         if state.loads.P == 0.0:
             continue
         columns = _columns(solution, points)
@@ -142,7 +147,7 @@ def as_dict(solution: Solution, file: SceneFile, points: int = POINTS) -> dict[s
             "stress": units.stress,
             "moment": units.moment,
         },
-        "scene": repr(scene),
+        "scene": tables_of(scene),
         "modulus": scene.Estar,
         "dundurs": scene.beta,
         "edges": list(solution.edges),

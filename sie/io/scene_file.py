@@ -185,7 +185,7 @@ def parse(text: str | bytes, name: str = "scene", folder: pathlib.Path = HERE) -
             f"{name} is nested too deeply for a scene file: `sie example` prints how one looks"
         ) from None
     try:
-        return _scene_file(table, folder)
+        return from_tables(table, folder)
     except ValueError as problem:
         raise SceneFileError(f"{name}: {with_short_words(problem)}") from None
 
@@ -232,7 +232,11 @@ def example_names() -> tuple[str, ...]:
 # -- from tables to a scene ----------------------------------------------------------------------
 
 
-def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
+def from_tables(top: dict[str, Any], folder: pathlib.Path = HERE) -> SceneFile:
+    """The scene in tables that TOML or JSON was read into. Raises ValueError.
+
+    Files that they name are read from `folder`.
+    """
     for key in top:
         if key not in TOP:
             raise ValueError(f'there is no key or table "{key}": {remedy(key, TOP, "")}')
