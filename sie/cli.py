@@ -7,6 +7,8 @@
         [--tol T] [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
         [--want WHAT ...]
+    sie live [scene.toml]           a page with sliders, served on this machine
+        [--port N] [--no-browser]
     sie example [NAME]              a commented scene file; without NAME, the list of them
     sie schema                      the JSON Schema of scene files, for editors
     sie completion bash             a script by which the shell completes commands (needs shtab)
@@ -25,6 +27,7 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from importlib.util import find_spec
 from itertools import combinations
 from types import ModuleType
 
@@ -178,6 +181,27 @@ def _plan(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
+def _live(arguments: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    file = _scene(arguments) if arguments.scene is not None else None
+    if file is not None and file.load_path:
+        raise ValueError("the scene has a load path, which no slider shows: leave [load] path out")
+    if find_spec("bokeh") is None:
+        raise ValueError('the live page is drawn by Bokeh: pip install "plane-contact[live]"')
+    # They take a second, and only this command needs them.
+    import webbrowser  # noqa: PLC0415
+
+    from .live.server import serve  # noqa: PLC0415
+
+    def announce(address: str) -> None:
+        print_text(f"{address}  (Ctrl-C ends it)\n")
+        if not arguments.no_browser:
+            webbrowser.open(address)
+
+    serve(file.scene if file is not None else None, arguments.port, announce)
+    return CERTIFIED
+
+
 def _example(arguments: argparse.Namespace) -> int:
     if arguments.name is not None:
         print_text(scene_file.example(arguments.name))
@@ -208,6 +232,7 @@ COMMANDS = {
     "solve": _solve,
     "compare": _compare,
     "plan": _plan,
+    "live": _live,
     "example": _example,
     "schema": _schema,
     "completion": _completion,

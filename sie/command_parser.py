@@ -16,16 +16,22 @@ COMMANDS = {
     "solve": "solve a scene and print, draw or write the answer",
     "compare": "a mesh result against the exact one: error norms, best shift, a picture",
     "plan": "what would be computed, what would be skipped, and why",
+    "live": "serve a page with sliders on this machine: the contact of a scene, or of an example",
     "example": "print a commented scene file to start from",
     "schema": "print the JSON Schema of scene files, by which an editor completes their keys",
     "completion": "print a script by which a shell completes commands, options and files",
 }
 OPTIONS = (
     "--want", "--plot", "--csv", "--history", "--json", "--field", "--grid", "--points", "--tol",
-    "--quiet", "--log", "--help", "--version",
+    "--port", "--no-browser", "--quiet", "--log", "--help", "--version",
 )  # fmt: skip
 # The files that a command reads, in the order of the command line.
-FILES = {"solve": ("scene",), "plan": ("scene",), "compare": ("scene", "mesh")}
+FILES = {
+    "solve": ("scene",),
+    "plan": ("scene",),
+    "compare": ("scene", "mesh"),
+    "live": ("scene",),
+}
 LEVELS = ("info", "debug")
 EXIT_CODES = """exit codes:
   0    solved
@@ -35,7 +41,7 @@ EXIT_CODES = """exit codes:
   130  interrupted
   141  nobody reads the output any more; the files are written"""
 STANDARD = "-"
-MOST_POINTS = 10**6
+MOST_POINTS, MOST_PORTS = 10**6, 65535
 TOL, MESH_TOL = 1e-13, 1e-2
 
 
@@ -118,6 +124,10 @@ def parser() -> argparse.ArgumentParser:
     for name in ("solve", "compare"):
         about = "print no report, only what goes to standard output by -"
         commands[name].add_argument("--quiet", action="store_true", help=about)
+    about = "the port of the page (a free one)"
+    commands["live"].add_argument("--port", metavar="N", type=_port, default=0, help=about)
+    about = "print the page's address, and open no browser"
+    commands["live"].add_argument("--no-browser", action="store_true", help=about)
     commands["example"].add_argument(
         "name", nargs="?", metavar="NAME", help="the kind of profile; without it, the list"
     )
@@ -175,3 +185,9 @@ def _points(text: str) -> int:
     if not 2 <= points <= MOST_POINTS:
         raise argparse.ArgumentTypeError(f"{text} is not a whole number from 2 to {MOST_POINTS}")
     return points
+
+
+def _port(text: str) -> int:
+    if not text.isdigit() or int(text) > MOST_PORTS:
+        raise argparse.ArgumentTypeError(f"{text} is not a port from 0 to {MOST_PORTS}")
+    return int(text)

@@ -3,6 +3,9 @@
 import json
 import math
 import shutil
+import signal
+import subprocess
+import sys
 import threading
 import urllib.error
 import urllib.request
@@ -11,6 +14,8 @@ import numpy as np
 import pytest
 
 import sie
+from sie.cli import main
+from sie.io.scene_file import example
 from sie.live.answer import PARTS, Setting, answer
 from sie.live.controls import LIVE, OF_FILE, SAVED, shapes
 
@@ -71,7 +76,28 @@ def server():
 def test_a_query_that_is_no_setting_is_a_bad_request(server):
     with pytest.raises(urllib.error.HTTPError) as refusal:
         urllib.request.urlopen(server.address + "answer?load=heavy")
+    refusal.value.close()
     assert refusal.value.code == 400
+
+
+def test_the_command_serves_the_scene_of_a_file_until_it_is_interrupted(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(example("wedge"), encoding="utf-8")
+    command = [sys.executable, "-u", "-m", "sie", "live", str(scene), "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
+        try:
+            address = running.stdout.readline().split()[0]
+            with urllib.request.urlopen(address + "answer?share=0.5") as reply:
+                assert json.load(reply)["stick"]
+        finally:
+            running.send_signal(signal.SIGINT)
+        assert running.wait() == 130
+
+
+@pytest.mark.parametrize("mistake", [["--port", "70000"], ["--port", "x"], ["no-such.toml"]])
+def test_a_mistake_is_refused_before_anything_is_served(mistake, capsys):
+    assert main(["live", "--no-browser", *mistake]) == 2
+    assert mistake[-1] in capsys.readouterr().err
 
 
 @pytest.fixture(scope="module")
