@@ -7,6 +7,8 @@ tangential displacement of the body against the indenter.
     slip amplitude     δ(x) = (max s - min s)/2 over the cycle
     Ruiz (1984)        κ1 = max|q| δ, friction work, for wear
                        κ2 = max σ_xx max|q| δ, for the start of cracks
+
+Fatigue parameters on critical planes are in `fatigue`.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
 
-from .half_plane import Stress
+from . import fatigue
+from .fatigue import CriticalPlane
+from .half_plane import Stress, Tractions
 
 Array = NDArray[np.float64]
 
@@ -38,6 +42,10 @@ class State(Protocol):
     @property
     def shear(self) -> Any:
         """The shear traction q."""
+
+    @property
+    def tractions(self) -> Tractions:
+        """The tractions, the bulk stress and the body."""
 
 
 @dataclass(frozen=True)
@@ -237,3 +245,120 @@ class Cycle:
         """
         tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
         return np.maximum(tension, 0.0) * self.friction_work(x)
+
+    def swt(self, x: ArrayLike | None = None, y: ArrayLike = 0.0) -> CriticalPlane:
+        """The parameter of Smith, Watson and Topper: max over planes of σ_n,max Δε_n/2.
+
+        Parameters
+        ----------
+        x : array_like of float, optional
+            Positions, length. Without them, at each depth the place where the parameter is largest.
+        y : array_like of float, optional
+            Depths, length.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, stress, and the plane, arrays of the broadcast shape; 0 where no plane is
+            ever in tension.
+
+        Raises
+        ------
+        ValueError
+            If the body is not given by young and poisson.
+        ContactError
+            At a sharp edge on the surface, where the stress is infinite: ask at a depth.
+
+        Notes
+        -----
+        Planes of all orientations are compared. The value is that of the worst one to 1e-6 at
+        least (`sie.stress.critical_plane`), and nearly always to rounding. In plane strain ε_zz is
+        0, so that a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
+
+        References
+        ----------
+        Smith, Watson & Topper, J. Materials 5 (1970) 767-778; Socie & Marquis, Multiaxial Fatigue
+        (2000), ch. 5.
+
+        Examples
+        --------
+        >>> import sie
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), body=sie.Elastic(115e3, 0.32),
+        ...                   normal_load=50.0, friction=0.5)
+        >>> worst = sie.steady_cycle(scene, (50.0, 15.0, 30.0), (50.0, -15.0, -30.0)).cycle.swt()
+        >>> round(float(worst.value), 3), round(float(worst.x), 4), float(worst.y)
+        (0.098, -0.3152, 0.0)
+        """
+        return fatigue.at_points(self.states, fatigue.smith_watson_topper(self.states), x, y)
+
+    def findley(self, x: ArrayLike | None = None, y: ArrayLike = 0.0, *, k: float) -> CriticalPlane:
+        """Findley's parameter: max over planes of τ_a + k σ_n,max.
+
+        Parameters
+        ----------
+        x, y : array_like of float, optional
+            As of `swt`.
+        k : float
+            Weight of the normal stress, about 0.2 to 0.3 for ductile metals.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, stress, and the plane.
+
+        Raises
+        ------
+        ValueError
+            If Poisson's ratio is not given, or k is negative.
+        ContactError
+            As of `swt`.
+
+        Notes
+        -----
+        τ_a is half the longest chord of the path of the shear on a plane: half its range where the
+        normal lies in the x-y plane. The accuracy is that of `swt`. A fully reversed σ_xx = ±S
+        gives S [k + √(1 + k²)]/2.
+
+        References
+        ----------
+        Findley, J. Eng. Ind. 81 (1959) 301-306.
+        """
+        return fatigue.at_points(self.states, fatigue.findley(k), x, y)
+
+    def fatemi_socie(
+        self, x: ArrayLike | None = None, y: ArrayLike = 0.0, *, k: float, yield_stress: float
+    ) -> CriticalPlane:
+        """The parameter of Fatemi and Socie: max over planes of γ_a (1 + k σ_n,max/σ_y).
+
+        Parameters
+        ----------
+        x, y : array_like of float, optional
+            As of `swt`.
+        k : float
+            Weight of the normal stress, about 0.3 to 1.
+        yield_stress : float
+            σ_y, stress.
+
+        Returns
+        -------
+        CriticalPlane
+            The value, a strain, and the plane.
+
+        Raises
+        ------
+        ValueError
+            If the body is not given by young and poisson, k is negative, or σ_y not positive.
+        ContactError
+            As of `swt`.
+
+        Notes
+        -----
+        γ_a = τ_a/μ is the amplitude of the engineering shear strain, τ_a and the accuracy as of
+        `findley`.
+
+        References
+        ----------
+        Fatemi & Socie, Fatigue Fract. Eng. Mater. Struct. 11 (1988) 149-165.
+        """
+        criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
+        return fatigue.at_points(self.states, criterion, x, y)
