@@ -14,6 +14,7 @@ Fatigue parameters on critical planes are in `fatigue`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -22,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sie import arguments
+from sie.errors import ContactError
 
 from . import fatigue
 from .fatigue import CriticalPlane
@@ -150,6 +152,23 @@ class Cycle:
             tensor[..., 0, 0], tensor[..., 1, 1], tensor[..., 2, 2] = s.xx, s.yy, s.zz
             tensor[..., 0, 1] = tensor[..., 1, 0] = s.xy
         return out
+
+    def table(self) -> Any:
+        """The loads, the contact and the stick zone at each turning point, as a table.
+
+        Returns
+        -------
+        pandas.DataFrame or list of dict
+            A row for each state with the columns P, Q, sigma, x1, x2, stick_from, stick_to and,
+            where it is known, energy_lost. A DataFrame where pandas is installed. Of several stick
+            zones the outermost ends are given; in full sliding there are none.
+        """
+        rows = [_row(state) for state in self.states]
+        try:
+            import pandas  # noqa: PLC0415
+        except ImportError:
+            return rows
+        return pandas.DataFrame(rows)
 
     def range(self, x: ArrayLike, y: ArrayLike) -> dict[str, Range]:
         """Lowest and highest stress components at points over the cycle.
@@ -362,3 +381,15 @@ class Cycle:
         """
         criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
         return fatigue.at_points(self.states, criterion, x, y)
+
+
+def _row(state: Any) -> dict[str, float]:
+    """The loads, the contact and the stick zone of a state."""
+    x1, x2 = state.pressure.interval
+    row = {"P": state.normal_load, "Q": state.tangential_load, "sigma": state.tractions.bulk_stress}
+    row |= {"x1": x1, "x2": x2}
+    if state.stick:
+        row |= {"stick_from": state.stick[0][0], "stick_to": state.stick[-1][1]}
+    with suppress(ContactError, AttributeError):  # of a steady state only the cycle's is known
+        row["energy_lost"] = state.energy_lost
+    return row
