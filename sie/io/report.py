@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from sie.problem.request import energy_costs
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
+from .cycle_answer import cycle_of
+from .cycle_report import cycle_summary
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
@@ -19,10 +22,11 @@ SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncer
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
 COLUMNS, ROWS = 60, 8  # of the text picture
+WIDTH, BETWEEN = 80, "  "  # of a table, and what stands between its columns
 
 
-def summary(solution: Solution, file: SceneFile) -> str:
-    """All wanted quantities, section by section."""
+def summary(solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = None) -> str:
+    """All wanted quantities, section by section; `cycle` where it is known already."""
     sections = {
         "edges": edges_summary,
         "pressure": pressure_summary,
@@ -39,6 +43,8 @@ def summary(solution: Solution, file: SceneFile) -> str:
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
+    if "cycle" in names:
+        parts.append(cycle_summary(cycle or cycle_of(solution, file), file))
     # The certificate contains the notes.
     notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
     head = f"{file.title}\n{scene}" if file.title else scene
@@ -175,24 +181,36 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
+    """The turning points, as wide as a terminal at most."""
     rows = solution.history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
-    head = ("P", "Q", "σ", *turned, "stick from", "to")
-    lines = [f"{_cells(head)}   energy lost ({units.moment})"]
+    head = ["P", "Q", "σ", *turned, "stick from", "to", f"energy ({units.moment})"]
+    cells: list[list[float | str]] = []
     for point in rows:
         loads = [point[name] for name in ("normal_load", "tangential_load", "bulk_stress", *turned)]
         zones = point["stick"] or [("-", "-")]
-        energy = _number(point["energy_lost"]) if "energy_lost" in point else "not known"
-        lines.append(f"{_cells((*loads, *zones[0]))}   {energy}")
+        cells.append([*loads, *zones[0], point.get("energy_lost", "not known")])
         none = [""] * len(loads)
-        lines += [_cells((*none, *zone)) for zone in zones[1:MANY_ZONES]]
+        cells += [[*none, *zone, ""] for zone in zones[1:MANY_ZONES]]
         if len(zones) > MANY_ZONES:
-            lines.append(_cells((*none, f"and {len(zones) - MANY_ZONES}", "more")))
+            cells.append([*none, f"and {len(zones) - MANY_ZONES}", "more", ""])
+    return table(head, cells)
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
+    """Columns aligned at the right, with as many digits as make them no wider than a terminal."""
+    for digits in range(6, 1, -1):
+        shown = [
+            [v if isinstance(v, str) else f"{v + 0.0:.{digits}g}" for v in row] for row in rows
+        ]
+        widths = [max(map(len, column)) for column in zip(head, *shown, strict=True)]
+        if sum(widths) + len(BETWEEN) * (len(head) - 1) <= WIDTH:
+            break
+    lines = (
+        BETWEEN.join(f"{v:>{w}}" for v, w in zip(row, widths, strict=True)).rstrip()
+        for row in (head, *shown)
+    )
     return "\n".join(lines)
-
-
-def _cells(values: Sequence[float | str]) -> str:
-    return "".join(f"{v:>14}" if isinstance(v, str) else f"{_number(v):>14}" for v in values)
 
 
 def stress_summary(solution: Solution, units: Units) -> str:

@@ -21,6 +21,8 @@
                         path = [[P, Q, σ], ...], turning points, σ may be left out, or a file,
                         "cycle.csv"; columns = ["P", "Q", "sigma", "tilt"] says what the numbers of
                         each row are (`path_table`); the scene is that of the last point
+    [fatigue]           findley_k, shear_limit, fatemi_socie_k, yield_stress, depth, parts: for the
+                        fatigue parameters of a path that closes (`fatigue_table`)
 
 `sie example` lists commented files to start from. A mistake is refused in one sentence, a
 `SceneFileError`, that names the file, the table, the value and the remedy; a name that is not known
@@ -54,6 +56,7 @@ from sie.problem.request import WANTS
 from sie.problem.scene import Scene
 from sie.profiles.kinds import KINDS
 
+from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
 from .profile_tables import profile_of
 from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
@@ -114,6 +117,7 @@ class SceneFile:
     want         the quantities to be answered, empty if the file names none
     path         turning points (P, Q, σ), empty without a path
     tilt, moment what the path adds to the scene's at each point, empty for nothing
+    fatigue      constants of the material for fatigue parameters
     reads        the files that it names
     """
 
@@ -124,6 +128,7 @@ class SceneFile:
     path: tuple[tuple[float, float, float], ...] = ()
     tilt: tuple[float, ...] = ()
     moment: tuple[float, ...] = ()
+    fatigue: Fatigue = field(default_factory=Fatigue)
     reads: tuple[pathlib.Path, ...] = field(default=(), compare=False)
 
     @property
@@ -253,6 +258,7 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
         path=path.points if path else (),
         tilt=path.tilt if path else (),
         moment=path.moment if path else (),
+        fatigue=fatigue_of(values_of("fatigue", top.get("fatigue", {}))),
         reads=tuple(
             folder / name
             for name in (

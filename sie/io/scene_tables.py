@@ -85,6 +85,8 @@ TABLES: dict[str, Mapping[str, Reader]] = {
     "body": BODY,
     "indenter": BODY,
     "pair": {"modulus": number, "dundurs": number, "poisson": number, "coupling": text},
+    "fatigue": dict.fromkeys(("findley_k", "shear_limit", "fatemi_socie_k", "yield_stress"), number)
+    | {"depth": number_or_pair, "parts": whole},
     "load": dict.fromkeys((*LOADS, "tilt", "moment", "friction"), number)
     | {"path": rows_or_text, "columns": texts},
 }

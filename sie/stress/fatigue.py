@@ -158,8 +158,8 @@ def _history(states: Sequence[Any], x: Array, y: float | Array) -> StressHistory
     infinite = ~(np.isfinite(xx) & np.isfinite(yy) & np.isfinite(xy)).all(axis=0)
     if infinite.any():
         raise ContactError(
-            f"the stress on the surface is infinite at x = {x[infinite][0]:g}, at a sharp edge or "
-            "a corner, and has no critical plane there: ask at a depth, y > 0"
+            f"the stress is infinite at x = {x[infinite][0]:g}, a sharp edge or a corner: "
+            "ask for the critical plane at a depth, y > 0"
         )
     return StressHistory(0.5 * (xx + yy), 0.5 * (yy - xx) + 1j * xy, zz)
 

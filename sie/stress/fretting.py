@@ -165,7 +165,7 @@ class Cycle:
         """
         rows = [_row(state) for state in self.states]
         try:
-            import pandas  # noqa: PLC0415
+            import pandas  # type: ignore[import, unused-ignore]  # noqa: PLC0415
         except ImportError:
             return rows
         return pandas.DataFrame(rows)
@@ -244,10 +244,10 @@ class Cycle:
         Returns
         -------
         ndarray of float
-            Work per area, same shape as x.
+            Work per area, same shape as x; 0 where nothing slips, at a sharp edge too.
         """
         q = np.stack([np.abs(state.shear(x)) for state in self.states]).max(axis=0)
-        return q * self.slip_range(x).amplitude
+        return _product(q, self.slip_range(x).amplitude)
 
     def ruiz(self, x: ArrayLike) -> Array:
         """Ruiz' second parameter κ2 = max(σ_xx) max|q| δ: where cracks begin.
@@ -263,7 +263,7 @@ class Cycle:
             Stress times work per area, same shape as x; 0 where the surface is never in tension.
         """
         tension = np.stack([state.stress(x, 0.0).xx for state in self.states]).max(axis=0)
-        return np.maximum(tension, 0.0) * self.friction_work(x)
+        return _product(np.maximum(tension, 0.0), self.friction_work(x))
 
     def swt(self, x: ArrayLike | None = None, y: ArrayLike = 0.0) -> CriticalPlane:
         """The parameter of Smith, Watson and Topper: max over planes of σ_n,max Δε_n/2.
@@ -381,6 +381,11 @@ class Cycle:
         """
         criterion = fatigue.fatemi_socie(self.states, k, yield_stress)
         return fatigue.at_points(self.states, criterion, x, y)
+
+
+def _product(a: Array, b: Array) -> Array:
+    """a × b, 0 where b is 0 even if a is infinite."""
+    return np.asarray(np.where(b == 0.0, 0.0, a) * b)
 
 
 def _row(state: Any) -> dict[str, float]:
