@@ -4,7 +4,9 @@
     want = ["edges"]    optional: what `sie solve` answers without --want
     indenter = "rigid"  optional; the other way is a table [indenter]
 
-    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units
+    [units]             length = "mm"  force = "N/mm"  stress = "MPa": labels of consistent units;
+                        checked = true: pint checks them. With pint a value may have a unit of its
+                        own, "500 N/mm" or "20 um", and is converted (`quantities`)
     [profile]           kind and its parameters; mirrored, tilted, shifted, raised, applied in this
                         order; period repeats it; of kind "sampled" x and h, or path, a file beside
                         the scene file, and without_outliers = true, levelled = true | [lo, hi]
@@ -59,6 +61,7 @@ from sie.profiles.kinds import KINDS
 from .fatigue_table import Fatigue, fatigue_of
 from .path_table import path_of
 from .profile_tables import profile_of
+from .quantities import in_units
 from .scene_tables import LOADS, TOP, Naming, remedy, require, values_of
 from .toml_values import text, texts
 
@@ -69,7 +72,7 @@ class SceneFileError(ValueError):
 
 @dataclass(frozen=True)
 class Units:
-    """Labels of consistent units, force = stress × length; nothing is converted."""
+    """Labels of consistent units, force = stress × length."""
 
     length: str = "mm"
     force: str = "N/mm"
@@ -247,13 +250,17 @@ def _scene_file(top: dict[str, Any], folder: pathlib.Path) -> SceneFile:
     ):
         if name not in top:
             raise ValueError(f"there is no [{name}]: give [{name}] with {content}")
+    units = values_of("units", top.get("units", {}))
+    checked = units.pop("checked", False)
+    labels = Units(**units)
+    top = in_units(top, vars(labels), checked)
     loads = values_of("load", top["load"])
     named = loads.get("path")
     path = _path(loads, folder)
     return SceneFile(
         scene=Scene(profile=profile_of(top["profile"], folder), **_bodies(top), **loads),
         title=text("title", top.get("title", "")),
-        units=Units(**values_of("units", top.get("units", {}))),
+        units=labels,
         want=wants("want", texts("want", top.get("want", []))),
         path=path.points if path else (),
         tilt=path.tilt if path else (),

@@ -81,7 +81,7 @@ def entries_of_file() -> Entries:
 BODY: dict[str, Reader] = {"young": number, "poisson": number, "plane": text, "rigid": flag}
 LOADS = ("normal_load", "half_width", "tangential_load", "sliding", "bulk_stress")
 TABLES: dict[str, Mapping[str, Reader]] = {
-    "units": {"length": text, "force": text, "stress": text},
+    "units": {"length": text, "force": text, "stress": text, "checked": flag},
     "body": BODY,
     "indenter": BODY,
     "pair": {"modulus": number, "dundurs": number, "poisson": number, "coupling": text},
