@@ -19,7 +19,8 @@ from sie.problem.load_path import Path
 from sie.problem.material import Elastic
 from sie.solution import Solution
 from sie.stress.fretting import Cycle
-from sie.stress.surface_search import by_value, columns, largest
+from sie.stress.half_plane import Tractions
+from sie.stress.surface_search import ROUNDS, by_value, columns, largest
 
 from .fatigue_table import DEPTHS, Fatigue
 from .scene_file import SceneFile
@@ -27,6 +28,7 @@ from .scene_file import SceneFile
 Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
+SLIP_ROUNDS = 6  # of narrowing for what depends on the slip
 
 
 def start_of_cycle(path: Path | None) -> int:
@@ -61,11 +63,8 @@ def cycle_of(solution: Solution, file: SceneFile) -> dict[str, Any]:
     answer |= _energy(history, start)
     widest = max(states, key=lambda state: state.half_width)
     tractions = [state.tractions for state in states]
+    answer |= _slip(Cycle(history[start:]), tractions, widest)
     x = columns(tractions, 0.0)
-    touching = x[(x >= widest.edges[0]) & (x <= widest.edges[1])]
-    answer["slip_amplitude"] = _largest(touching, lambda x: cycle.slip_range(x).amplitude)
-    answer["friction_work"] = _largest(touching, cycle.friction_work)
-    answer["ruiz"] = _largest(touching, cycle.ruiz)
     answer["surface"] = {name: _stress_range(cycle, x, name) for name in COMPONENTS}
     depths = file.fatigue.depth or tuple(part * widest.half_width for part in DEPTHS)
     known = isinstance(history.scene.body, Elastic)
@@ -88,14 +87,32 @@ def _energy(history: History, start: int) -> dict[str, float]:
         return {}
 
 
-def _largest(x: Array, quantity: Callable[[Array], Array]) -> dict[str, Any]:
+def _slip(turning: Cycle, tractions: Sequence[Tractions], widest: Solution) -> dict[str, Any]:
+    """The largest slip amplitude and Ruiz' parameters, by the states at the turning points.
+
+    In each step a point slips in one direction, so that no other states are needed; the slip of
+    points that come into contact takes milliseconds each.
+    """
+    x = np.concatenate((columns(tractions, widest.half_width), *(t.marks for t in tractions)))
+    touching = np.unique(x[(x >= widest.edges[0]) & (x <= widest.edges[1])])
+    quantities = {
+        "slip_amplitude": lambda x: turning.slip_range(x).amplitude,
+        "friction_work": turning.friction_work,
+        "ruiz": turning.ruiz,
+    }
+    return {
+        name: _largest(touching, quantity, SLIP_ROUNDS) for name, quantity in quantities.items()
+    }
+
+
+def _largest(x: Array, quantity: Callable[[Array], Array], rounds: int = ROUNDS) -> dict[str, Any]:
     """The largest value of a quantity on the surface and its place, or why it is not known."""
     try:
         values = quantity(x)
         infinite = ~np.isfinite(values)
         if infinite.any():
             return {"reason": f"infinite at x = {x[infinite][0]:g}, a sharp edge or a corner"}
-        place, value = largest(x, values, by_value(quantity))
+        place, value = largest(x, values, by_value(quantity), rounds)
     except ContactError as problem:
         return {"reason": str(problem)}
     return {"value": value, "x": place}

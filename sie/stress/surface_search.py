@@ -55,19 +55,19 @@ def _within(marks: Array, gap: Array, distance: Array) -> Array:
     return (marks[:, None] + distance)[distance < 0.5 * gap[:, None]]
 
 
-def largest(x: Array, values: Array, best_of: BestOf) -> tuple[float, float]:
+def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> tuple[float, float]:
     """The position near these columns where a quantity with these values is largest, and its value.
 
-    `best_of` takes rows of positions.
+    `best_of` takes rows of positions. Few rounds are for a quantity that is dear.
     """
     padded = np.concatenate(([-np.inf], values, [-np.inf]))
     top = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
     best = values.max()
     top = top[values[top] >= best - (1.0 - HIGH) * abs(best)]
-    top = top[np.argsort(-values[top], kind="stable")][:MOST_TOPS]
+    top = top[np.argsort(-values[top], kind="stable")][: MOST_TOPS if rounds == ROUNDS else 2]
     lo, at, hi = x[np.maximum(top - 1, 0)], x[top], x[np.minimum(top + 1, len(x) - 1)]
     _, value = best_of(at[:, None])
-    for turn in range(ROUNDS):
+    for turn in range(rounds):
         near = np.linspace(lo, hi, POINTS, axis=1)
         k, found = best_of(near)
         better = found > value
