@@ -28,7 +28,7 @@ from .scene_file import SceneFile
 Array = NDArray[np.float64]
 
 COMPONENTS = ("xx", "yy", "xy")
-SLIP_ROUNDS = 6  # of narrowing for what depends on the slip
+SLIP_ROUNDS = 4  # of narrowing for what depends on the slip
 
 
 def start_of_cycle(path: Path | None) -> int:

@@ -30,15 +30,15 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 # What the largest value may lack before it is polished, relative to it; and relative to the largest
-# product of the stresses, where they nearly cancel.
-ACCURACY, OF_STRESSES = 1e-6, 1e-8
+# product of the stresses, where they nearly cancel. NEARLY is for a first look at many points.
+ACCURACY, NEARLY, OF_STRESSES = 1e-5, 1e-3, 1e-2
 # Nodes of the first grid, over φ and over ψ.
 AROUND, UP = 16, 4
 WIDE, HIGH = 2.0 * np.pi / AROUND, 0.5 * np.pi / UP
 # Halvings of a box, for parameters that are the same on many planes.
-MOST_HALVINGS = 28
+MOST_HALVINGS = 26
 # The first step of polishing, radians, and its rounds, each with so much shorter a step.
-START, ROUNDS, SHORTER = 0.01, 36, 0.6
+START, ROUNDS, SHORTER = 0.1, 44, 0.7
 # Numbers in a temporary array.
 PART = 2**20
 
@@ -196,14 +196,12 @@ def _normal(of: Sizes) -> Bounds:
 
 
 class Worst(NamedTuple):
-    """The worst plane of each group of points.
+    """The worst plane at each point.
 
-    point       the number of the point
     value       of the parameter
     phi, psi    of the plane
     """
 
-    point: Index
     value: Array
     phi: Array
     psi: Array
@@ -216,9 +214,9 @@ def on_grid(h: StressHistory, parameter: Parameter) -> Array:
     )
 
 
-def worst_planes(h: StressHistory, parameter: Parameter, group: Index | None = None) -> Worst:
-    """The worst plane at each point, or at the worst point of each group (0, 1, ...)."""
-    search = _Search(h, parameter, np.arange(h.s.shape[1]) if group is None else group)
+def worst_planes(h: StressHistory, parameter: Parameter, accuracy: float = ACCURACY) -> Worst:
+    """The worst plane at each point."""
+    search = _Search(h, parameter, accuracy)
     search.halve()
     return search.polished()
 
@@ -257,16 +255,15 @@ class _Boxes(NamedTuple):
 
 
 class _Search:
-    """The search for the worst plane of each group of points."""
+    """The search for the worst plane at each point."""
 
-    def __init__(self, h: StressHistory, parameter: Parameter, group: Index) -> None:
-        self.h, self.parameter, self.group = h, parameter, group
+    def __init__(self, h: StressHistory, parameter: Parameter, accuracy: float) -> None:
+        self.h, self.parameter, self.accuracy = h, parameter, accuracy
         self.bounds = parameter.bounds(h)
-        count = int(group.max()) + 1
+        count = h.s.shape[1]
         self.best = np.full(count, -np.inf)
-        self.where = np.zeros(count, np.intp), np.zeros(count), np.zeros(count)
-        self.least = np.zeros(count)
-        np.maximum.at(self.least, group, OF_STRESSES * self.bounds[0].size)
+        self.where = np.zeros(count), np.zeros(count)
+        self.least = OF_STRESSES * self.bounds[0].size
         self.boxes = self._first()
 
     def halve(self) -> None:
@@ -281,7 +278,7 @@ class _Search:
             self.boxes = _Boxes(*map(np.concatenate, zip(*kept, strict=True)))
 
     def _first(self) -> _Boxes:
-        """The boxes of the first grid that may hold the largest value of their group."""
+        """The boxes of the first grid that may hold the largest value at their point."""
         grids = [_on_grid(self.h.at(k), self.parameter) for k in _parts(self.h)]
         planes = Planes(*map(np.concatenate, zip(*grids, strict=True)))
         value = self.parameter.of(planes)
@@ -299,7 +296,7 @@ class _Search:
         return self._kept(boxes, highest(value), Planes(*map(highest, planes)))
 
     def _halved(self, boxes: _Boxes) -> _Boxes:
-        """The halves of boxes that may hold the largest value of their group.
+        """The halves of boxes that may hold the largest value at their point.
 
         A box is halved across the angle in which the parameter may be curved more.
         """
@@ -322,14 +319,13 @@ class _Search:
         return self._kept(halves, value, Planes(amplitude, normal))
 
     def _note(self, point: Index, phi: NDArray[Any], psi: NDArray[Any], value: Array) -> None:
-        """Keep the largest value of each group, and its plane."""
-        group = self.group[point]
-        order = np.lexsort((-value, group))
-        first = order[np.unique(group[order], return_index=True)[1]]
-        better = first[value[first] > self.best[group[first]]]
-        self.best[group[better]] = value[better]
-        for kept, new in zip(self.where, (point, phi, psi), strict=True):
-            kept[group[better]] = new[better]
+        """Keep the largest value at each point, and its plane."""
+        order = np.lexsort((-value, point))
+        first = order[np.unique(point[order], return_index=True)[1]]
+        better = first[value[first] > self.best[point[first]]]
+        self.best[point[better]] = value[better]
+        for kept, new in zip(self.where, (phi, psi), strict=True):
+            kept[point[better]] = new[better]
 
     def _kept(self, boxes: _Boxes, value: Array, corners: Planes) -> _Boxes:
         """The boxes, of these largest values at corners, that may hold more than the best."""
@@ -342,18 +338,18 @@ class _Search:
         if offset is not None:
             factor = np.maximum(offset + weight * corners.normal + other, 0.0)
             highest = np.minimum(highest, (corners.amplitude + amplitude) * factor)
-        group = self.group[boxes.point]
-        best = self.best[group]
-        hopeful = highest > best + ACCURACY * np.abs(best) + self.least[group]
+        best = np.abs(self.best)
+        enough = self.best + self.accuracy * np.maximum(best, self.least)
+        hopeful = highest > enough[boxes.point]
         return _Boxes(*(a[hopeful] for a in boxes))
 
     def polished(self) -> Worst:
         """The planes, each moved to the largest of its neighbours at smaller and smaller steps."""
-        point, phi, psi = self.where
-        h, value, step = self.h.at(point), self.best.copy(), START
-        every = np.arange(len(point))
+        phi, psi = self.where
+        value, step = self.best, START
+        every = np.arange(len(value))
         i, j = (k.ravel() for k in np.meshgrid([0, -1, 1], [0, -1, 1]))
-        spread = h.spread(1)
+        spread = self.h.spread(1)
         for _ in range(ROUNDS):
             near_phi = phi[:, None] + i * step
             near_psi = np.clip(psi[:, None] + j * step, 0.0, 0.5 * np.pi)
@@ -362,4 +358,4 @@ class _Search:
             value = values[every, k]
             phi, psi = near_phi[every, k], near_psi[every, k]
             step *= SHORTER
-        return Worst(point, value, phi, psi)
+        return Worst(value, phi, psi)

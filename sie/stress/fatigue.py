@@ -28,10 +28,13 @@ from numpy.typing import ArrayLike, NDArray
 from sie import arguments
 from sie.errors import ContactError
 
-from .critical_plane import Parameter, StressHistory, on_grid, worst_planes
+from .critical_plane import NEARLY, Parameter, StressHistory, on_grid, worst_planes
 from .surface_search import columns, largest
 
 Array = NDArray[np.float64]
+
+# The part of a value by which a few planes may miss it.
+TOO_SMALL = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,12 +141,14 @@ def _worst_x(states: Sequence[Any], criterion: Criterion, y: float) -> float:
         count, size = rows.shape
         near = _history(states, rows.ravel(), y)
         scaled = StressHistory(near.s / unit, near.D / unit, near.zz / unit)
-        worst = worst_planes(scaled, parameter, np.repeat(np.arange(count), size))
-        return worst.point - size * np.arange(count), worst.value
+        values = worst_planes(scaled, parameter, NEARLY).value.reshape(count, size)
+        k = values.argmax(axis=1)
+        return k, values[np.arange(count), k]
 
     values = on_grid(h, parameter)
-    exact = worst_planes(h, parameter, np.zeros(len(x), np.intp))
-    values[exact.point] = exact.value
+    best = values.max()
+    high = np.flatnonzero(values >= best - TOO_SMALL * abs(best))
+    values[high] = worst_planes(h.at(high), parameter, NEARLY).value
     return largest(x, values, best_of)[0]
 
 

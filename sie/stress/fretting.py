@@ -56,6 +56,8 @@ class Range:
 
     lowest     the smallest value, of the shape of the points
     highest    the largest value
+
+    Where both are infinite, at a sharp edge, the range is infinite too.
     """
 
     lowest: Array
@@ -64,12 +66,13 @@ class Range:
     @property
     def range(self) -> Array:
         """highest - lowest."""
-        return self.highest - self.lowest
+        infinite = np.isinf(self.lowest)
+        return np.where(infinite, np.inf, self.highest - np.where(infinite, 0.0, self.lowest))
 
     @property
     def amplitude(self) -> Array:
         """Half of the range."""
-        return 0.5 * (self.highest - self.lowest)
+        return 0.5 * self.range
 
     @property
     def mean(self) -> Array:
@@ -290,7 +293,7 @@ class Cycle:
 
         Notes
         -----
-        Planes of all orientations are compared. The value is that of the worst one to 1e-6 at
+        Planes of all orientations are compared. The value is that of the worst one to 1e-5 at
         least (`sie.stress.critical_plane`), and nearly always to rounding. In plane strain ε_zz is
         0, so that a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
 

@@ -64,7 +64,7 @@ def largest(x: Array, values: Array, best_of: BestOf, rounds: int = ROUNDS) -> t
     top = np.flatnonzero((values >= padded[:-2]) & (values >= padded[2:]))
     best = values.max()
     top = top[values[top] >= best - (1.0 - HIGH) * abs(best)]
-    top = top[np.argsort(-values[top], kind="stable")][: MOST_TOPS if rounds == ROUNDS else 2]
+    top = top[np.argsort(-values[top], kind="stable")][: MOST_TOPS if rounds == ROUNDS else 1]
     lo, at, hi = x[np.maximum(top - 1, 0)], x[top], x[np.minimum(top + 1, len(x) - 1)]
     _, value = best_of(at[:, None])
     for turn in range(rounds):

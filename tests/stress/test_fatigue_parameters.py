@@ -157,6 +157,17 @@ def test_no_place_at_a_depth_exceeds_the_worst_one(name, y, cycle):
     assert there[-1] == pytest.approx(worst.value, rel=1e-9) and worst.y == y
 
 
+def test_where_two_planes_compete_along_the_surface_the_higher_place_is_found():
+    scene = sie.Scene(profile=sie.Power(4, 1e-3), body=BODY, normal_load=50.0, friction=0.5)
+    path = sie.Path([(50.0, 10.0), (50.0, -10.0)])
+    cycle = sie.Cycle(sie.follow(scene, path))
+    y = 0.01 * cycle.states[0].half_width
+    worst = cycle.findley(y=y, k=0.3)
+    x = cycle.states[0].edges[1] * np.linspace(0.9, 1.05, 200)
+    everywhere = cycle.findley(np.concatenate((-x, x)), y, k=0.3).value
+    assert everywhere.max() <= worst.value * (1.0 + 1e-9)
+
+
 def test_at_the_trailing_edge_the_worst_plane_is_across_the_surface(cycle):
     worst = cycle.swt()
     assert worst.x == pytest.approx(cycle.states[0].edges[0], rel=1e-9)
@@ -182,7 +193,7 @@ def test_a_sharp_edge_is_refused_on_the_surface_and_answered_at_a_depth():
     scene = sie.Scene(profile=sie.Flat(1.0), body=BODY, normal_load=500.0, friction=0.6)
     cycle = sie.Cycle(sie.follow(scene, LOADS))
     for x in (None, [0.0, 1.0]):
-        with pytest.raises(sie.ContactError, match=r"infinite at x = -?1, .*ask at a depth"):
+        with pytest.raises(sie.ContactError, match=r"infinite at x = -?1, .* at a depth"):
             cycle.swt(x)
     assert cycle.swt(y=0.05).value > 0.0
 
