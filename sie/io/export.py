@@ -62,7 +62,6 @@ from sie.problem.scene import Scene
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slip_of, slipping, wanted
-from .cycle_answer import cycle_of
 from .sample_points import abscissae, beside, inside, peak
 from .scene_file import SceneFile
 
@@ -144,7 +143,7 @@ def strict_json(value: Any) -> str:
 def as_dict(
     solution: Solution, file: SceneFile, points: int = POINTS, cycle: dict[str, Any] | None = None
 ) -> dict[str, Any]:
-    """The content of `json_text`, with infinities as floats; `cycle` where it is known already."""
+    """The content of `json_text`, with infinities as floats; `cycle` is that of `cycle_answer`."""
     units, scene = file.units, solution.scene
     out: dict[str, Any] = {
         "sie": __version__,
@@ -171,8 +170,8 @@ def as_dict(
     sections = {"pressure": _pressure, "gap": _gap, "shear": _shear, "check": _check}
     sections |= {"energy": lambda solution, _: {"energy_lost": solution.energy_lost}}
     sections |= {"stress": _stress, "yield": _yield, "tension": _tension}
-    if "cycle" in wanted(file):
-        out["cycle"] = cycle or cycle_of(solution, file)
+    if cycle:
+        out["cycle"] = cycle
     if isinstance(solution, PathSolution):
         out["path"] = solution.history.rows()
     if "check" in wanted(file) and (reports := solution.trace_reports()):

@@ -13,7 +13,6 @@ from sie.problem.request import energy_costs
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
-from .cycle_answer import cycle_of
 from .cycle_report import cycle_summary
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
@@ -26,7 +25,7 @@ WIDTH, BETWEEN = 80, "  "  # of a table, and what stands between its columns
 
 
 def summary(solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = None) -> str:
-    """All wanted quantities, section by section; `cycle` where it is known already."""
+    """All wanted quantities, section by section; `cycle` is the answer of `cycle_answer`."""
     sections = {
         "edges": edges_summary,
         "pressure": pressure_summary,
@@ -43,8 +42,8 @@ def summary(solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = 
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
-    if "cycle" in names:
-        parts.append(cycle_summary(cycle or cycle_of(solution, file), file))
+    if cycle:
+        parts.append(cycle_summary(cycle, file))
     # The certificate contains the notes.
     notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
     head = f"{file.title}\n{scene}" if file.title else scene

@@ -273,16 +273,13 @@ class Cycle:
 
         Parameters
         ----------
-        x : array_like of float, optional
-            Positions, length. Without them, at each depth the place where the parameter is largest.
-        y : array_like of float, optional
-            Depths, length.
+        x, y : array_like of float, optional
+            Positions and depths, length. Without x, the worst place at each depth.
 
         Returns
         -------
         CriticalPlane
-            The value, stress, and the plane, arrays of the broadcast shape; 0 where no plane is
-            ever in tension.
+            The value, stress, and the plane; 0 where no plane is ever in tension.
 
         Raises
         ------
@@ -293,20 +290,18 @@ class Cycle:
 
         Notes
         -----
-        Planes of all orientations are compared. The value is that of the worst one to 1e-5 at
-        least (`sie.stress.critical_plane`), and nearly always to rounding. In plane strain ε_zz is
-        0, so that a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
+        All planes are compared. The value is that of the worst one to 1e-5 at least, and nearly
+        always to rounding. In plane strain a fully reversed σ_xx = ±S gives S² (1 - ν²)/E.
 
         References
         ----------
-        Smith, Watson & Topper, J. Materials 5 (1970) 767-778; Socie & Marquis, Multiaxial Fatigue
-        (2000), ch. 5.
+        Smith, Watson & Topper, J. Materials 5 (1970) 767-778.
 
         Examples
         --------
         >>> import sie
-        >>> scene = sie.Scene(profile=sie.Parabola(100.0), body=sie.Elastic(115e3, 0.32),
-        ...                   normal_load=50.0, friction=0.5)
+        >>> ti = sie.Elastic(115e3, 0.32)
+        >>> scene = sie.Scene(profile=sie.Parabola(100.0), body=ti, normal_load=50, friction=0.5)
         >>> worst = sie.steady_cycle(scene, (50.0, 15.0, 30.0), (50.0, -15.0, -30.0)).cycle.swt()
         >>> round(float(worst.value), 3), round(float(worst.x), 4), float(worst.y)
         (0.098, -0.3152, 0.0)
