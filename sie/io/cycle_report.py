@@ -74,6 +74,9 @@ def _at(found: dict[str, Any]) -> str:
 def _plane(found: dict[str, Any], unit: str) -> str:
     """The value of a parameter, its place and the normal of its plane."""
     depth = f", y = {_shown(found['y'])}" if found["y"] else " on the surface"
+    if not found["value"]:
+        return f"0{depth}: no plane is in tension"
+    angle = round(found["angle"], 2) % 180.0  # rounding may have turned 0° into 180°
     out = found["out_of_plane"]
     turned = f", {out:.4g}° out of plane" if out > IN_PLANE else ""
-    return f"{found['value']:.6g}{unit}{_at(found)}{depth}, normal {found['angle']:.4g}°{turned}"
+    return f"{found['value']:.6g}{unit}{_at(found)}{depth}, normal {angle:.4g}°{turned}"

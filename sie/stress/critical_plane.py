@@ -29,8 +29,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-# What the largest value may lack before it is polished, relative to it; and relative to the largest
-# product of the stresses, where they nearly cancel. NEARLY is for a first look at many points.
+# What the largest value may lack before it is polished, relative to it. NEARLY is for a first look
+# at many points. A value below OF_STRESSES of what its factors could give nearly cancels, and is
+# known relative to that part.
 ACCURACY, NEARLY, OF_STRESSES = 1e-5, 1e-3, 1e-2
 # Nodes of the first grid, over φ and over ψ.
 AROUND, UP = 16, 4

@@ -105,6 +105,12 @@ def test_without_constants_of_the_material_no_parameter_is_named(solve):
     assert not {"SWT", "Findley", "Fatemi-Socie"} & set(out.split())
 
 
+def test_without_tension_the_report_says_so_in_place_of_a_plane(solve):
+    pressed = CYCLE[: CYCLE.index("friction")] + "path = [[50.0, 0.0], [80.0, 0.0], [50.0, 0.0]]\n"
+    status, out, _ = solve(pressed + "[fatigue]\nparts = 1\n")
+    assert status == 0 and "SWT             0 on the surface: no plane is in tension" in out
+
+
 def test_a_sharp_edge_is_answered_by_depth(solve):
     flat = CYCLE.replace('"parabola"\nradius = 100.0', '"flat"\nhalf_width = 1.0')
     flat = flat.replace('columns = ["P", "Q", "sigma"]\n', "").replace(", 10.0]", "]")
