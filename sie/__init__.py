@@ -51,6 +51,7 @@ from .profiles.shapes import Flat, Parabola, Power, RoundedFlat, Wedge
 from .smoothing_search import least_smoothing
 from .solution import Solution, solve
 from .steady_cycle import SteadyCycle, steady_cycle
+from .stress.fatigue import CriticalPlane
 from .stress.fretting import Cycle
 from .stress.half_plane import Stress
 from .stress.yield_limit import Peak, YieldPoint
@@ -66,6 +67,7 @@ __all__ = [
     "ZERO",
     "CauchyEquation",
     "ContactError",
+    "CriticalPlane",
     "Cycle",
     "Density",
     "Elastic",

@@ -1,7 +1,7 @@
 """The command line.
 
     sie solve scene.toml            solve a scene, and print, draw or write the answer
-        [--want WHAT ...] [--plot FILE] [--csv FILE] [--history FILE] [--json [FILE]]
+        [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]]
         [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet] [--log LEVEL]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
         [--tol T] [--plot FILE] [--json [FILE]]
@@ -14,7 +14,7 @@
     sie completion bash             a script by which the shell completes commands (needs shtab)
 
 `python -m sie` is the same. In place of a file, - is standard input (the scene) or standard output
-(--csv, --history, --json). No file that a scene or a command reads is written to. The exit codes
+(--csv, --json). No file that a scene or a command reads is written to. The exit codes
 are those of `command_parser.EXIT_CODES`.
 """
 
@@ -30,14 +30,16 @@ from dataclasses import replace
 from importlib.util import find_spec
 from itertools import combinations
 from types import ModuleType
+from typing import Any
 
 from . import __version__, files, interrupt
 from .command_parser import STANDARD, TOL, parse
 from .errors import ContactError
-from .history import PathSolution, follow
+from .history import follow
 from .interrupt import INTERRUPTED
 from .io import export, scene_file
 from .io.answers import wanted
+from .io.cycle_answer import cycle_of, start_of_cycle
 from .io.mesh_comparison import Comparison, compare, read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
@@ -105,18 +107,16 @@ def _solve(arguments: argparse.Namespace) -> int:
             "give --field FILE too, with one of the suffixes .csv, .npz, .vti"
         )
     file = _scene(arguments)
-    if "history" in outputs and not file.load_path:
-        raise ValueError(
-            "--history writes the turning points of a load path, and the scene has none: "
-            "give [load] path, or --csv in place of --history"
-        )
     _refuse_overwriting(arguments, outputs, file)
+    _refuse_open_path(file)
     solution = _solution(file, arguments.tol)
+    cycle = cycle_of(solution, file) if "cycle" in file.want else None
     contents = {
-        path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()
+        path: _content(kind, path, solution, file, arguments, cycle=cycle)
+        for kind, path in outputs.items()
     }
     shown = contents.pop(pathlib.Path(STANDARD), None)
-    text = shown.decode() if shown is not None else _report(solution, file, contents)
+    text = shown.decode() if shown is not None else _report(solution, file, contents, cycle)
     certified = "check" not in file.want or solution.check().ok
     _give(contents, "" if arguments.quiet and shown is None else text)
     if not certified:
@@ -176,6 +176,7 @@ def _compared(
 
 def _plan(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
+    _refuse_open_path(file)
     _solution(file, TOL)  # computes nothing, but refuses a scene that is not covered
     print_text(f"{broken_to_terminal(str(plan(file.scene, file.want)))}\n")
     return CERTIFIED
@@ -227,7 +228,7 @@ def _completion(arguments: argparse.Namespace) -> int:
     return CERTIFIED
 
 
-OUTPUTS = ("plot", "csv", "history", "json", "field")
+OUTPUTS = ("plot", "csv", "json", "field")
 COMMANDS = {
     "solve": _solve,
     "compare": _compare,
@@ -324,6 +325,12 @@ def _refuse_overwriting(
                 raise ValueError(f"{name} would overwrite {what}: give another name")
 
 
+def _refuse_open_path(file: SceneFile) -> None:
+    """ValueError if a cycle is wanted of a path that does not close."""
+    if "cycle" in file.want:
+        start_of_cycle(file.load_path)
+
+
 def _check_picture(path: pathlib.Path) -> None:
     known = _style().suffixes()
     if path.suffix[1:].lower() not in known:
@@ -351,6 +358,8 @@ def _content(
     solution: Solution,
     file: SceneFile,
     arguments: argparse.Namespace,
+    *,
+    cycle: dict[str, Any] | None,
 ) -> bytes:
     if kind == "field":
         units, (x1, x2) = file.units, solution.edges
@@ -363,11 +372,8 @@ def _content(
         return file_bytes(Grid(solution, *(arguments.grid or GRID)), path.suffix[1:].lower(), head)
     if kind == "csv":
         return export.csv_text(solution, file, arguments.points).encode()
-    if kind == "history":
-        assert isinstance(solution, PathSolution)
-        return export.history_text(solution.history, file, arguments.points).encode()
     if kind == "json":
-        return export.json_text(solution, file, arguments.points).encode()
+        return export.json_text(solution, file, arguments.points, cycle).encode()
     return _picture(solution, file, path.suffix[1:].lower())
 
 
@@ -382,9 +388,14 @@ def _picture(solution: Solution, file: SceneFile, suffix: str) -> bytes:
     return _style().picture_bytes(picture(solution, file.units, file.title), suffix)
 
 
-def _report(solution: Solution, file: SceneFile, written: Iterable[pathlib.Path]) -> str:
+def _report(
+    solution: Solution,
+    file: SceneFile,
+    written: Iterable[pathlib.Path],
+    cycle: dict[str, Any] | None,
+) -> str:
     paragraphs = [
-        summary(solution, file, terminal_width()),
+        summary(solution, file, cycle, terminal_width()),
         "\n".join(f"wrote {path}" for path in written),
     ]
     return "\n\n".join(p for p in paragraphs if p) + "\n"

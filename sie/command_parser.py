@@ -22,7 +22,7 @@ COMMANDS = {
     "completion": "print a script by which a shell completes commands, options and files",
 }
 OPTIONS = (
-    "--want", "--plot", "--csv", "--history", "--json", "--field", "--grid", "--points", "--tol",
+    "--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol",
     "--port", "--no-browser", "--quiet", "--log", "--help", "--version",
 )  # fmt: skip
 # The files that a command reads, in the order of the command line.
@@ -142,8 +142,7 @@ def _add_outputs_of_solve(parser: argparse.ArgumentParser) -> None:
     plot = "draw pressure, gap and shear, or with --want stress its contours: .png ..."
     everything = "write all that is wanted; without FILE, print it"
     add("--plot", "FILE", f"{plot} (needs Matplotlib)")
-    add("--csv", "FILE", "write x, pressure, gap, shear, slip")
-    add("--history", "FILE", "write the same at every turning point of a load path")
+    add("--csv", "FILE", "write x, pressure, gap, shear, slip, at every point of a load path")
     add("--json", "FILE", everything, nargs="?", const=STANDARD)
     add("--field", "FILE", "write the stress on a grid: .csv, .npz or .vti (ParaView)")
     add("--grid", "NXxNY", f"points of that grid ({GRID[0]}x{GRID[1]})", type=_grid)

@@ -13,7 +13,7 @@ from .patches.answer import asks_for_patches
 from .problem.request import ECONOMY, sheared, wanted
 from .problem.scene import Scene, refuse_no_scene
 
-BODY = ("stress", "yield", "tension")  # what is asked of the stress in the body
+BODY = ("stress", "yield", "tension", "cycle")  # what is asked of the stress in the body
 
 # The stages of `Solution` that answer what is asked for ...
 STAGES: dict[str, tuple[str, ...]] = {
@@ -96,7 +96,7 @@ def plan(
         The question.
     want : str or iterable of str, optional
         What is asked for: "edges", "pressure", "gap", "shear", "check", "stress", "yield",
-        "tension", or attributes of the solution such as "stick", "slip" and "half_width".
+        "tension", "cycle", or attributes of the solution such as "stick", "slip" and "half_width".
     economy : collection of str, optional
         The savings that are allowed, as in `solve`.
 

@@ -6,6 +6,7 @@ import math
 import textwrap
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from sie.problem.request import energy_costs
 from sie.solution import Solution
 
 from .answers import energy_of, notes_of, slipping, wanted
+from .cycle_report import cycle_summary
 from .sample_points import SAME_PEAK, ceiling, full, peak, reach
 from .scene_file import SceneFile, Units
 
@@ -22,11 +24,16 @@ SAME_PLACE = 1e-7  # of the half-width: rounding of p leaves a smooth peak uncer
 NOTHING = 1e-13  # of its scale: a smaller number is rounding, and is printed as 0
 MANY_ZONES = 8  # so many zones of stick or slip are listed
 ROWS, NARROWEST = 8, 20  # rows of the text picture, and its columns at least
-DIGITS = (6, 5, 4, 3)  # of a table: the first that fit
+BETWEEN = "  "  # what stands between the columns of a table
 
 
-def summary(solution: Solution, file: SceneFile, width: int = WIDE) -> str:
-    """All wanted quantities, section by section, with a picture of so many columns."""
+def summary(
+    solution: Solution, file: SceneFile, cycle: dict[str, Any] | None = None, width: int = WIDE
+) -> str:
+    """All wanted quantities, section by section, with a picture of so many columns.
+
+    `cycle` is the answer of `cycle_answer`.
+    """
     sections: dict[str, Callable[[Solution, Units], str]] = {
         "edges": edges_summary,
         "pressure": partial(pressure_summary, width=width),
@@ -44,6 +51,8 @@ def summary(solution: Solution, file: SceneFile, width: int = WIDE) -> str:
     if "shear" in names and not energy_costs(solution.scene):
         names.discard("energy")  # it is printed with the shear
     parts = [section(solution, file.units) for name, section in sections.items() if name in names]
+    if cycle:
+        parts.append(cycle_summary(cycle, file))
     # The certificate contains the notes.
     notes = "" if "check" in wanted(file) else "\n".join(notes_of(solution, file))
     head = f"{file.title}\n{scene}" if file.title else scene
@@ -184,33 +193,36 @@ def _zones(
 
 
 def _path_table(solution: PathSolution, units: Units) -> str:
+    """The turning points, as wide as a terminal at most."""
     rows = solution.history.rows()
     turned = [name for name in ("tilt", "moment") if name in rows[0]]
-    table: list[tuple[float | str, ...]] = [
-        ("P", "Q", "σ", *turned, "stick from", "to", f"energy lost ({units.moment})")
-    ]
+    head = ["P", "Q", "σ", *turned, "stick from", "to", f"energy ({units.moment})"]
+    cells: list[list[float | str]] = []
     for point in rows:
         loads = [point[name] for name in ("normal_load", "tangential_load", "bulk_stress", *turned)]
         zones = point["stick"] or [("-", "-")]
-        table.append((*loads, *zones[0], point.get("energy_lost", "not known")))
+        cells.append([*loads, *zones[0], point.get("energy_lost", "not known")])
         none = [""] * len(loads)
-        table += [(*none, *zone, "") for zone in zones[1:MANY_ZONES]]
+        cells += [[*none, *zone, ""] for zone in zones[1:MANY_ZONES]]
         if len(zones) > MANY_ZONES:
-            table.append((*none, f"and {len(zones) - MANY_ZONES}", "more", ""))
-    return aligned(table)
+            cells.append([*none, f"and {len(zones) - MANY_ZONES}", "more", ""])
+    return table(head, cells)
 
 
-def aligned(table: Sequence[Sequence[float | str]]) -> str:
-    """Columns that end together, with as many digits as fit in WIDE columns."""
-    for digits in DIGITS:
-        cells = [
-            [v if isinstance(v, str) else f"{v + 0.0:.{digits}g}" for v in row] for row in table
+def table(head: Sequence[str], rows: Sequence[Sequence[float | str]]) -> str:
+    """Columns aligned at the right, with as many digits as make them no wider than a terminal."""
+    for digits in range(6, 1, -1):
+        shown = [
+            [v if isinstance(v, str) else f"{v + 0.0:.{digits}g}" for v in row] for row in rows
         ]
-        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-        if sum(widths) + 2 * (len(widths) - 1) <= WIDE:
+        widths = [max(map(len, column)) for column in zip(head, *shown, strict=True)]
+        if sum(widths) + len(BETWEEN) * (len(head) - 1) <= WIDE:
             break
-    pairs = (zip(row, widths, strict=True) for row in cells)
-    return "\n".join("  ".join(f"{cell:>{width}}" for cell, width in row).rstrip() for row in pairs)
+    lines = (
+        BETWEEN.join(f"{v:>{w}}" for v, w in zip(row, widths, strict=True)).rstrip()
+        for row in (head, *shown)
+    )
+    return "\n".join(lines)
 
 
 def stress_summary(solution: Solution, units: Units) -> str:

@@ -9,7 +9,9 @@ from sie import arguments
 from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
-WANTS = ("edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension")
+WANTS = (
+    "edges", "pressure", "gap", "shear", "energy", "check", "stress", "yield", "tension", "cycle",
+)  # fmt: skip
 # Attributes of the solution, and the quantities that they belong to.
 ALSO = {
     "half_width": "edges",
@@ -26,7 +28,7 @@ UNASKED = ("edges", "pressure", "gap", "shear", "check")
 POINTS = 401
 GRID = (201, 101)
 # Quantities that depend on the shear traction.
-NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check"})
+NEED_SHEAR = frozenset({"shear", "energy", "stress", "yield", "tension", "check", "cycle"})
 # Work that the solver may skip; `sie.solve(..., economy=())` switches all of it off.
 ECONOMY = frozenset({"symmetry", "transform", "zero panels", "convexity", "shear", "sliding"})
 
