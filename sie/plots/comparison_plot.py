@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from sie.io.mesh_comparison import QUANTITIES, Comparison
+from sie.io.mesh_difference import EXACT, Comparison
 from sie.io.sample_points import abscissae, ceiling
 from sie.io.scene_file import UNITS, Units
 from sie.solution import Solution
@@ -84,7 +84,7 @@ class _Both(NamedTuple):
 
 def _both(solution: Solution, comparison: Comparison, name: str) -> _Both:
     x, y, values = comparison.mesh.points(name)
-    exact = QUANTITIES[name](solution, x, y)
+    exact = EXACT[name](solution, x, y)
     finite = np.isfinite(exact)
     largest = float(np.abs(exact[finite]).max()) or ceiling(solution)
     percent = np.where(finite, 100.0 * (values - np.where(finite, exact, 0.0)) / largest, np.nan)
@@ -103,7 +103,7 @@ def _draw_curves(
     fine = np.unique(np.concatenate((abscissae(solution, style.POINTS), both.x)))
     fine = fine[(fine >= both.x[0]) & (fine <= both.x[-1])]
     bound = 2.0 * style.HEADROOM * both.largest
-    exact = np.clip(QUANTITIES[name](solution, fine, np.full_like(fine, both.y[0])), -bound, bound)
+    exact = np.clip(EXACT[name](solution, fine, np.full_like(fine, both.y[0])), -bound, bound)
     style.curve(upper, fine * factor, exact * scale, style.BLUE, 1.0, zorder=2, label="exact")
     dots: dict[str, Any] = {
         "color": style.VERMILLION,
