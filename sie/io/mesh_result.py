@@ -164,7 +164,14 @@ def _level(group: Group) -> float | None:
 
 
 def _on_surface(raw: Raw, group: Group, height: float | None, body: str) -> tuple[Group, list[str]]:
-    """The points on the surface; on a curved one, those where a traction acts."""
+    """The points on the surface; on a curved one, those where a traction acts.
+
+    Codes write the traction of one of two bodies, and zero on the other.
+    """
+    acts = np.any([group.columns[n] != 0.0 for n in TRACTIONS if n in group.columns], axis=0)
+    if isinstance(group.bodies, np.ndarray) and acts.any():
+        own = np.isin(group.bodies, group.bodies[acts])
+        group, acts = group.chosen(own), acts[own]
     y = group.columns.get("y")
     zeros = np.zeros(len(group.columns["x"]))
     if y is None:
@@ -172,7 +179,6 @@ def _on_surface(raw: Raw, group: Group, height: float | None, body: str) -> tupl
     notes = []
     level = height if height is not None else 0.0
     chosen = _near(y, level)
-    acts = np.any([group.columns[n] != 0.0 for n in TRACTIONS if n in group.columns], axis=0)
     known = isinstance(group.bodies, np.ndarray)
     if known and np.count_nonzero(chosen) < 2:
         chosen = acts

@@ -6,7 +6,7 @@ components). " -1" begins a node or an element, " -2" continues it, " -3" ends a
 nodes have 5 columns in the short format and 10 in the long one, values 12.
 
 The last block of STRESS and that of CONTACT are read. The contact pressure stands at the nodes of
-the slave surface, zero at all others.
+the slave surface and is zero at all others.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 
 from sie.profiles.trace_files import MESH, text_lines
 
-from .names import QUANTITIES, TRACTIONS, meaning
+from .names import QUANTITIES, meaning
 from .raw import Group, MeshGeometry, Raw
 
 VALUE = 12  # columns of a number
@@ -67,12 +67,7 @@ def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block) -> Group:
         if meaning(component) in QUANTITIES
     }
     part = np.array([bodies.get(label, 0) for label in labels], dtype=np.int64)
-    group = Group({"x": x, "y": y, **columns}, bodies=part if bodies else ())
-    contact = [columns[name] for name in TRACTIONS if name in columns]
-    if not contact or not bodies:
-        return group
-    slaves = np.unique(part[np.any([values != 0.0 for values in contact], axis=0)])
-    return group.chosen(np.isin(part, slaves)) if len(slaves) else group
+    return Group({"x": x, "y": y, **columns}, bodies=part if bodies else ())
 
 
 def _blocks(path: Path) -> tuple[MeshGeometry, list[_Block]]:
