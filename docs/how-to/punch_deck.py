@@ -83,7 +83,7 @@ def elements(first: int, rows: np.ndarray) -> list[str]:
 
 
 def rigid(labels, x, height: float, plate: int) -> list[str]:
-    """The nodes move as one plate: by the freedoms 1 and 2 of its node, and by 3, which is a turn."""
+    """The nodes move as one plate, by the freedoms 1, 2 and 3 (a turn) of its node."""
     lines = []
     for n, a in zip(labels, x, strict=True):
         lines += ["*EQUATION", "3", f"{n}, 1, 1., {plate}, 1, -1., {plate}, 3, {height:.12g}"]
@@ -108,7 +108,11 @@ def contact(scene: sie.Scene, stiffness: float, plate: int) -> list[str]:
     lines += ["*STEP,INC=100", "*STATIC", "1., 1.", "*CLOAD", push, *output]
     if scene.friction:
         lines += ["*STEP,INC=100", "*CHANGE FRICTION,INTERACTION=PAIR", "*FRICTION"]
-        lines += [f"{scene.friction!r}, {sliding}", "*STATIC", f"{INCREMENT}, 1., 1e-6, {INCREMENT}"]
+        lines += [
+            f"{scene.friction!r}, {sliding}",
+            "*STATIC",
+            f"{INCREMENT}, 1., 1e-6, {INCREMENT}",
+        ]
         lines += ["*CLOAD", push, f"{plate}, 1, {scene.tangential_load!r}", *output]
     return lines
 

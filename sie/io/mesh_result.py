@@ -187,8 +187,14 @@ def _on_surface(raw: Raw, group: Group, height: float | None, body: str) -> tupl
         notes = [f"the surface is at y = {level:.6g}"]
     if not known and not body and y.min() < level < y.max() and acts[~chosen].any():
         raise _two_sides(raw.file, y, level)
-    placed = group.chosen(chosen)
-    return replace(placed, columns=placed.columns | {"y": zeros[chosen]}), notes
+    place = _clusters(group.columns["x"], COINCIDENT * float(np.abs(group.columns["x"]).max()))
+    other = ~acts & np.isin(place, place[acts & chosen])
+    if (other & chosen).any():
+        notes.append(f"{(other & chosen).sum()} zeros beside a traction are those of another body")
+    placed = group.chosen(chosen & ~other)
+    return replace(
+        placed, columns=placed.columns | {"y": np.zeros(len(placed.columns["x"]))}
+    ), notes
 
 
 def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[Group, list[str]]:
@@ -217,6 +223,8 @@ def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[G
     inside = y <= 0.0 if side == "below" else y >= 0.0
     if height:
         notes.append(f"the surface is at y = {height:.6g}, the body {side} it")
+    if body == "above":
+        notes.append("the body above has the shear -q: give the scene the other tangential load")
     columns = group.columns | {"y": np.abs(y)}
     if "sxy" in columns and side == "below" and y.min() < 0.0:
         columns["sxy"] = -columns["sxy"]

@@ -10,7 +10,7 @@ import pytest
 import sie
 from sie.io.mesh_comparison import compare
 from sie.io.mesh_files.names import meaning
-from sie.io.mesh_result import read_mesh
+from sie.io.mesh_result import Mesh, Points, read_mesh
 
 SOLUTION = sie.solve(
     sie.Scene(
@@ -368,6 +368,28 @@ def test_nodes_that_stand_twice_are_averaged_with_a_note(tmp_path):
     assert "42 values of p stand at 21 places" in comparison.mesh.notes[0]
 
 
+def test_zeros_that_the_other_body_has_at_the_same_place_are_left_out(tmp_path):
+    x, y = np.tile(X, 2), np.zeros(2 * len(X))
+    comparison = compared(table("x,y,CPRESS", x, y, np.concatenate((P, 0.0 * P))), tmp_path)
+    assert comparison.differences["p"].l2 < 1e-12
+    assert any("of another body" in note for note in comparison.mesh.notes)
+
+
+def test_a_traction_on_a_curved_surface_is_compared_where_it_acts(tmp_path):
+    curved = {n: (x, y + (0.01 * x * x if n > 10 else 0.0)) for n, (x, y) in NODES.items()}
+    deck = DECK
+    for n in range(11, 16):
+        (x, y), (_, new) = NODES[n], curved[n]
+        deck = deck.replace(f"{n}, {float(x)!r}, {y!r}, 0.", f"{n}, {float(x)!r}, {float(new)!r}, 0.")
+    written(tmp_path / "run.inp", deck)
+    p = SOLUTION.pressure(AT)
+    points = [(f"{n:10d}", (p[n - 11], 0.0, 0.0)) for n in range(11, 16)]
+    comparison = compared(dat("slave node,press,tang1,tang2", points), tmp_path, "run.dat")
+    assert comparison.differences["p"].points == np.count_nonzero(p)
+    assert comparison.differences["p"].l2 < WRITTEN
+    assert any("where they act" in note for note in comparison.mesh.notes)
+
+
 def test_the_load_of_element_centres_counts_whole_elements(tmp_path):
     edges = np.linspace(*SOLUTION.edges, 41)
     centres = 0.5 * (edges[1:] + edges[:-1])
@@ -451,6 +473,24 @@ def test_what_needs_an_unknown_poisson_ratio_is_passed_over_with_a_note(tmp_path
     comparison = compared(table("x,y,S11,S33", x, y, s.xx, s.zz), tmp_path, solution=solution)
     assert set(comparison.differences) == {"sxx"}
     assert any("szz is not compared" in note for note in comparison.mesh.notes)
+
+
+@pytest.mark.parametrize("quantities", [("p",), ("p", "q"), ("p", "sxx", "mises")])
+def test_a_picture_shows_every_point_near_the_contact_and_nothing_far_from_it(quantities):
+    pytest.importorskip("matplotlib", reason="Matplotlib is not installed")
+    from sie.plots.comparison_plot import overlay  # noqa: PLC0415 -- needs Matplotlib
+
+    x = np.concatenate((X, [50.0]))
+    deep = Points(*(a.ravel() for a in np.meshgrid(x, [0.0, 0.3, 30.0])), np.ones(3 * len(x)))
+    line = Points(x, 0.0 * x, np.append(-SOLUTION.pressure(X), 0.0))
+    fields = {name: line if name in "pq" else deep for name in quantities}
+    mesh = Mesh("a.csv", fields)
+    figure = overlay(SOLUTION, compare(SOLUTION, mesh, 1e-2))
+    assert max(figure.get_size_inches()) < 8.0
+    panel = figure.axes[0]
+    assert panel.get_ylim()[0] < -P.max()
+    assert panel.get_xlim()[1] < 2.0
+    assert len(panel.lines[1].get_xdata()) == len(X)
 
 
 # -- what is refused ------------------------------------------------------------------------------

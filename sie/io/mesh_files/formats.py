@@ -22,6 +22,8 @@ def read(path: str | Path, deck: str | Path | None = None) -> Raw:
     """
     path = Path(path)
     suffix = path.suffix.lower()
+    if deck is not None:
+        files.content(Path(deck), MESH.size)  # refuses what is no file, even where none is needed
     if suffix == ".frd":
         return calculix_frd.read(path)
     if suffix in by_meshio.SUFFIXES:
