@@ -196,24 +196,19 @@ def difference(name: str, solution: Solution, mesh: Mesh, guess: float = 0.0) ->
         return scale * float(np.sqrt(w @ error**2))
 
     whole = RESULTANTS[name](solution) if name in RESULTANTS else 0.0
-    shift = _best_shift(
-        lambda d, k: EXACT[name](solution, x[k] - d, y[k]),
-        (values, weight),
-        solution.half_width,
-        guess,
-    )
-    moved = EXACT[name](solution, x - shift, y) if shift else exact
+
+    def exact_at(d: float, k: slice) -> Array:
+        return EXACT[name](solution, x[k] - d, y[k])
+
+    shift = _best_shift(exact_at, (values, weight), solution.half_width, guess)
+    moved = exact_at(shift, slice(None)) if shift else exact
     factor = float(w @ (f * v) / (w @ f**2)) if f.any() else 1.0
     uniform = float(w @ e / w.sum()) if name in WITH_UNIFORM else None
-    worst = np.abs(e).argmax()
     return Difference(
-        points=len(f),
-        infinite=int(np.count_nonzero(~finite)),
+        **_counted(finite, (x, y), e),
         l1=float(w @ np.abs(e) / (w @ np.abs(measure))),
         l2=norm(e),
         largest=float(np.abs(e).max() / np.abs(measure).max()),
-        at=float(x[finite][worst]),
-        depth=float(y[finite][worst]),
         resultant=float(weight @ values) / whole - 1.0 if whole else None,
         shift=shift,
         l2_shifted=_misfit(moved, values, weight) if shift else norm(e),
@@ -225,6 +220,17 @@ def difference(name: str, solution: Solution, mesh: Mesh, guess: float = 0.0) ->
         l2_fitted=scale
         * min(_fitted(f, values, weight, uniform is not None) for f in (moved, exact)),
     )
+
+
+def _counted(finite: NDArray[np.bool_], places: tuple[Array, Array], e: Array) -> dict[str, Any]:
+    """How many points there are, and where the error is largest."""
+    worst = np.flatnonzero(finite)[np.abs(e).argmax()]
+    return {
+        "points": int(np.count_nonzero(finite)),
+        "infinite": int(np.count_nonzero(~finite)),
+        "at": float(places[0][worst]),
+        "depth": float(places[1][worst]),
+    }
 
 
 def _fitted(exact: Array, values: Array, weight: Array, uniform: bool) -> float:

@@ -205,10 +205,10 @@ def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[G
     notes: list[str] = []
     parts = len(raw.tops)
     if parts > 1 and isinstance(group.bodies, np.ndarray):
-        wanted = parts - 1 if body == "above" else 0
-        present = np.unique(group.bodies)
-        wanted = wanted if wanted in present else int(present[0])
+        wanted = _part(raw, body)
         group = group.chosen(group.bodies == wanted)
+        if not len(group.columns["x"]):
+            return group, []
         foot = float(group.columns["y"].min())
         side = "above" if wanted else "below"
         height = height if height is not None else foot if wanted else raw.tops[wanted]
@@ -229,6 +229,14 @@ def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[G
     if "sxy" in columns and side == "below" and y.min() < 0.0:
         columns["sxy"] = -columns["sxy"]
     return replace(group, columns=columns).chosen(inside), notes
+
+
+def _part(raw: Raw, body: str) -> int:
+    """The lowest part of the mesh that has stress, or the highest one for the body above."""
+    present = np.concatenate(
+        [g.bodies for g in raw.groups if set(g.columns) & set(STRESSES) and len(g.bodies)]
+    )
+    return int(present.max() if body == "above" else present.min())
 
 
 def _height_by_stress(group: Group, notes: list[str]) -> float:

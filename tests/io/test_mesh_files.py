@@ -146,6 +146,40 @@ def test_integration_points_of_a_report_are_averaged_over_elements(tmp_path):
     assert difference.points == 21
 
 
+def report(part, y, pressed):
+    """The table of one part; contact output has the names of the pair of surfaces behind it."""
+    return f"""
+Field Output reported at nodes for part: {part}
+
+            Node   CPRESS   ASSEMBLY_S/ASSEMBLY_M     COORD.COOR1     COORD.COOR2     S.S11
+           Label                           @Loc 1          @Loc 1          @Loc 1    @Loc 1
+--------------------------------------------------------------------------------------------
+{rows("{:16d}{:16.6E}{:20.12E}{:16.6E}{:16.6E}", pressed * P, X, y + 0.0 * X, SURFACE.xx * pressed)}
+
+"""
+
+
+SURFACE = SOLUTION.stress(X, 0.0)
+
+
+def test_of_two_parts_of_a_report_the_lower_one_is_compared(tmp_path):
+    text = "Field Output Report\n" + report("PUNCH-1", 7.5, 0.0) + report("BLOCK-1", 7.0, 1.0)
+    comparison = compared(text, tmp_path, "two.rpt")
+    assert comparison.differences["p"].l2 < WRITTEN
+    assert comparison.differences["sxx"].l2 < WRITTEN
+    assert any("at y = 7" in note for note in comparison.mesh.notes)
+
+
+def test_coordinates_that_a_report_lacks_come_from_the_deck(tmp_path):
+    written(tmp_path / "job.inp", DECK)
+    pressures = [(n, float(SOLUTION.pressure(NODES[n][0]))) for n in range(6, 11)]
+    lines = "\n".join(f"{n:16d}{p:16.6E}" for n, p in pressures)
+    head = "Field Output Report\n\n  Node  CPRESS\n  Label  @Loc 1\n" + 30 * "-"
+    text = f"{head}\n{lines}\n\n"
+    comparison = compared(text, tmp_path, "job.rpt", deck=tmp_path / "job.inp")
+    assert comparison.differences["p"].l2 < WRITTEN
+
+
 # -- CalculiX -------------------------------------------------------------------------------------
 
 # Two blocks of four elements in one row, the upper one from nodes 11 to 20.
@@ -380,7 +414,9 @@ def test_a_traction_on_a_curved_surface_is_compared_where_it_acts(tmp_path):
     deck = DECK
     for n in range(11, 16):
         (x, y), (_, new) = NODES[n], curved[n]
-        deck = deck.replace(f"{n}, {float(x)!r}, {y!r}, 0.", f"{n}, {float(x)!r}, {float(new)!r}, 0.")
+        deck = deck.replace(
+            f"{n}, {float(x)!r}, {y!r}, 0.", f"{n}, {float(x)!r}, {float(new)!r}, 0."
+        )
     written(tmp_path / "run.inp", deck)
     p = SOLUTION.pressure(AT)
     points = [(f"{n:10d}", (p[n - 11], 0.0, 0.0)) for n in range(11, 16)]
