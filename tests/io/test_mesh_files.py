@@ -2,6 +2,7 @@
 were made of. The layouts are those of the codes' own manuals and exports.
 """
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -252,6 +253,14 @@ def test_the_last_step_of_a_frd_file_is_read_with_the_lower_body(label, tmp_path
     assert "the last of 2 times is read, 1" in said
     assert "part 1 of 2" in said
     assert "q has the other sign" in said
+
+
+def test_contact_at_nodes_that_a_frd_file_does_not_list_is_noted(tmp_path):
+    start, title, contact = frd().partition(" -4  CONTACT")
+    moved = re.sub(r"\n -1(.{10})", lambda node: f"\n -1{int(node[1]) + 900:10d}", contact)
+    comparison = compared(start + title + moved, tmp_path, "run.frd")
+    assert set(comparison.differences) == {"sxx", "syy", "sxy", "szz"}
+    assert any("OUTPUT=3D" in note for note in comparison.mesh.notes)
 
 
 def dat(columns, points, title="contact stress", entity="all contact elements"):

@@ -38,7 +38,16 @@ def read(path: Path) -> Raw:
     """Stress and contact at the nodes, of the last step. ValueError without either."""
     mesh, blocks = _blocks(path)
     bodies = mesh.bodies()
-    groups = [_group(mesh, bodies, block) for block in _last(blocks)]
+    last = [block for block in _last(blocks) if any(map(meaning, block.components))]
+    listed = [block for block in last if not mesh.nodes.keys().isdisjoint(block.values)]
+    notes = [
+        f"{block.name} is at nodes that {path.name} does not list: have them written, OUTPUT=3D"
+        for block in last
+        if block not in listed
+    ]
+    if notes and not listed:
+        raise ValueError(notes[0])
+    groups = [_group(mesh, bodies, block) for block in listed]
     groups = [group for group in groups if set(group.columns) & set(QUANTITIES)]
     if not groups:
         found = ", ".join(sorted({block.name for block in blocks})) or "no result"
@@ -47,8 +56,9 @@ def read(path: Path) -> Raw:
             "*EL FILE with S, or *CONTACT FILE with CSTR"
         )
     times = sorted({block.time for block in blocks})
-    notes = (f"the last of {len(times)} times is read, {times[-1]:g}",) if len(times) > 1 else ()
-    return Raw(path.name, tuple(groups), notes=notes, tops=mesh.tops(bodies))
+    if len(times) > 1:
+        notes.append(f"the last of {len(times)} times is read, {times[-1]:g}")
+    return Raw(path.name, tuple(groups), notes=tuple(notes), tops=mesh.tops(bodies))
 
 
 def _last(blocks: list[_Block]) -> list[_Block]:
@@ -58,9 +68,9 @@ def _last(blocks: list[_Block]) -> list[_Block]:
 
 
 def _group(mesh: MeshGeometry, bodies: dict[int, int], block: _Block) -> Group:
-    labels = list(block.values)
+    labels = [label for label in block.values if label in mesh.nodes]
     x, y = mesh.points(labels).T
-    values = np.array(list(block.values.values()), dtype=float).T
+    values = np.array([block.values[label] for label in labels], dtype=float).T
     columns = {
         meaning(component): column
         for component, column in zip(block.components, values, strict=False)

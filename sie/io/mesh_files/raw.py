@@ -63,7 +63,8 @@ class MeshGeometry:
             return np.array([self.nodes[label] for label in labels], dtype=float).reshape(-1, 2)
         except KeyError as missing:
             raise ValueError(
-                f"{self.file} has no node {missing.args[0]}: give the input deck of the same run"
+                f"{self.file} has no node {missing.args[0]}: give the input deck of the same run, "
+                "or, as CalculiX adds nodes to plane elements, a .frd written with OUTPUT=3D"
             ) from None
 
     def corners(self, element: int) -> tuple[int, ...]:
