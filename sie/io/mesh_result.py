@@ -222,7 +222,7 @@ def _in_body(raw: Raw, group: Group, height: float | None, body: str) -> tuple[G
     side = side or ("below" if y.min() < 0.0 else "above")
     inside = y <= 0.0 if side == "below" else y >= 0.0
     if height:
-        notes.append(f"the surface is at y = {height:.6g}, the body {side} it")
+        notes.append(f"the body is {side} y = {height:.6g}")
     if body == "above":
         notes.append("the body above has the shear -q: give the scene the other tangential load")
     columns = group.columns | {"y": np.abs(y)}

@@ -577,13 +577,13 @@ def test_what_cannot_be_compared_is_refused_in_a_sentence(case, tmp_path):
 
 
 def test_the_unit_of_length_that_would_fit_is_named(tmp_path):
-    solution = replace_scale()
+    solution = in_metres()
     with pytest.raises(ValueError, match=r"x times 0\.001 would lie there"):
         compared(table("x,p", X, P), tmp_path, solution=solution)
 
 
-def replace_scale():
-    """A contact in metres, 1000 times smaller than the file, whose x has no point that is in it."""
+def in_metres():
+    """The contact in metres, beside a file in millimetres."""
     scene = replace(SOLUTION.scene, profile=sie.RoundedFlat(0.5e-3, 4e-3), normal_load=1e-3,
                     tangential_load=0.0)  # fmt: skip
     return sie.solve(scene)
