@@ -553,6 +553,9 @@ REFUSED = {
         "*CONTACT PRINT",
     ),
     "a frd file that is cut off": (frd()[:2000] + "\n -1     xyz 1.0", "a.frd", "is cut off"),
+    "a frd file that ends too early": (
+        "\n".join(frd().splitlines()[:-4]), "a.frd", "ends within a block",
+    ),
     "a frd file of displacements": (
         frd().replace("STRESS", "DISP  ").replace("CONTACT", "DISP   ").replace(" -5  S", " -5  D")
         .replace("CPRESS", "D1    ").replace("CSHEAR1", "D2     "), "a.frd", "*EL FILE",

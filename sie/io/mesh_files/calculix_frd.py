@@ -107,6 +107,8 @@ def _blocks(path: Path) -> tuple[MeshGeometry, list[_Block]]:
                 f"{path.name} is cut off or changed in line {number}, {line.strip()[:60]!r}: "
                 "give the file as CalculiX wrote it"
             ) from None
+    if section:
+        raise ValueError(f"{path.name} ends within a block: wait until CalculiX has written it")
     return mesh, blocks
 
 
