@@ -4,7 +4,7 @@
         [--want WHAT ...] [--plot FILE] [--csv FILE] [--json [FILE]]
         [--field FILE] [--grid NXxNY] [--points N] [--tol T] [--quiet] [--log LEVEL]
     sie compare scene.toml fem.csv  a mesh result against the exact one: error norms, shift
-        [--tol T] [--plot FILE] [--json [FILE]]
+        [--deck FILE] [--surface Y] [--body SIDE] [--tol T] [--plot FILE] [--json [FILE]]
     sie plan scene.toml             what would be computed, what would be skipped, and why
         [--want WHAT ...]
     sie live [scene.toml]           a page with sliders, served on this machine
@@ -40,7 +40,9 @@ from .interrupt import INTERRUPTED
 from .io import export, scene_file
 from .io.answers import wanted
 from .io.cycle_answer import cycle_of, start_of_cycle
-from .io.mesh_comparison import Comparison, compare, read_mesh
+from .io.mesh_comparison import compare
+from .io.mesh_difference import Comparison
+from .io.mesh_result import read_mesh
 from .io.report import summary
 from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES, Grid, file_bytes
@@ -150,7 +152,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     outputs = _outputs(arguments)
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
-    mesh = read_mesh(arguments.mesh)
+    mesh = read_mesh(arguments.mesh, arguments.deck, arguments.surface, arguments.body or "")
     solution = _solution(file, TOL)
     comparison = compare(solution, mesh, arguments.tol)
     contents = {
@@ -315,6 +317,8 @@ def _refuse_overwriting(
     read: dict[int | pathlib.Path, str] = {scene: "the scene file"}
     if getattr(arguments, "mesh", None) is not None:
         read[pathlib.Path(arguments.mesh)] = "the mesh result"
+        deck = arguments.deck or pathlib.Path(arguments.mesh).with_suffix(".inp")
+        read[pathlib.Path(deck)] = "the input deck"
     read |= dict.fromkeys(file.reads, "a trace that the scene reads")
     written = {f"--{kind} {path}": _place(path) for kind, path in outputs.items()} | {
         "standard output": 1

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from . import __version__
+from .io.mesh_result import BODIES
 from .messages import nearest
 from .problem.request import GRID, POINTS, UNASKED, WANTS
 from .streams import print_text
@@ -23,7 +25,8 @@ COMMANDS = {
 }
 OPTIONS = (
     "--want", "--plot", "--csv", "--json", "--field", "--grid", "--points", "--tol",
-    "--port", "--no-browser", "--quiet", "--log", "--help", "--version",
+    "--deck", "--surface", "--body", "--port", "--no-browser", "--quiet", "--log", "--help",
+    "--version",
 )  # fmt: skip
 # The files that a command reads, in the order of the command line.
 FILES = {
@@ -155,13 +158,33 @@ def _add_mesh_and_outputs(parser: argparse.ArgumentParser) -> None:
     def add(option: str, metavar: str, about: str, **given: Any) -> None:
         parser.add_argument(option, metavar=metavar, help=about, **given)
 
-    quantities = "p, q, sxx, syy, sxy, szz or mises, named in the first line"
-    add("mesh", "fem.csv", f"columns x, depth y, and {quantities}", nargs="?")
+    formats = "CalculiX .frd and .dat, Abaqus .rpt, what meshio reads, or a table of text"
+    add("mesh", "fem.csv", f"a mesh result: {formats} with x and p, q, sxx, ...", nargs="?")
+    add("--deck", "FILE", "the input deck (.inp) with the coordinates that a .dat or .rpt lacks")
+    add("--surface", "Y", "the height of the surface in the file (found)", type=_height)
+    about = "the body that is compared, below or above it (below)"
+    add("--body", "SIDE", about, type=_side)
     about = "l2 error, relative, that is let pass (%(default)s)"
     add("--tol", "T", about, type=float, default=MESH_TOL)
     add("--plot", "FILE", "draw both and their difference (needs Matplotlib)")
     norms = "write the norms; without FILE, print them"
     add("--json", "FILE", norms, nargs="?", const=STANDARD)
+
+
+def _height(text: str) -> float:
+    try:
+        height = float(text)
+    except ValueError:
+        height = math.nan
+    if not math.isfinite(height):
+        raise argparse.ArgumentTypeError(f"{text} is not a height: give y of the surface")
+    return height
+
+
+def _side(text: str) -> str:
+    if text not in BODIES:
+        raise argparse.ArgumentTypeError(f"{text} is not a side: give {' or '.join(BODIES)}")
+    return text
 
 
 def _grid(text: str) -> tuple[int, int]:

@@ -486,6 +486,18 @@ BAD = {
         ["compare", "scene.toml", "fem.csv", "--tol", "inf"],
         "tol = inf is no positive number",
     ),
+    "a height in words": (
+        ["compare", "scene.toml", "fem.csv", "--surface", "top"],
+        "top is not a height",
+    ),
+    "a height that is none": (
+        ["compare", "scene.toml", "fem.csv", "--surface", "nan"],
+        "nan is not a height",
+    ),
+    "an unknown body": (
+        ["compare", "scene.toml", "fem.csv", "--body", "left"],
+        "give below or above",
+    ),
     "no suffix": (["solve", "scene.toml", "--plot", "picture"], ".png"),
     "unknown suffix": (["solve", "scene.toml", "--plot", "out.xyz"], ".svg"),
     "output is a directory": (["solve", "scene.toml", "--csv", "."], "is a directory"),
