@@ -347,13 +347,16 @@ class StickProblem:
             parts = (slice(i, i + step) for i in range(0, len(x), step))
             return np.concatenate([self._differences(x[part], g[part]) for part in parts])
         apart = self._apart(x)
-        panels = self.rule.x.reshape(-1, NODES)
-        close = np.abs(apart) < np.repeat(CLOSE * np.ptp(panels, axis=1), NODES)
+        # By the distance from the nearer end of the stick zone nodes next to it differ
+        at_left = self.rule.left < self.rule.right
+        nodes = np.where(at_left, self.rule.left, -self.rule.right)
+        widths = np.ptp(nodes.reshape(-1, NODES), axis=1)
+        close = np.abs(apart) < np.repeat(CLOSE * widths, NODES)
         quotients = (self.of_rule[1] - g[:, None]) / np.where(close, 1.0, apart)
         for i, j in zip(*np.nonzero(close), strict=True):
             # So close, rounding counts: the value is interpolated from the others of the panel
             panel = slice(j - j % NODES, j - j % NODES + NODES)
-            quotients[i, j] = quotients[i, panel] @ _from_others(self.rule.x[panel], j % NODES)
+            quotients[i, j] = quotients[i, panel] @ _from_others(nodes[panel], j % NODES)
         values: Array = quotients @ self.rule.weight
         return values
 
