@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -209,8 +209,13 @@ class TangentialSearch:
 
     def gradient_of_rest(self, sliding: SlidingDensity, rule: Rule) -> Array:
         """γ_d at the places of a rule."""
-        f, beta = self.friction, self.beta
-        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * sliding(rule.x)
+        f, beta, (x1, x2) = self.friction, self.beta, sliding.interval
+        # Next to a narrow slip zone the singular ends vary over fewer doubles than x tells apart
+        to_left, to_right = rule.left + (rule.ends[0] - x1), rule.right + (x2 - rule.ends[1])
+        ends = 0.5 * (sliding.k1 * to_right + sliding.k2 * to_left)
+        ends *= to_right ** (self.theta - 0.5) * to_left ** (-self.theta - 0.5)
+        p = replace(sliding, k1=0.0, k2=0.0)(rule.x) + ends
+        return self.gamma(rule.x) - f * self.H(rule.x) - beta * (1.0 + f * f) * p
 
     # -- the search --------------------------------------------------------------------------------
 

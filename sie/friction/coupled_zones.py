@@ -72,9 +72,10 @@ class Zones(NamedTuple):
 class Rule(NamedTuple):
     """Places in the stick zone, their distances from its ends, and weights.
 
-    The weights are those of (x - e1)^-a1 (e2 - x)^-a2 dx.
+    The weights are those of (x - e1)^-a1 (e2 - x)^-a2 dx; `ends` are e1 and e2.
     """
 
+    ends: tuple[float, float]
     x: Array
     left: Array
     right: Array
@@ -114,7 +115,7 @@ def stick_rule(zones: Zones, exponents: tuple[float, float], cuts: Array, neares
     )
     x = np.where(left < right, zones.e1 + left, zones.e2 - right)
     weight = np.append(mass, others[::-1]) * left ** -exponents[0] * right ** -exponents[1]
-    return Rule(x, left, right, weight)
+    return Rule((zones.e1, zones.e2), x, left, right, weight)
 
 
 class Map:

@@ -560,6 +560,17 @@ def test_contact_in_several_patches_is_refused(profile, words):
         _ = sie.solve(scene).edges
 
 
+@pytest.mark.parametrize(("beta", "friction", "load"), [(0.0864, 0.0696, 1.07), (0.033, 0.3, 0.29)])
+def test_a_symmetric_trace_is_solved_whatever_the_rounding_of_its_axis(beta, friction, load):
+    x = np.linspace(-3.0, 3.0, 61)
+    loads = {"modulus": 2.0, "dundurs": beta, "friction": friction, "normal_load": load}
+    trace, parabola = (
+        sie.solve(sie.Scene(profile=profile, **loads))
+        for profile in (sie.Sampled(x, 0.5 * x * x), sie.Parabola(1.0))
+    )
+    assert trace.stick[0] == pytest.approx(parabola.stick[0], rel=1e-9)
+
+
 def test_a_path_of_dissimilar_bodies_is_refused():
     with pytest.raises(sie.ContactError, match="path of dissimilar bodies"):
         sie.follow(scene(), sie.Path([(1.0, 0.0), (0.5, 0.0)]))

@@ -99,6 +99,7 @@ def test_certificate_holds_from_narrow_slip_zones_to_incipient_sliding(beta, fri
         (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 0.5),
         (sie.RoundedFlat(0.5, 1.0), -0.07, 0.3, 1e-3),
         (sie.RoundedFlat(0.2, 1.0), 0.13, 0.36, -0.026),
+        (sie.RoundedFlat(0.393, 1.0), 0.057, 0.27, -3e-6),
         (sie.Parabola(1.0), 0.0015, 0.031, 8e-5),
         (sie.FromFunction(slope="sinh(x)"), 0.0022, 0.037, 2.5e-5),
         (sie.Power(4.0, 0.4), -0.024, 1.42, -6.4e-6),
