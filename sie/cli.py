@@ -44,7 +44,7 @@ from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
-from .problem.request import GRID
+from .problem.request import GRID, refuse_unknown_poisson
 from .solution import Solution, solve
 from .streams import discard_output, print_error, print_text
 
@@ -102,6 +102,8 @@ def _solve(arguments: argparse.Namespace) -> int:
             "give [load] path, or --csv in place of --history"
         )
     _refuse_overwriting(arguments, outputs, file)
+    if "yield" in file.want or "field" in outputs:
+        refuse_unknown_poisson(file.scene)
     solution = _solution(file, arguments.tol)
     contents = {
         path: _content(kind, path, solution, file, arguments) for kind, path in outputs.items()

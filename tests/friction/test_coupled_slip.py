@@ -560,6 +560,15 @@ def test_contact_in_several_patches_is_refused(profile, words):
         _ = sie.solve(scene).edges
 
 
+def test_first_yield_without_poissons_ratio_is_refused_before_any_work():
+    solution = sie.solve(
+        sie.Scene(profile=sie.Wedge(0.1), modulus=2.0, dundurs=0.3, friction=0.3, normal_load=1.0)
+    )
+    with pytest.raises(ValueError, match="give poisson"):
+        solution.elastic_limit()
+    assert "pressed" not in vars(solution)
+
+
 @pytest.mark.parametrize(("beta", "friction", "load"), [(0.0864, 0.0696, 1.07), (0.033, 0.3, 0.29)])
 def test_a_symmetric_trace_is_solved_whatever_the_rounding_of_its_axis(beta, friction, load):
     x = np.linspace(-3.0, 3.0, 61)
