@@ -57,6 +57,7 @@ NOWHERE = np.zeros(0)
 WINDOW = 1.02  # times the widest contact: where the slope is resolved
 FIRST = (0.5, 0.99, 0.9, 0.1)  # parts of f P from which the load is followed
 AT_EDGE = 1e-4  # half-widths
+SLIVER = 1e-2  # of it: where the last point to stick is so near, there are zones only next to f P
 # Half-widths: nearer edges pass a corner of the profile; others keep such a part of the distance
 AT_CORNER, NEARER = 1e-4, 0.03
 FOLDS = 1.5  # by which a step may change a logarithm
@@ -243,8 +244,9 @@ class TangentialSearch:
                     break
             elif first is not None:
                 opposed = True
-        if opposed:
-            least = min(least, self.limit)
+        beside = self._last_stick[0] - self._bounds[0] < SLIVER * self.normal.b
+        if opposed or (least == math.inf and beside):
+            least, opposed = min(least, self.limit), True
         raise refused_load(self.beta * self.friction, (Q, least, self.limit), opposed)
 
     def least_slip(self, trial: Trial) -> float:
