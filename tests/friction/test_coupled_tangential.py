@@ -629,6 +629,13 @@ def test_what_is_not_solved_is_refused_before_any_work(changes, words):
         sie.solve(replace(scene(), **changes))
 
 
+def test_a_tilted_parabola_is_refused_with_the_profile_that_is_solved():
+    with pytest.raises(sie.ContactError, match=re.escape("give profile.tilted(0.1)")):
+        sie.solve(replace(scene(), tilt=0.1))
+    tilted, upright = solved(sie.Parabola(1.0).tilted(0.1)), solved()
+    assert zones(tilted) == pytest.approx(zones(upright) - 0.1, abs=1e-11)
+
+
 def test_paths_are_refused_with_what_is_missing():
     path = sie.Path([(1.0, 0.1), (1.0, 0.0)])
     with pytest.raises(sie.ContactError, match="unloading of P or a reversal of Q"):
