@@ -12,6 +12,7 @@ import pytest
 
 import sie
 from analytic import goodman
+from oracles import spence
 from sie.certificate.coupled_check import coupled_certificate
 from sie.friction import coupled_flat
 from sie.friction.coupled_flat import flat_punch
@@ -67,6 +68,12 @@ def test_stick_zone_and_central_pressure_of_a_flat_agree_with_other_formulations
     solution = solved(sie.Flat(1.0), *pair)
     assert solution.stick[0][1] == pytest.approx(c, abs=2e-11)
     assert float(solution.pressure(0.0)) == pytest.approx(p0, rel=2e-11)
+
+
+@pytest.mark.parametrize("pair", spence.SLIP_WIDTHS)
+def test_slip_zone_is_as_narrow_as_in_forty_digits(pair):
+    width = flat_punch(*pair).modulus.rest
+    assert width == pytest.approx(spence.SLIP_WIDTHS[pair], rel=1e-10)
 
 
 @pytest.mark.parametrize("pair", REFERENCES)
