@@ -48,7 +48,7 @@ from .io.scene_file import SceneFile
 from .io.stress_grid import SUFFIXES, Grid, file_bytes
 from .messages import with_short_words
 from .plan import plan
-from .problem.request import GRID
+from .problem.request import GRID, refuse_unknown_poisson
 from .solution import Solution, solve
 from .stages import LOG
 from .streams import (
@@ -111,6 +111,8 @@ def _solve(arguments: argparse.Namespace) -> int:
     file = _scene(arguments)
     _refuse_overwriting(arguments, outputs, file)
     _refuse_open_path(file)
+    if "yield" in file.want or "field" in outputs:
+        refuse_unknown_poisson(file.scene)
     solution = _solution(file, arguments.tol)
     cycle = cycle_of(solution, file) if "cycle" in file.want else None
     contents = {

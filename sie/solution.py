@@ -50,7 +50,7 @@ from .patches.full import FullContact
 from .patches.result import PatchCertificate, worst_of
 from .problem.coverage import refuse_uncovered
 from .problem.material import Elastic
-from .problem.request import ECONOMY, sheared
+from .problem.request import ECONOMY, refuse_unknown_poisson, sheared
 from .problem.scene import Scene
 from .profiles.placed_traces import explained
 from .profiles.slope import Slope
@@ -733,6 +733,7 @@ class Solution:
         >>> round(found.y / found.half_width, 2)
         0.7
         """
+        refuse_unknown_poisson(self.scene)
         return elastic_limit(self.tractions, self.normal_load, criterion)
 
     def peak_tension(self) -> Peak:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable
 
 from sie import arguments
 
+from .material import NO_POISSON
 from .scene import Scene
 
 # What can be asked for in a scene file, on the command line and of `sie.plan`.
@@ -44,6 +45,12 @@ def wanted(want: str | Iterable[str]) -> tuple[str, ...]:
     if not names:
         raise ValueError(f"nothing is wanted: ask for {', '.join(WANTS)}")
     return names
+
+
+def refuse_unknown_poisson(scene: Scene) -> None:
+    """Raises ValueError where what needs Poisson's ratio is asked for without one."""
+    if scene.body is None and scene.poisson is None:
+        raise ValueError(NO_POISSON)
 
 
 def energy_costs(scene: Scene) -> bool:
