@@ -24,10 +24,12 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
+from sie.numerics.halving import integral
 from sie.numerics.interval import EPS, Interval
 from sie.traction.of_slope import SlopeDensity
 
 from .coupled_traction import Panels, resolved_panels
+from .growing_contact import LoadChange
 from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
 from .slip_zones import Drive, SlipZone, SlipZones, excess
@@ -68,10 +70,14 @@ class Receded(MarchedStep):
 
     found     the stick zone, and the zones in which q changed
     error     what the equations of the ends miss, over the loads
+    change    the change of loads in the whole step, None at constant pressure
+    begun     the share of the step at its start, which it ends
     """
 
     found: SlipZones
     error: float = 0.0
+    change: LoadChange | None = None
+    begun: float = 0.0
 
     @property
     def stick(self) -> Interval:
@@ -81,12 +87,21 @@ class Receded(MarchedStep):
     def reach(self) -> tuple[float, float]:
         return self.stick.x1, self.stick.x2
 
-    def under(self, pressure: SlopeDensity, loads: tuple[float, float]) -> Receded:
-        """The same under another pressure, Q and τ, with slip in the same directions."""
-        return receded(self.before, pressure, self.friction, loads, Ends(self.signs))
+    @cached_property
+    def work(self) -> float:
+        """f ∫∫ p |dΔg| dx."""
+        change = self.change
+        if change is None:
+            return self.integrals.work
 
-    def power(self, rates: tuple[float, float, float, float]) -> float:
-        """f ∫p |dΔg/dt| dx from dP/dt, dQ/dt, dτ/dt and E*/2 times that of the tilt.
+        def power(share: float) -> float:
+            p, loads = change.pressure(share), change.shear(share)
+            return receded(self.before, p, self.friction, loads, Ends(self.signs))._power(change)
+
+        return integral(power, power(0.5 * (1.0 + self.begun)), (self.begun, 1.0))
+
+    def _power(self, change: LoadChange) -> float:
+        """f ∫p |dΔg/dt| dx, the time as a share of the step.
 
         Slip in one direction s is the layer A = dP - s dQ/f, B = E*/2 dθ - s dτ/f of the stick zone
 
@@ -95,7 +110,8 @@ class Receded(MarchedStep):
         where it is opposite on the other side, dp acts twice there.
         """
         contact, f, rho, total = self.pressure.contact, self.friction, self.stick.r, 0.0
-        dP, dQ, dtau, strain = rates
+        dP, dQ, dtau, *_ = change.rates
+        strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
         zones = self._whole_zones
         for k, (zone, sign) in enumerate(zip(zones, self.signs, strict=True)):
             v = zone.from_stick / rho  # v - 1

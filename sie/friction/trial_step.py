@@ -52,6 +52,8 @@ class Marchable(Protocol):
     arm             π r₀
     pressure_at     the pressure under loads, in one patch
     sheared_by      Q and τ of loads
+    curved          whether the tilt follows from a moment
+    by_moment       whether moments are added along the path, not tilts
     """
 
     scene: Scene
@@ -62,6 +64,10 @@ class Marchable(Protocol):
     def arm(self) -> float: ...
     def pressure_at(self, loads: Loads) -> SlopeDensity: ...
     def sheared_by(self, loads: Loads) -> tuple[float, float]: ...
+    @property
+    def curved(self) -> bool: ...
+    @property
+    def by_moment(self) -> bool: ...
 
 
 @dataclass(frozen=True, eq=False)
