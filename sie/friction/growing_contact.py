@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
-from sie.numerics.interval import Interval
+from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
@@ -163,7 +163,9 @@ def course(change: LoadChange, lo: float) -> Course:
             shares = lo + (hi - lo) * 0.5 * (1.0 + chebyshev.points(terms))
             edges = [change.pressure(share).contact for share in shares.tolist()]
             series = chebyshev.transform(np.array([(e.x1, e.x2) for e in edges]).T)
-            if np.abs(series[:, -2:]).max() <= RESOLVED * max(edge.r for edge in edges):
-                return Course(change.contacts, change.start, change.end, lo, hi, *series)
+            r = max(edge.r for edge in edges)
+            if np.abs(series[:, -2:]).max() <= RESOLVED * r:
+                left, right = (c[: chebyshev.chopped_length(c, EPS * r)] for c in series)
+                return Course(change.contacts, change.start, change.end, lo, hi, left, right)
         hi = lo + 0.25 * (hi - lo)
     raise ContactError("the edges of the contact do not move smoothly")

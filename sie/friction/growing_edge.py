@@ -25,7 +25,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,17 +48,20 @@ RESOLVED = 1e-12  # of ρ: what the last terms of a panel leave of its end
 FIRST, SHORTEST = 0.05, 1e-8  # of ρ: the first panel, and one that goes to a mark in any case
 MOST_STEPS, SETTLED = 12, 1e-14
 MOST_PANELS = 300
+TOGETHER = 40_000  # values at a time
 SAME = 1e-12  # of a half-width: places that are nearer to each other are one
 WATCHED = 0.5 * (1.0 + np.linspace(-1.0, 1.0, 17))  # of a panel: where it is seen whether it sticks
 WORK_NODES = 10
 _g, _w = chebyshev.gauss_legendre(NODES)
-STEADY = np.r_[1.0, 1.0, np.zeros(TERMS - 2)]  # of M, for time in proportion to the distance
+STEADY = np.ones(2)  # of M, for time in proportion to the distance
 HALVINGS, NEWTON, TINY = 8, 6, 1e-12  # for w at a time
 GRADED: Rule = (RISE, FALL, WEIGHT)
+ROUGH: Rule = (np.sin(0.5 * math.pi * _g) ** 2, np.cos(0.5 * math.pi * _g) ** 2, 0.5 * math.pi * np.sin(math.pi * _g) * _w)
 PLAIN: Rule = (_g**2, (1.0 - _g) * (1.0 + _g), 2.0 * _g * _w)
 
 
-class Panel(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Panel:
     """t = time + length w M, M = Σ c_n T_n(2w - 1), w² = (u - start)/length, up to w = `last`."""
 
     start: float
@@ -83,10 +85,15 @@ class Panel(NamedTuple):
 
     def pace(self, w: Array) -> Array:
         """dt/du."""
-        s = 2.0 * w - 1.0
-        slope = divided(self.series, s, s)
-        pace: Array = 0.5 * chebyshev.evaluate(self.series, s) / w + slope
+        pace: Array = chebyshev.evaluate(self._doubled, 2.0 * w - 1.0) / (2.0 * w)
         return pace
+
+    @cached_property
+    def _doubled(self) -> Array:
+        """M + w dM/dw as a series."""
+        s = chebyshev.points(len(self.series))
+        slope = divided(self.series, s, s)
+        return chebyshev.transform(chebyshev.evaluate(self.series, s) + (1.0 + s) * slope)
 
     def root(self, time: Array) -> Array:
         """w at times, by halving and Newton's method."""
@@ -134,9 +141,11 @@ class Zone:
 
     def turn(self, time: Array) -> Array:
         """B at times."""
+        pull = self.sign * self.rates.tau / self.friction
+        if not self.rates.by_moment:
+            return np.full(time.shape, self.rates.turn - pull)
         near, far = self.edge(time), self.far_edge(time)
-        strain = self.rates.strain(0.5 * (near + far), 0.5 * (near - far))
-        turn: Array = strain - self.sign * self.rates.tau / self.friction
+        turn: Array = self.rates.strain(0.5 * (near + far), 0.5 * (near - far)) - pull
         return turn
 
     def held_by(self, time: Array, u: Array) -> tuple[Array, Array]:
@@ -216,7 +225,7 @@ class EdgeSticks(MarchedStep):
         panels = [panel for panel in self.panels if panel.time < share]
         last = panels[-1]
         if last.until > share:
-            panels[-1] = last._replace(last=float(last.root(np.array(share))))
+            panels[-1] = replace(last, last=float(last.root(np.array(share))))
         course = self.zone.course
         Q, tau = course.shear(share)
         p = course.pressure(share)
@@ -225,16 +234,17 @@ class EdgeSticks(MarchedStep):
     def slip(self, x: Array) -> Array:
         place, total = self.zone.direction * x, np.zeros(len(x))
         for panel in self.panels:
-            low = np.minimum(np.maximum(panel.start, place), panel.end)
-            length = panel.end - low
-            beside = np.maximum(low - place, 0.0)
-            w = np.sqrt(((low - panel.start)[:, None] + length[:, None] * RISE) / panel.length)
-            time = panel.times(w)
-            u = panel.start + panel.length * w**2
-            rho, pace = 0.5 * (self.zone.edge(time) - u), panel.pace(w)
-            v = (beside[:, None] + length[:, None] * RISE) / rho
-            rate = self._rate(v, rho, time) * pace
-            total += length * (rate @ WEIGHT)
+            far = panel.start - place > panel.end - panel.start
+            for some, rule in _rows(far, PLAIN) + _rows(~far & (place < panel.end), GRADED):
+                low = np.maximum(panel.start, place[some])[:, None]
+                length = (panel.end - low) * rule[0]
+                u = low + length
+                w = np.sqrt(((low - panel.start) + length) / panel.length)
+                time = panel.times(w)
+                rho = 0.5 * (self.zone.edge(time) - u)
+                v = (np.maximum(panel.start - place[some], 0.0)[:, None] + length) / rho
+                rate = self._rate(v, rho, time) * panel.pace(w)
+                total[some] += (panel.end - low)[:, 0] * (rate @ rule[2])
         return total
 
     def _rate(self, v: Array, rho: Array, time: Array) -> Array:
@@ -275,33 +285,33 @@ def added(zone: Zone, panels: tuple[Panel, ...], place: Array) -> Array:
     touched = zone.course.passes(zone.direction > 0.0, zone.direction * place)
     for panel in panels:
         begun, until = (zone.edge(np.array(t)) for t in (panel.time, panel.until))
-        length = panel.end - panel.start
-        far = (place - panel.end > length) & (begun - place > until - begun)
-        here = ~far & (touched < panel.until)
-        for rows, rule in ((far, PLAIN), (here, GRADED)):
-            for some in np.array_split(np.flatnonzero(rows), max(1, rows.sum() // 512)):
-                if some.size:
-                    total[some] += _integral(zone, panel, place[some], touched[some], rule)
+        far = (place - panel.end > panel.end - panel.start) & (begun - place > until - begun)
+        for some, rule in _rows(far, PLAIN) + _rows(~far & (touched < panel.until), GRADED):
+            kernel, w, _ = _kernel(zone, panel, place[some], touched[some], rule)
+            total[some] += (kernel[0] * panel.pace(w)).sum(axis=1)
     return total
 
 
-def _integral(zone: Zone, panel: Panel, place: Array, touched: Array, rule: Rule) -> Array:
-    kernel, w, _, _ = _kernel(zone, panel, place, touched, rule)
-    total: Array = (kernel * panel.pace(w)).sum(axis=1)
-    return total
+def _rows(chosen: NDArray[np.bool_], rule: Rule) -> list[tuple[NDArray[np.intp], Rule]]:
+    """Places that are treated by a rule, a few at a time."""
+    rows = np.flatnonzero(chosen)
+    step = max(1, TOGETHER // len(rule[0]))
+    return [(rows[k : k + step], rule) for k in range(0, len(rows), step)]
 
 
 def _kernel(
     zone: Zone, panel: Panel, place: Array, touched: Array, rule: Rule
-) -> tuple[Array, Array, Array, Array]:
-    """The kernel dq*/dt du of places at nodes w, and its derivative by time there.
+) -> tuple[tuple[Array, Callable[[], Array]], Array, Array]:
+    """The kernel dq*/dt du of places at nodes w, and a function for its derivative by time.
 
     `touched`: when each came into contact.
     """
     rise, fall, weight = rule
     late = touched > panel.time
     begun = np.where(late, touched, panel.time)
-    first = np.where(late, panel.root(begun), 0.0)
+    first = np.zeros(len(place))
+    if late.any():
+        first[late] = panel.root(touched[late])
     low = panel.start + panel.length * first**2
     high = np.minimum(panel.end, place)
     length = (high - low)[:, None]
@@ -320,11 +330,15 @@ def _kernel(
     behind = (place - high)[:, None] + length * fall
     turn = zone.turn(time)
     root = np.sqrt(behind * ahead)
-    dt = length * weight
+    du = length * weight
     rate = (zone.load / math.pi - 0.5 * turn * (behind - ahead)) / root
-    pace = zone.direction * course.moved(right, time, time)
-    change = 0.5 * pace * (turn / root - rate / ahead)
-    return dt * rate, w, dt * change, time
+
+    def change() -> Array:
+        pace = zone.direction * course.moved(right, time, time)
+        by_time: Array = du * 0.5 * pace * (turn / root - rate / ahead)
+        return by_time
+
+    return (du * rate, change), w, time
 
 
 # -- the way ---------------------------------------------------------------------------------------
@@ -382,7 +396,7 @@ def _way(
             continue
         over = panel.until >= zone.course.hi
         if over:
-            panel = panel._replace(last=float(panel.root(np.array(zone.course.hi))))
+            panel = replace(panel, last=float(panel.root(np.array(zone.course.hi))))
         panel, slips = _watched(zone, panel)
         panels.append(panel)
         if slips or over:
@@ -412,11 +426,11 @@ def _solved(
     pace = _first_pace(zone, known, (u, start, length, time), span)
     if pace is None:
         return None
-    panel = Panel(start, length, time, 0.5 * pace * STEADY[:terms])
+    panel = Panel(start, length, time, 0.5 * pace * np.pad(STEADY, (0, terms - 2)))
     touched = np.full(terms, zone.course.lo)
     before = math.inf
     for _ in range(MOST_STEPS):
-        kernel, nodes, change, times = _kernel(zone, panel, u, touched, GRADED)
+        (kernel, change), nodes, times = _kernel(zone, panel, u, touched, GRADED)
         if not (np.isfinite(kernel).all() and times.max() <= zone.course.hi + 2.0 * span):
             return None
         s, slopes = 2.0 * nodes - 1.0, panel.pace(nodes)
@@ -424,9 +438,9 @@ def _solved(
         T = chebyshev.polynomials(terms, s)
         dT = _derivatives(T, s)
         matrix = ((0.5 * T / nodes + dT) * kernel).sum(axis=2).T
-        matrix += (T * (length * nodes * change * slopes)).sum(axis=2).T
+        matrix += (T * (length * nodes * change() * slopes)).sum(axis=2).T
         step = np.linalg.solve(matrix, -missed)
-        panel = panel._replace(series=panel.series + step)
+        panel = replace(panel, series=panel.series + step)
         largest = float(np.abs(step).max() / np.abs(panel.series).max())
         if largest <= SETTLED or (largest <= 1e-9 and largest >= 0.3 * before):
             break
@@ -460,7 +474,7 @@ def _first_pace(
 
     def missed(pace: float) -> float:
         panel = Panel(start, length, time, 0.5 * pace * STEADY)
-        kernel, *_ = _kernel(zone, panel, last, touched, GRADED)
+        (kernel, _), *_ = _kernel(zone, panel, last, touched, ROUGH)
         return float(known[-1] + pace * kernel.sum())
 
     high = span / length
@@ -506,7 +520,7 @@ def _watched(zone: Zone, panel: Panel) -> tuple[Panel, float]:
                 raise ContactError("the edge slips at once")
             at = false_position(left, *ends, (float(room[j]), float(room[j + 1])), _settled)
             first = min(first, (at, sign))
-    return (panel._replace(last=first[0]), first[1]) if first[1] else (panel, 0.0)
+    return (replace(panel, last=first[0]), first[1]) if first[1] else (panel, 0.0)
 
 
 def _settled(a: float, b: float, value: float) -> bool:
@@ -522,6 +536,6 @@ def _again(zone: Zone, missing: Callable[[Array], Array], panels: tuple[Panel, .
         found = _solved(zone, missing, again, place, FEWER) or panel
         again = (*again, found)
         time = found.until
-    last = again[-1]._replace(last=1.0)
+    last = replace(again[-1], last=1.0)
     at = float(last.root(np.array(min(panels[-1].until, last.until))))
     return last.start + last.length * at**2
