@@ -163,19 +163,16 @@ class EdgeSticks(MarchedStep):
 
     zone     the stick zone in the direction of the edge
     panels   the time on the way of the end
+    share    the share of the step at its end
     error    the error of the end of the way over its half-width, from fewer terms
     slips    the sign of the slip that begins at the edge at the end, 0 if none does
     """
 
     zone: Zone
     panels: tuple[Panel, ...]
+    share: float
     error: float = 0.0
     slips: float = 0.0
-
-    @property
-    def share(self) -> float:
-        """The share of the step at its end."""
-        return self.panels[-1].until
 
     @property
     def then(self) -> Onset:
@@ -229,7 +226,7 @@ class EdgeSticks(MarchedStep):
         course = self.zone.course
         Q, tau = course.shear(share)
         p = course.pressure(share)
-        return replace(self, pressure=p, Q=Q, tau=tau, panels=tuple(panels))
+        return replace(self, pressure=p, Q=Q, tau=tau, panels=tuple(panels), share=share)
 
     def slip(self, x: Array) -> Array:
         place, total = self.zone.direction * x, np.zeros(len(x))
@@ -370,10 +367,10 @@ def edge_sticks(
     judge = _again(zone, missing, panels)
     rho = 0.5 * (float(zone.edge(np.array(panels[-1].until))) - panels[-1].end)
     error = abs(judge - panels[-1].end) / rho
-    end = panels[-1].until
+    end = panels[-1].until if slips else course.hi
     Q, tau = course.shear(end)
     p = course.pressure(end) if end < course.hi else edge
-    return EdgeSticks(before, p, f, signs, Q, tau, zone, panels, error, slips)
+    return EdgeSticks(before, p, f, signs, Q, tau, zone, panels, end, error, slips)
 
 
 def _way(
