@@ -13,10 +13,10 @@ The derivation is in docs/derivations/marching.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -24,8 +24,10 @@ from numpy.typing import NDArray
 
 from sie.errors import ContactError
 from sie.numerics import chebyshev
+from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.halving import integral
 from sie.numerics.interval import EPS, Interval
+from sie.numerics.root_finding import false_position
 from sie.traction.of_slope import SlopeDensity
 
 from .coupled_traction import Panels, resolved_panels
@@ -36,6 +38,7 @@ from .slip_zones import Drive, SlipZone, SlipZones, excess
 
 Array = NDArray[np.float64]
 
+ROUNDING = 64.0 * EPS  # of the loads: what steps may no longer make smaller
 # Of a half-width, and of all that may slip: where the search begins, and how it goes on.
 HALVINGS, FIRST, TRIED = (
     5,
@@ -43,13 +46,21 @@ HALVINGS, FIRST, TRIED = (
     (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6),
 )
 GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
-DIFFERENCE, MOST_STEPS, LEAST_SHARE = 1e-6, 30, 1e-3  # of Newton's method
+DIFFERENCE, MOST_STEPS, LEAST_SHARE, KEPT = 1e-6, 40, 1e-3, 0.05  # of Newton's method
 SETTLED = 1e-11  # of the loads: what is missed where no step makes it smaller
 TINY = 1e-300
 NO_ZONE = "no stick zone inside the contact balances the loads"
 # of the drive: a mark that misses its equation by less is the end of the stick zone
 BALANCED = 1e-12
+TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
+
+
+_angle, ANGLE = (
+    part.ravel()
+    for part in on_panels(0.5 * math.pi * np.concatenate(([0.0], graded(5), [0.5, 1.0])))
+)
+SINE, COSINE = np.sin(_angle) ** 2, np.cos(_angle) ** 2  # of a zone: graded towards the stick zone
 
 
 class Ends(NamedTuple):
@@ -89,19 +100,23 @@ class Receded(MarchedStep):
 
     @cached_property
     def work(self) -> float:
-        """f ∫∫ p |dΔg| dx."""
+        return super().work if self.change is None else moving_work(self, self.change)
+
+    def at(self, share: float, near: Receded | None = None) -> Receded:
+        """The state at another share of the step, with slip in the same directions."""
         change = self.change
-        if change is None:
-            return self.integrals.work
+        assert change is not None
+        p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
+        return receded(self.before, p, self.friction, loads, Ends(self.signs), stick)
 
-        def power(share: float) -> float:
-            p, loads = change.pressure(share), change.shear(share)
-            return receded(self.before, p, self.friction, loads, Ends(self.signs))._power(change)
+    def keeps_direction(self, change: LoadChange) -> bool:
+        """Whether slip goes on in the direction of its zone, up to both edges."""
+        rates = [s * g for (_, g), s in zip(self.slip_rates(change), self.signs, strict=True)]
+        room = TURNED * max(float(np.abs(g).max(initial=0.0)) for g in rates)
+        return all(float(g.min(initial=0.0)) >= -room for g in rates)
 
-        return integral(power, power(0.5 * (1.0 + self.begun)), (self.begun, 1.0))
-
-    def _power(self, change: LoadChange) -> float:
-        """f ∫p |dΔg/dt| dx, the time as a share of the step.
+    def slip_rates(self, change: LoadChange) -> list[tuple[SlipZone, Array]]:
+        """The zones of slip and dΔg/dt in them, the time as a share of the step.
 
         Slip in one direction s is the layer A = dP - s dQ/f, B = E*/2 dθ - s dτ/f of the stick zone
 
@@ -109,30 +124,32 @@ class Receded(MarchedStep):
 
         where it is opposite on the other side, dp acts twice there.
         """
-        contact, f, rho, total = self.pressure.contact, self.friction, self.stick.r, 0.0
+        contact, f, rho = self.pressure.contact, self.friction, self.stick.r
         dP, dQ, dtau, *_ = change.rates
         strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
-        zones = self._whole_zones
+        zones, found = self._whole_zones, []
         for k, (zone, sign) in enumerate(zip(zones, self.signs, strict=True)):
             v = zone.from_stick / rho  # v - 1
             root = np.sqrt(v * (v + 2.0))
             load, turn = dP - sign * dQ / f, strain - sign * dtau / f
             rate = load / math.pi * np.log1p(v + root) + (1.0, -1.0)[k] * rho * turn * root
             if self.signs[0] != self.signs[1]:
-                far = zones[1 - k]
-                w = np.sqrt(far.from_edge * (2.0 * contact.r - far.from_edge))
-                at = (-1.0, 1.0)[1 - k] * (contact.r - far.from_edge)
-                dp = far.weight * (dP / math.pi - strain * at) / w
+                length = zones[1 - k].length
+                inner, from_edge = length * SINE, length * COSINE
+                at = (-1.0, 1.0)[1 - k] * (contact.r - from_edge)
+                # dp dξ with dξ/sqrt(from_edge) = 2 sqrt(inner) dψ
+                dp = (dP / math.pi - strain * at) / np.sqrt(2.0 * contact.r - from_edge)
+                dp *= 2.0 * np.sqrt(inner) * ANGLE
                 near = zone.from_stick / (zone.from_stick + 2.0 * rho)
-                beyond = far.from_stick / (far.from_stick + 2.0 * rho)
+                beyond = inner / (inner + 2.0 * rho)
                 rate -= 4.0 / math.pi * np.arctanh(np.sqrt(near[:, None] * beyond)) @ dp
-            total -= f * float(zone.force @ rate)
-        return f * total / self.pressure.half_modulus
+            found.append((zone, -sign * f * rate / self.pressure.half_modulus))
+        return found
 
     @property
     def _whole_zones(self) -> tuple[SlipZone, SlipZone]:
         """The zones of slip from the edges of contact, with the pressure."""
-        contact, marks = self.pressure.contact, np.array([*self._places, *self.marks])
+        contact, marks = self.pressure.contact, np.array(self.pressure.breaks)
         left, right = (
             FrozenEdge(edge, side, 2.0 * contact.r, self.pressure, marks).zone(side * (edge - end))
             for side, edge, end in zip(
@@ -195,8 +212,12 @@ def receded(
     friction: float,
     loads: tuple[float, float],
     ends: Ends,
+    near: Interval | None = None,
 ) -> Receded:
-    """The state under a pressure and the loads Q and τ. Raises ContactError where there is none."""
+    """The state under a pressure and the loads Q and τ. Raises ContactError where there is none.
+
+    `near`: a stick zone near by, to begin the search with.
+    """
     (signs, goes_on), (Q, tau) = ends, loads
     old, new = before.pressure.contact, pressure.contact
     left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
@@ -213,7 +234,8 @@ def receded(
     frames = beside(left, -1.0, signs[0]), beside(right, 1.0, signs[1])
     drive = Drive((Q - before.Q) / friction, math.pi * (tau - before.tau) / friction, *signs)
     equations = Equations(frames, outer, drive)
-    lengths = equations.at_marks(equations.solution())
+    guess = None if near is None else np.array([near.x1 - left, right - near.x2])
+    lengths = equations.at_marks(equations.solution(guess))
     zones = frames[0].zone(lengths[0]), frames[1].zone(lengths[1])
     found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)
     error = float(np.abs(equations.missed(lengths)).max())
@@ -240,8 +262,12 @@ class Equations:
         size = abs(self.drive.load) + self.outer.r * abs(self.drive.strain)
         return excess(zone, other, self.outer.r, self.drive, k) / size
 
-    def solution(self) -> tuple[float, float]:
+    def solution(self, guess: Array | None = None) -> tuple[float, float]:
         """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
+        if guess is not None and (guess > 0.0).all() and guess.sum() < 2.0 * self.outer.r:
+            lengths = self._by_newton(guess)
+            if lengths is not None:
+                return float(lengths[0]), float(lengths[1])
         for sweeps, halvings in GUESSES:
             lengths = self._by_newton(self._guess(sweeps, halvings))
             if lengths is not None:
@@ -249,25 +275,32 @@ class Equations:
         raise ContactError(NO_ZONE)
 
     def _by_newton(self, lengths: Array) -> Array | None:
-        """The lengths, with differences for derivatives; None where it does not converge."""
-        missed = self.missed(lengths)
+        """The lengths, with differences for derivatives; None where it does not converge.
+
+        Derivatives are kept as long as a step with them makes what is missed much smaller.
+        """
+        missed, fresh = self.missed(lengths), False
+        matrix = self._derivatives(lengths, missed)
         for _ in range(MOST_STEPS):
             size = float(np.abs(missed).max())
-            matrix = self._derivatives(lengths, missed)
             if size <= EPS:
                 break
             if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix)) > 0.0):
                 break
             step = np.asarray(np.linalg.solve(matrix, -missed), dtype=np.float64)
             share = self._within(lengths, step)
-            while share > LEAST_SHARE:
-                tried = self.missed(lengths + share * step)
-                if np.abs(tried).max() < size:
-                    break
+            tried = self.missed(lengths + share * step)
+            while fresh and share > LEAST_SHARE and not np.abs(tried).max() < size:
                 share *= 0.5
-            else:
+                tried = self.missed(lengths + share * step)
+            left = float(np.abs(tried).max())
+            if left < size:
+                lengths, missed = np.add(lengths, share * step), tried
+            elif fresh or size <= ROUNDING:
                 break
-            lengths, missed = np.add(lengths, share * step), tried
+            fresh = not left < KEPT * size
+            if fresh:
+                matrix = self._derivatives(lengths, missed)
         # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
         # Where all beyond the end slipped before, the derivative is rounding of 0.
         found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
@@ -322,3 +355,60 @@ class Equations:
                 if abs(self.missed(shorter)[k]) > BALANCED:
                     shorter[k] = lengths[k]
         return shorter[0], shorter[1]
+
+
+# -- energy while the pressure changes -------------------------------------------------------------
+
+# Shares of a step: how well it is known when an end of the stick zone passes a mark, and before
+# which it is of no matter.
+SURE, EARLY = 1e-9, 1e-3
+
+
+def moving_work(part: Receded, change: LoadChange) -> float:
+    """f ∫∫ p |dΔg| dx.
+
+    The ends of the stick zone change their speed at marks, beyond which power is a series in the
+    root of time.
+    """
+    begun, known = part.begun, {1.0: part}
+
+    def state(share: float) -> Receded:
+        if share not in known:
+            nearest = min(known, key=lambda other: abs(other - share))
+            known[share] = part.at(share, known[nearest])
+        return known[share]
+
+    def power(share: float) -> float:
+        rates = state(share).slip_rates(change)
+        return part.friction * sum(float(zone.force @ np.abs(g)) for zone, g in rates)
+
+    cuts = sorted({begun, 1.0, *_passages(part, state)})
+    scale, total = power(0.5 * (begun + 1.0)), 0.0
+    for lo, hi in pairwise(cuts):
+
+        def rate(v: float, lo: float = lo, hi: float = hi) -> float:
+            return 2.0 * v * (hi - lo) * power(lo + (hi - lo) * v * v)
+
+        total += integral(rate, scale)
+    return total
+
+
+def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
+    """The shares of the step at which an end of the stick zone passes a mark."""
+    begun = part.begun + EARLY * (1.0 - part.begun)
+    first = state(begun).stick
+    shares = []
+    for k in (0, 1):
+        lo, hi = sorted((first[k], part.stick[k]))
+        for mark in {m for m in places(part.before, part.pressure) if lo < m < hi}:
+
+            def ahead(share: float, k: int = k, mark: float = mark) -> float:
+                return state(share).stick[k] - mark
+
+            ends = begun, 1.0
+            shares.append(
+                false_position(
+                    ahead, *ends, (ahead(ends[0]), ahead(1.0)), lambda a, b, value: b - a <= SURE
+                )
+            )
+    return shares
