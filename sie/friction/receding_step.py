@@ -359,9 +359,9 @@ class Equations:
 
 # -- energy while the pressure changes -------------------------------------------------------------
 
-# Shares of a step: how well it is known when an end of the stick zone passes a mark, and before
-# which it is of no matter.
-SURE, EARLY = 1e-9, 1e-3
+# How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
+# and the share of a step before which it does not matter.
+SURE, EARLY = 1e-7, 1e-3
 
 
 def moving_work(part: Receded, change: LoadChange) -> float:
@@ -405,10 +405,9 @@ def _passages(part: Receded, state: Callable[[float], Receded]) -> list[float]:
             def ahead(share: float, k: int = k, mark: float = mark) -> float:
                 return state(share).stick[k] - mark
 
-            ends = begun, 1.0
-            shares.append(
-                false_position(
-                    ahead, *ends, (ahead(ends[0]), ahead(1.0)), lambda a, b, value: b - a <= SURE
-                )
-            )
+            def settled(a: float, b: float, value: float) -> bool:
+                return b - a <= SURE or abs(value) <= SURE * part.stick.r
+
+            values = ahead(begun), ahead(1.0)
+            shares.append(false_position(ahead, begun, 1.0, values, settled))
     return shares
