@@ -13,20 +13,19 @@ The derivation is in docs/derivations/marching.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from sie.errors import ContactError
 from sie.numerics import chebyshev
 from sie.numerics.graded_rule import graded, on_panels
 from sie.numerics.halving import integral
-from sie.numerics.interval import EPS, Interval
+from sie.numerics.interval import Interval
 from sie.numerics.root_finding import false_position
 from sie.traction.of_slope import SlopeDensity
 
@@ -34,24 +33,11 @@ from .coupled_traction import Panels, resolved_panels
 from .growing_contact import LoadChange
 from .marched_step import FrozenEdge, Held, MarchedStep, places
 from .panel_shear import SAME
-from .slip_zones import Drive, SlipZone, SlipZones, excess
+from .receding_equations import Equations
+from .slip_zones import Drive, SlipZone, SlipZones
 
 Array = NDArray[np.float64]
 
-ROUNDING = 64.0 * EPS  # of the loads: what steps may no longer make smaller
-# Of a half-width, and of all that may slip: where the search begins, and how it goes on.
-HALVINGS, FIRST, TRIED = (
-    5,
-    0.2,
-    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6),
-)
-GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
-DIFFERENCE, MOST_STEPS, LEAST_SHARE, KEPT = 1e-6, 40, 1e-3, 0.05  # of Newton's method
-SETTLED = 1e-11  # of the loads: what is missed where no step makes it smaller
-TINY = 1e-300
-NO_ZONE = "no stick zone inside the contact balances the loads"
-# of the drive: a mark that misses its equation by less is the end of the stick zone
-BALANCED = 1e-12
 TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
 
@@ -69,10 +55,12 @@ class Ends(NamedTuple):
     signs      the signs of slip beside them
     goes_on    whether it goes on from where it was, at constant pressure, and not from the edge of
                contact
+    near       a stick zone near by, to begin the search with
     """
 
     signs: tuple[float, float]
     goes_on: tuple[bool, bool] = (False, False)
+    near: Interval | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +95,7 @@ class Receded(MarchedStep):
         change = self.change
         assert change is not None
         p, loads, stick = change.pressure(share), change.shear(share), (near or self).stick
-        return receded(self.before, p, self.friction, loads, Ends(self.signs), stick)
+        return receded(self.before, p, self.friction, loads, Ends(self.signs, near=stick))
 
     def keeps_direction(self, change: LoadChange) -> bool:
         """Whether slip goes on in the direction of its zone, up to both edges."""
@@ -212,13 +200,9 @@ def receded(
     friction: float,
     loads: tuple[float, float],
     ends: Ends,
-    near: Interval | None = None,
 ) -> Receded:
-    """The state under a pressure and the loads Q and τ. Raises ContactError where there is none.
-
-    `near`: a stick zone near by, to begin the search with.
-    """
-    (signs, goes_on), (Q, tau) = ends, loads
+    """The state under a pressure and the loads Q and τ. Raises ContactError where there is none."""
+    (signs, goes_on, near), (Q, tau) = ends, loads
     old, new = before.pressure.contact, pressure.contact
     left = before.stick.x1 if goes_on[0] else min(old.x1, new.x1)
     right = before.stick.x2 if goes_on[1] else max(old.x2, new.x2)
@@ -240,121 +224,6 @@ def receded(
     found = SlipZones(outer.moved(lengths[0], -lengths[1]), *zones, drive)
     error = float(np.abs(equations.missed(lengths)).max())
     return Receded(before, pressure, friction, signs, Q, tau, found, error)
-
-
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """The equations of the lengths of both zones, relative to the loads."""
-
-    frames: tuple[FrozenEdge, FrozenEdge]
-    outer: Interval
-    drive: Drive
-
-    def missed(self, lengths: Sequence[float] | Array) -> Array:
-        """By what lengths fail them; infinite where they leave no stick zone."""
-        if not sum(lengths) < 2.0 * self.outer.r:
-            return np.full(2, np.inf)
-        zones = [frame.zone(length) for frame, length in zip(self.frames, lengths, strict=True)]
-        return np.array([self._missed(zones, k) for k in (0, 1)])
-
-    def _missed(self, zones: Sequence[SlipZone], k: int) -> float:
-        zone, other = zones[k], zones[1 - k]
-        size = abs(self.drive.load) + self.outer.r * abs(self.drive.strain)
-        return excess(zone, other, self.outer.r, self.drive, k) / size
-
-    def solution(self, guess: Array | None = None) -> tuple[float, float]:
-        """The lengths. Raises ContactError where there are none, or Newton's method finds none."""
-        if guess is not None and (guess > 0.0).all() and guess.sum() < 2.0 * self.outer.r:
-            lengths = self._by_newton(guess)
-            if lengths is not None:
-                return float(lengths[0]), float(lengths[1])
-        for sweeps, halvings in GUESSES:
-            lengths = self._by_newton(self._guess(sweeps, halvings))
-            if lengths is not None:
-                return float(lengths[0]), float(lengths[1])
-        raise ContactError(NO_ZONE)
-
-    def _by_newton(self, lengths: Array) -> Array | None:
-        """The lengths, with differences for derivatives; None where it does not converge.
-
-        Derivatives are kept as long as a step with them makes what is missed much smaller.
-        """
-        missed, fresh = self.missed(lengths), False
-        matrix = self._derivatives(lengths, missed)
-        for _ in range(MOST_STEPS):
-            size = float(np.abs(missed).max())
-            if size <= EPS:
-                break
-            if not (np.isfinite(matrix).all() and abs(np.linalg.det(matrix)) > 0.0):
-                break
-            step = np.asarray(np.linalg.solve(matrix, -missed), dtype=np.float64)
-            share = self._within(lengths, step)
-            tried = self.missed(lengths + share * step)
-            while fresh and share > LEAST_SHARE and not np.abs(tried).max() < size:
-                share *= 0.5
-                tried = self.missed(lengths + share * step)
-            left = float(np.abs(tried).max())
-            if left < size:
-                lengths, missed = np.add(lengths, share * step), tried
-            elif fresh or size <= ROUNDING:
-                break
-            fresh = not left < KEPT * size
-            if fresh:
-                matrix = self._derivatives(lengths, missed)
-        # Where p falls a shorter zone may fulfil its equation too: it does not grow with its load.
-        # Where all beyond the end slipped before, the derivative is rounding of 0.
-        found = size <= SETTLED and (np.diag(matrix) * lengths > -DIFFERENCE).all()
-        return lengths if found else None
-
-    def _derivatives(self, lengths: Array, missed: Array) -> Array:
-        h = DIFFERENCE * lengths
-        columns = [self.missed(lengths + h * unit) - missed for unit in np.eye(2)]
-        matrix: Array = np.array(columns).T / h
-        return matrix
-
-    def _within(self, lengths: Array, step: Array) -> float:
-        """The share of a step that leaves both zones and the stick zone a width."""
-        share = min(1.0, *(0.9 * lengths / np.maximum(-step, TINY)).tolist())
-        left, grown = 2.0 * self.outer.r - lengths.sum(), float(step.sum())
-        return share if grown <= left else min(share, 0.9 * left / grown)
-
-    def _guess(self, sweeps: int, halvings: int) -> Array:
-        """Lengths near the longest that fulfil the equations: where p falls, shorter ones may."""
-        lengths = np.full(2, FIRST * self.outer.r)
-        for sweep, k in product(range(sweeps), (0, 1)):
-            other = self.frames[1 - k].zone(lengths[1 - k])
-            most = 2.0 * self.outer.r - other.length
-
-            def short(length: float, k: int = k, other: SlipZone = other) -> bool:
-                zones = [other, other]
-                zones[k] = self.frames[k].zone(length)
-                return self._missed(zones, k) < 0.0
-
-            tried = [part * most for part in TRIED]
-            first = next((n for n, length in enumerate(tried) if short(length)), len(tried))
-            if sweep and first in {0, len(tried)}:
-                raise ContactError(NO_ZONE)
-            first = min(first, len(tried) - 1)
-            low, high = tried[first], tried[first - 1] if first else most
-            for _ in range(halvings):
-                middle = 0.5 * (low + high)
-                low, high = (middle, high) if short(middle) else (low, middle)
-            lengths[k] = 0.5 * (low + high)
-        return lengths
-
-    def at_marks(self, lengths: tuple[float, float]) -> tuple[float, float]:
-        """The lengths, shortened to the next mark where the loads are balanced there too.
-
-        What is beyond it had slipped already.
-        """
-        shorter = list(lengths)
-        for k, frame in enumerate(self.frames):
-            nearer = frame.breaks[frame.breaks < lengths[k]]
-            if nearer.size:
-                shorter[k] = float(nearer[-1])
-                if abs(self.missed(shorter)[k]) > BALANCED:
-                    shorter[k] = lengths[k]
-        return shorter[0], shorter[1]
 
 
 # -- energy while the pressure changes -------------------------------------------------------------

@@ -109,7 +109,9 @@ class BothStick(MarchedStep):
             time = touched[:, None] + span * RISE
             left, right = (
                 # Where this edge brought x into contact there is no room but rounding.
-                np.where(came[k] > self.begun, 0.0, side * (course.edge(k == 1, touched) - at))[:, None]
+                np.where(came[k] > self.begun, 0.0, side * (course.edge(k == 1, touched) - at))[
+                    :, None
+                ]
                 + side * span * RISE * course.moved(k == 1, touched[:, None], time)
                 for k, side in enumerate((-1.0, 1.0))
             )

@@ -22,7 +22,6 @@ from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
 from sie.friction.slip_state import Slip
 from sie.friction.turning_point import Loads, TurningPoint
-from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 
 from .dissipation import PatchDissipation
