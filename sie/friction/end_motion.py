@@ -29,7 +29,7 @@ MOST_STEPS, SETTLED, ROUNDING = 12, 1e-14, 1e-9  # of Newton's method, of the se
 MOST_PANELS = 300
 SAME = 1e-12  # of a half-width: places that are nearer to each other are one
 WATCHED = np.linspace(0.0, 1.0, 17)  # of a panel: where it is seen whether the edge sticks
-OFTEN, DOUBLED, TINY = 24, 4, 1e-30
+OFTEN, DOUBLED, HALVED = 24, 4, 40
 STEADY = np.ones(2)  # of M, for time in proportion to the distance
 
 
@@ -148,13 +148,14 @@ class EndMotion:
             at_high = missed(high)
         else:
             return None
-        low = 0.25 * high
-        at_low = missed(low)
-        while at_low <= 0.0:
+        low, at_low = high, at_high
+        for _ in range(HALVED):
+            if not at_low <= 0.0:
+                break
             high, at_high, low = low, at_low, 0.25 * low
-            if low < TINY * high:
-                return None
             at_low = missed(low)
+        if not at_low > 0.0:
+            return None
         values = at_low, at_high
         return false_position(missed, low, high, values, lambda a, b, value: b - a <= 1e-3 * b)
 

@@ -37,6 +37,7 @@ from .turning_point import TurningPoint
 
 MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known
+AT_ONCE = 1e-9  # of a step: slip that begins so soon has begun before
 STOPPED = 1e-9  # of it: an end so near to where it would stop does
 
 
@@ -90,9 +91,13 @@ def while_pressure_changes(trial: Trial) -> tuple[MarchedStep, ...]:
         trial = replace(trial, start=change.loads(share))
         if any(not all(way.signs) for way in ways) and (edges is None or share >= edges.hi):
             edges = course(change, share)
-        part, share, then = _passed(trial, edges or change, share, ways)
-        parts.append(part)
-        trial, ways = replace(trial, held=part.held), (then,)
+        part, until, then = _passed(trial, edges or change, share, ways)
+        if until - share <= AT_ONCE:  # the rates say that the edge sticks, but for rounding
+            ways = tuple(Onset(then.signs, way.goes_on) for way in ways)
+        else:
+            parts.append(part)
+            trial, ways = replace(trial, held=part.held), (then,)
+        share = until
         if len(parts) > MOST_PARTS:
             raise ContactError(f"slip starts and stops at the edges more than {MOST_PARTS} times")
     return tuple(parts)
@@ -124,7 +129,7 @@ def _growing(trial: Trial, edges: Course, share: float) -> EdgeSticks | BothStic
         part = edge_sticks(trial.held, edges, trial.signs, goes_on, share)
     else:
         part = both_stick(trial.held, edges, share)
-    for tested in TESTED:
+    for tested in TESTED if part.share - share > AT_ONCE else ():
         now = part.until(share + tested * (part.share - share))
         if excess(now, part.stick)[1] > EXCEEDED:
             raise trial.refusal(ISLAND, (now.share - share) / (1.0 - share))

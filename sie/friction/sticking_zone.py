@@ -179,7 +179,9 @@ def kernel(
     ahead = room + moves * after
     behind = (place - high)[:, None] + length * fall
     turn = zone.turn(time)
-    root = np.sqrt(behind * ahead)
+    square = behind * ahead
+    # A way that is no way has nan; a place that has just come into contact has no way at all.
+    root = np.sqrt(np.where(square > 0.0, square, np.where(length > 0.0, np.nan, np.inf)))
     du = length * weight
     rate = (zone.load / math.pi - 0.5 * turn * (behind - ahead)) / root
 
