@@ -22,7 +22,7 @@ ROUNDING = 64.0 * EPS  # of the loads: what steps may no longer make smaller
 HALVINGS, FIRST, TRIED = (
     5,
     0.2,
-    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6),
+    (0.98, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05, 0.02, 5e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10),
 )
 GUESSES = ((2, 5), (5, 30))  # how often for each zone, and how many halvings of its length
 DIFFERENCE, MOST_STEPS, LEAST_SHARE, KEPT = 1e-6, 40, 1e-3, 0.05  # of Newton's method

@@ -230,7 +230,7 @@ def receded(
 
 # How well it is known when an end of the stick zone passes a mark, of a step and of a half-width,
 # and the share of a step before which it does not matter.
-SURE, EARLY = 1e-7, 1e-3
+SURE, EARLY = 1e-7, 1e-2
 
 
 def moving_work(part: Receded, change: LoadChange) -> float:
@@ -256,6 +256,8 @@ def moving_work(part: Receded, change: LoadChange) -> float:
     for lo, hi in pairwise(cuts):
 
         def rate(v: float, lo: float = lo, hi: float = hi) -> float:
+            if lo == begun:
+                return (hi - lo) * power(lo + (hi - lo) * v)
             return 2.0 * v * (hi - lo) * power(lo + (hi - lo) * v * v)
 
         total += integral(rate, scale)
