@@ -31,6 +31,7 @@ class Held:
     stick       the stick zone
     signs       the signs of slip to the left and the right of it, 0 where nothing slipped
     marks       places where q is not smooth
+    left        what q lacks of ±f p at places in the contact, given ±f, without cancellation
     """
 
     Q: float
@@ -40,6 +41,18 @@ class Held:
     stick: Interval
     signs: tuple[float, float]
     marks: tuple[float, ...]
+    left: Callable[[float, Array], Array] | None = None
+
+    def lacking(self, bound: float, x: Array) -> Array:
+        """What q lacks of ±f p at places (1-d), given ±f; 0 beyond the contact."""
+        lack, contact = np.zeros(x.shape), self.pressure.contact
+        inside = (x >= contact.x1) & (x <= contact.x2)
+        at = x[inside]
+        if self.left is not None:
+            lack[inside] = self.left(bound, at)
+        else:
+            lack[inside] = bound * self.pressure(at) - self.shear(at)
+        return lack
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +159,11 @@ class MarchedStep(ABC):
         return Held(self.Q, self.tau, self.pressure, self.shear, self.stick, self.signs, self.marks)
 
     # -- integrals ---------------------------------------------------------------------------------
+
+    @property
+    def work(self) -> float:
+        """The energy that slip dissipated."""
+        return self.integrals.work
 
     @cached_property
     def integrals(self) -> IntegralsOfSlip:
