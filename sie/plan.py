@@ -231,9 +231,10 @@ def _resolution(scene: Scene, economy: Collection[str]) -> Step:
 
 def _edges(scene: Scene, economy: Collection[str]) -> str:
     if asks_for_patches(scene.profile):
+        how = "patches from a grid, their edges by Newton, verified by bounds"
         if scene.half_width is not None:
-            return "refused: a half-width is not that of several patches, give normal_load"
-        return "load given: patches from a grid, their edges by Newton, verified by bounds"
+            return f"half-width given: its load by bracketed Newton; {how}"
+        return f"load given: {how}"
     given = "half-width" if scene.half_width is not None else "load"
     if upright_law(scene, economy) is not None and scene.moment is None:
         return f"{given} given: smooth edges, in closed form"

@@ -139,12 +139,13 @@ class Solution:
             return several_patches(self.scene)
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            told = error if self.scene.half_width is not None else told
             raise explained(told, self.scene.profile) from None
 
     @property
     def _may_be_in_patches(self) -> bool:
         scene = self.scene
-        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+        return not scene.epsilon and not scene.profile.convex
 
     @property
     def as_one_patch(self) -> Normal:
@@ -474,7 +475,11 @@ class Solution:
 
     @property
     def half_width(self) -> float:
-        """Half-width of the contact, length."""
+        """Half-width of the contact, length.
+
+        Of several patches it is half the distance of the outermost two edges; per period half of
+        the shortest interval that has all patches of a period, and half the period in full contact.
+        """
         return self.normal.edges.contact.r
 
     @property

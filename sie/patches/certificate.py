@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .density import PatchPressure
-from .newton import Linear, conditions
+from .newton import Linear, conditions, moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import LEAST, PatchCertificate
@@ -90,15 +90,7 @@ def _notes(condition: float) -> tuple[str, ...]:
 
 def conditioning(state: State, linear: Linear, given: Given) -> float:
     """|d ln r / d ln P| of the patch for which it is largest."""
-    size = np.abs(linear.matrix).max(axis=1)
-    N = state.patches.number
-    right = np.zeros(2 * N + 1)
-    right[2 * N - 1] = given.load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[: 2 * N]
-    smooth = ~state.sharp
-    D = np.where(smooth, linear.intensity, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        move = np.where(smooth, 2.0 * y / D, 0.0).reshape(-1, 2)
+    move = moves(state, linear, given.load).reshape(-1, 2)
     change = np.abs(move).max(axis=1) / state.patches.r
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 

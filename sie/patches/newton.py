@@ -109,6 +109,18 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
 
 
+def moves(state: State, linear: Linear, load: float) -> Array:
+    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
+    size = np.abs(linear.matrix).max(axis=1)
+    n = 2 * state.patches.number
+    right = np.zeros(n + 1)
+    right[n - 1] = load
+    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
+    return np.where(state.sharp, 0.0, moved)
+
+
 class Damping(NamedTuple):
     """What limits the next moves of the edges, (2N,) each.
 
