@@ -50,7 +50,7 @@ def certificate(
 ) -> PatchCertificate:
     """Measure an answer; `given` is what was asked, in units of E*/2."""
     o, P, G = found.operator, found.operator.patches, pressure.half_modulus
-    rule, places = _measure(pressure)
+    rule, places = measured_on(pressure)
     p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
     p = np.where(np.isfinite(p), p, 0.0)  # as of a part that is shorter than the doubles are apart
     peak = float(at.max())
@@ -123,7 +123,7 @@ class Measure(NamedTuple):
     weight: Array
 
 
-def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
+def measured_on(pressure: PatchPressure) -> tuple[Measure, Measure]:
     """A composite rule on the panels of an operator, and places between its points.
 
     At the latter the equation is measured.
@@ -226,14 +226,20 @@ def _residual(
     pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Measure, Array]
 ) -> float:
     """The largest residual at places with their pressures, by a rule with its own."""
-    o = pressure.operator
-    P, chord = o.patches, o.patches.chord
-    (by, p), (at, values) = rule, places
+    at, values = places
     x = at.points
-    own, (left, right) = (
-        at.patch,
-        (chord.apart(x.anchor - e[at.patch], x.offset) for e in (P.a, P.b)),
-    )
+    H = pressure.operator.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
+    found = principal_value(pressure, rule, (x, at.patch, values))
+    return float(np.abs(found - pressure.half_modulus * H).max(initial=0.0))
+
+
+def principal_value(
+    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Points, Index, Array]
+) -> Array:
+    """1/π PV∫p(t)/(x - t) dt at places, their patches and pressures, by a rule with its own."""
+    P, chord = pressure.operator.patches, pressure.operator.patches.chord
+    (by, p), (x, own, values) = rule, places
+    left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
     total = values * np.log(left / -right)
     for k in range(0, len(own), TOGETHER):
         some = slice(k, k + TOGETHER)
@@ -246,5 +252,4 @@ def _residual(
             kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
         taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ by.weight
-    H = o.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
-    return float(np.abs(total / np.pi - pressure.half_modulus * H).max(initial=0.0))
+    return np.asarray(total / np.pi)
