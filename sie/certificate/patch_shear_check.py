@@ -56,13 +56,9 @@ class Part(NamedTuple):
             points, patch, _ = self.density.placed(x)
             rule = measured_on(self.density)[0]
             return principal_value(self.density, (rule, self.p), (points, patch, self.density(x)))
-        distance = chord.difference(x[:, None] - self.x)
-        distance[distance == 0.0] = np.inf
-        value, whole = self.density(x), np.zeros(len(x))
-        if chord.periodic:
-            kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
-        else:
-            kernel, (x1, x2) = 1.0 / distance, self.density.interval
+        kernel = chord.kernel(chord.difference(x[:, None] - self.x))
+        value, whole, (x1, x2) = self.density(x), np.zeros(len(x)), self.density.interval
+        if not chord.periodic:
             whole = value * np.log((x - x1) / (x2 - x))
         return np.asarray((((self.p - value[:, None]) * kernel) @ self.weight + whole) / np.pi)
 

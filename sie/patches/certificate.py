@@ -246,10 +246,7 @@ def principal_value(
         distance = chord.difference(
             x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset
         )
-        distance[distance == 0.0] = np.inf
-        kernel = 1.0 / distance
-        if chord.periodic:
-            kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
+        kernel = chord.kernel(distance)
         taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ by.weight
     return np.asarray(total / np.pi)

@@ -173,8 +173,13 @@ class Search:
         state = found.state
         given = self.problem.given._replace(load=load)
         moved = moves(state, conditions(state, found.operator.pieces, given)[1], load)
-        r = 0.5 * float(state.patches.b[-1] - state.patches.a[0])
-        return Width(load, r, 0.5 * float(moved[-1] - moved[0]) / r, found)
+        P, last = state.patches, len(moved) - 1
+        whole = float(P.b[-1] - P.a[0])
+        if P.chord.periodic:
+            last = 2 * int(np.argmax(P.gaps)) + 1
+            whole = P.chord.period - float(P.gaps.max())
+        growth = float(moved[last] - moved[(last + 1) % len(moved)]) / whole
+        return Width(load, 0.5 * whole, growth, found)
 
     def reached(self, now: Width, step: float, last: float) -> bool:
         missed = abs(float(np.log(self.r / now.r)))

@@ -67,7 +67,7 @@ def contact_near(problem: Problem, near: Found) -> Found | None:
         found = settled(near.state, near.operator.pieces, problem)
         refuse_unknown_ends(found.state, problem)
         if _overlap_beyond(found, problem, window) == window:
-            return _cut_at_the_widest_gap(found, problem)
+            return _in_one_period(found, problem)
     except ASTRAY:
         pass
     return None
@@ -80,7 +80,7 @@ def contact(problem: Problem) -> Found:
         found = _within(problem, window)
         beyond = _overlap_beyond(found, problem, window)
         if beyond == window:
-            return _cut_at_the_widest_gap(found, problem)
+            return _in_one_period(found, problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
@@ -88,18 +88,29 @@ def contact(problem: Problem) -> Found:
     )
 
 
-def _cut_at_the_widest_gap(found: Found, problem: Problem) -> Found:
-    """The same contact; per period the widest gap is the one after the last patch."""
+def _in_one_period(found: Found, problem: Problem) -> Found:
+    """The same contact; per period the first patch begins in that of the profile.
+
+    The widest gap follows the last patch. Sharp edges that rounding moves off the indenter's end,
+    and patches about to merge, are left where they are.
+    """
     P, state = found.state.patches, found.state
-    last = int(np.argmax(P.gaps * (1.0 + SAME * (np.arange(P.number) == P.number - 1))))
-    if not P.chord.periodic or last == P.number - 1:
+    if not P.chord.periodic:
         return found
+    last = int(np.argmax(P.gaps * (1.0 + SAME * (np.arange(P.number) == P.number - 1))))
     a, b = one_period(P.a, P.b, P.chord.period)
+    if last == P.number - 1:
+        a, b = P.a, P.b
+    turns = np.floor((a[0] - problem.domain[0]) / P.chord.period + SAME) * P.chord.period
+    if last == P.number - 1 and turns == 0.0:
+        return found
     turn = -2 * (last + 1)
     sharp, charge = np.roll(state.sharp, turn), np.roll(state.charge, turn)
-    turns = np.floor((a[0] - problem.domain[0]) / P.chord.period) * P.chord.period
     turned = State(Patches(a - turns, b - turns, P.chord), sharp, charge, state.tilt)
-    return settled(turned, found.operator.pieces, problem)
+    try:
+        return settled(turned, found.operator.pieces, problem)
+    except ASTRAY:
+        return found
 
 
 def _within(problem: Problem, window: tuple[float, float]) -> Found:
