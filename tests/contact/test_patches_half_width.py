@@ -8,6 +8,7 @@ import pytest
 import sie
 from analytic import parabola_row, wavy
 from sie.io import scene_file
+from sie.io.report import tension_summary
 
 TWO = sie.Row([sie.Parabola(1.0).shifted(-1.0), sie.Parabola(0.5).shifted(0.9).raised(0.02)])
 FLATS = sie.Row([sie.Flat(0.4).shifted(-0.6), sie.Flat(0.55).shifted(0.85)])
@@ -117,3 +118,9 @@ def test_noise_of_a_trace_moves_the_edges_of_a_given_half_width_together():
     (report,) = solution.with_(half_width=solution.half_width).trace_reports()
     left, right = report.edge_errors
     assert left == pytest.approx(right, rel=1e-6)
+
+
+@pytest.mark.parametrize("profile", [TWO, HARMONICS])
+def test_a_surface_without_tension_is_said_to_have_none(profile):
+    report = tension_summary(solved(profile=profile, normal_load=0.4), scene_file.UNITS)
+    assert "none" in report and "x =" not in report
