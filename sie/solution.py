@@ -5,7 +5,7 @@ Each result is computed when it is read first, and `vars(solution)` shows the co
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any, cast
@@ -18,6 +18,7 @@ from .cauchy.density import JacobiDensity
 from .certificate.coupled_check import coupled_certificate
 from .certificate.coupled_shear_check import sheared_certificate
 from .certificate.full_stick_check import full_stick_certificate
+from .certificate.patch_shear_check import shear_certificate as shear_on_patches
 from .certificate.pressure_check import certificate
 from .certificate.result import RETREAT, Certificate, ShearCertificate
 from .certificate.shear_check import goodman_certificate, shear_certificate
@@ -140,12 +141,13 @@ class Solution:
             return several_patches(self.scene)
         except ContactError as error:
             told = one_patch if isinstance(one_patch, LoadError) and not error.reached else error
+            told = error if self.scene.half_width is not None else told
             raise explained(told, self.scene.profile) from None
 
     @property
     def _may_be_in_patches(self) -> bool:
         scene = self.scene
-        return scene.normal_load is not None and not scene.epsilon and not scene.profile.convex
+        return not scene.epsilon and not scene.profile.convex
 
     @property
     def as_one_patch(self) -> Normal:
@@ -412,11 +414,19 @@ class Solution:
             return coupled_certificate(state, self.scene, self.tol)
         others = self.tangential.contacts if self.sheared else ()
         if others or self._several is not None:
-            return worst_of([c.certificate(self.tol) for c in (self.in_patches, *others)])
+            each = [c.certificate(self.tol) for c in (self.in_patches, *others)]
+            return replace(worst_of(each), shear=self._shear_of_patches(each))
         found = certificate(self.slope_density, self._slope, self.tol)
         if not self.sheared:
             return found
         return replace(found, shear=self._shear_certificate)
+
+    def _shear_of_patches(self, found: Sequence[PatchCertificate]) -> ShearCertificate | None:
+        """The certificate of the shear; `found` are those of the pressures that it is made of."""
+        if not self.sheared:
+            return None
+        p = self.in_patches.pressure
+        return shear_on_patches(self.tangential, p, self._loads, self._slope, found)
 
     @property
     def _shear_certificate(self) -> ShearCertificate:
@@ -475,7 +485,11 @@ class Solution:
 
     @property
     def half_width(self) -> float:
-        """Half-width of the contact, length."""
+        """Half-width of the contact, length.
+
+        Of several patches it is half the distance of the outermost two edges; per period half of
+        the shortest interval that has all patches of a period, and half the period in full contact.
+        """
         return self.normal.edges.contact.r
 
     @property

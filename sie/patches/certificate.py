@@ -19,7 +19,7 @@ from sie.numerics import chebyshev
 
 from .chord import Points
 from .density import PatchPressure
-from .newton import Linear, conditions
+from .newton import Linear, conditions, moves
 from .operator import Found, Operator
 from .panels import LONG, PatchPanels
 from .result import LEAST, PatchCertificate
@@ -50,7 +50,7 @@ def certificate(
 ) -> PatchCertificate:
     """Measure an answer; `given` is what was asked, in units of E*/2."""
     o, P, G = found.operator, found.operator.patches, pressure.half_modulus
-    rule, places = _measure(pressure)
+    rule, places = measured_on(pressure)
     p, at = (pressure.at_points(m.points, m.patch, m.piece) for m in (rule, places))
     p = np.where(np.isfinite(p), p, 0.0)  # as of a part that is shorter than the doubles are apart
     peak = float(at.max())
@@ -90,15 +90,7 @@ def _notes(condition: float) -> tuple[str, ...]:
 
 def conditioning(state: State, linear: Linear, given: Given) -> float:
     """|d ln r / d ln P| of the patch for which it is largest."""
-    size = np.abs(linear.matrix).max(axis=1)
-    N = state.patches.number
-    right = np.zeros(2 * N + 1)
-    right[2 * N - 1] = given.load
-    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[: 2 * N]
-    smooth = ~state.sharp
-    D = np.where(smooth, linear.intensity, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        move = np.where(smooth, 2.0 * y / D, 0.0).reshape(-1, 2)
+    move = moves(state, linear, given.load).reshape(-1, 2)
     change = np.abs(move).max(axis=1) / state.patches.r
     return float(np.nan_to_num(change, nan=np.inf).max(initial=0.0))
 
@@ -131,7 +123,7 @@ class Measure(NamedTuple):
     weight: Array
 
 
-def _measure(pressure: PatchPressure) -> tuple[Measure, Measure]:
+def measured_on(pressure: PatchPressure) -> tuple[Measure, Measure]:
     """A composite rule on the panels of an operator, and places between its points.
 
     At the latter the equation is measured.
@@ -234,25 +226,27 @@ def _residual(
     pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Measure, Array]
 ) -> float:
     """The largest residual at places with their pressures, by a rule with its own."""
-    o = pressure.operator
-    P, chord = o.patches, o.patches.chord
-    (by, p), (at, values) = rule, places
+    at, values = places
     x = at.points
-    own, (left, right) = (
-        at.patch,
-        (chord.apart(x.anchor - e[at.patch], x.offset) for e in (P.a, P.b)),
-    )
+    H = pressure.operator.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
+    found = principal_value(pressure, rule, (x, at.patch, values))
+    return float(np.abs(found - pressure.half_modulus * H).max(initial=0.0))
+
+
+def principal_value(
+    pressure: PatchPressure, rule: tuple[Measure, Array], places: tuple[Points, Index, Array]
+) -> Array:
+    """1/π PV∫p(t)/(x - t) dt at places, their patches and pressures, by a rule with its own."""
+    P, chord = pressure.operator.patches, pressure.operator.patches.chord
+    (by, p), (x, own, values) = rule, places
+    left, right = (chord.apart(x.anchor - e[own], x.offset) for e in (P.a, P.b))
     total = values * np.log(left / -right)
     for k in range(0, len(own), TOGETHER):
         some = slice(k, k + TOGETHER)
         distance = chord.difference(
             x.anchor[some, None] - by.points.anchor, x.offset[some, None] - by.points.offset
         )
-        distance[distance == 0.0] = np.inf
-        kernel = 1.0 / distance
-        if chord.periodic:
-            kernel = (np.pi / chord.period) / np.tan((np.pi / chord.period) * distance)
+        kernel = chord.kernel(distance)
         taken_out = np.where(by.patch == own[some, None], values[some, None], 0.0)
         total[some] += ((p - taken_out) * kernel) @ by.weight
-    H = o.pieces.value(at.piece, x.anchor, x.offset) + pressure.tilt
-    return float(np.abs(total / np.pi - pressure.half_modulus * H).max(initial=0.0))
+    return np.asarray(total / np.pi)

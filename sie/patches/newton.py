@@ -21,6 +21,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.interval import EPS
+
 from .bounds import CLOSED
 from .gap_rows import across_gaps
 from .measure import edge_ratio
@@ -42,7 +44,7 @@ MOST_STEPS = 60
 SETTLED = 1e-11  # half-widths of its patch: steps below, that stop shrinking, are rounding
 FINAL = 4e-15
 QUADRATIC = 1e-3  # half-widths: the steps decrease quadratically from here on
-ULPS = 8.0  # of an edge: no step tells less
+ULPS = 8.0  # of an edge and of the load: no step tells less
 NARROW = 1e-5  # half-widths: steps are told from this width of a gap on
 # times that an edge is asked back, and the part of the mean: only clear tension counts from then on
 TURNS, CLEARLY = 3, 0.03
@@ -107,6 +109,18 @@ def closures(o: Operator, ratio: Array) -> tuple[Array, Array]:
     integral = np.bincount(k.gap, excess.sum(axis=1), N - 1)
     K = (pieces.rises(P.b[:-1], P.a[1:], walls=True) - base * width) - integral
     return K, -across_gaps(P, k, T * k.dx) * ratio[: N - 1] / np.pi
+
+
+def moves(state: State, linear: Linear, load: float) -> Array:
+    """The derivatives of the edges (2N,) by ln P; those of sharp ones are 0."""
+    size = np.abs(linear.matrix).max(axis=1)
+    n = 2 * state.patches.number
+    right = np.zeros(n + 1)
+    right[n - 1] = load
+    y = np.linalg.solve(linear.matrix / size[:, None], right / size)[:n]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        moved = 2.0 * y / np.where(state.sharp, 1.0, linear.intensity)
+    return np.where(state.sharp, 0.0, moved)
 
 
 class Damping(NamedTuple):
@@ -185,7 +199,7 @@ def solve(
         # D depends on the charges: they first
         unknown = state.sharp.any() and not state.charge.any()
         damping = damping.limited(state, 0.0 * asked if unknown else asked, pieces.concave)
-        size = relative_size(state, y, asked)
+        size = relative_size(state, y, _told(state, asked, moves(state, linear, given.load)))
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
@@ -220,14 +234,18 @@ def wished(state: State, linear: Linear, y: Array, turns: Array) -> Array:
     return np.where(pulls, inward, np.where(smooth, 2.0 * y[: 2 * N] / D, 0.0))
 
 
-def relative_size(state: State, y: Array, asked: Array) -> float:
+def _told(state: State, asked: Array, moves: Array) -> Array:
+    """The moves of edges, less what doubles of the edges and of the load do not resolve."""
+    least = np.spacing(np.abs(state.patches.edges)) + EPS * np.nan_to_num(np.abs(moves))
+    return np.maximum(np.abs(asked) - ULPS * least, 0.0)
+
+
+def relative_size(state: State, y: Array, told: Array) -> float:
     """The largest move of an edge or change of a charge, as a fraction.
 
-    Moves are divided by the half-width or a narrower gap, less what doubles do not resolve; changes
-    by the largest charge.
+    Moves are divided by the half-width or a narrower gap, changes by the largest charge.
     """
     P, sharp = state.patches, state.sharp
-    told = np.maximum(np.abs(asked) - ULPS * np.spacing(np.abs(P.edges)), 0.0)
     gaps = np.stack((np.concatenate((P.gaps[-1:], P.gaps[:-1])), P.gaps), axis=1).ravel()
     r = np.repeat(P.r, 2)
     size = np.clip(gaps, NARROW * r, r)

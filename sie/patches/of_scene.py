@@ -26,7 +26,8 @@ class Problem:
     pieces     window -> the slope, without tilt
     slope      H(x);  height: h(x);  by_slope: whether the slope is a function, and h costs more
     domain     where the indenter is known; corners: whether its ends are the indenter's own
-    given      load, tilt or moment
+    given      load or half-width, tilt or moment
+    half_modulus    E*/2
     """
 
     pieces: Callable[[tuple[float, float]], Pieces]
@@ -38,6 +39,7 @@ class Problem:
     breaks: Array
     chord: Chord
     given: Given
+    half_modulus: float
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
         """The function h + tilt x on the window, up to a constant.
@@ -57,7 +59,7 @@ class Problem:
 def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
     profile, G = scene.profile, 0.5 * scene.Estar
     moment = None if scene.moment is None else scene.moment / G
-    assert scene.normal_load is not None
+    load = np.nan if scene.normal_load is None else scene.normal_load / G
     domain = profile.pieces.domain
     return Problem(
         pieces=lambda window: of_profile(profile, window, tol),
@@ -68,7 +70,8 @@ def problem_of(scene: Scene, tol: float = 1e-15) -> Problem:
         corners=profile.ends_are_corners,
         breaks=np.asarray(profile.breaks),
         chord=Chord(profile.period),
-        given=Given(scene.normal_load / G, scene.tilt, moment),
+        given=Given(load, scene.tilt, moment, scene.half_width),
+        half_modulus=G,
     )
 
 

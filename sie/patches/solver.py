@@ -24,8 +24,9 @@ from .gap import gap, overlaps
 from .newton import FINAL, MOST_STEPS
 from .of_scene import Problem, changed
 from .operator import Found, Operator
+from .panels import Patches
 from .pieces import Pieces
-from .repairs import after, apart, bounded, mended
+from .repairs import after, apart, bounded, mended, one_period
 from .start import grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, Given, State, balances
@@ -59,6 +60,19 @@ CELLS = 1.5  # for each break in the window
 FAR, LOOKED_AT = 1e3, 4000
 
 
+def contact_near(problem: Problem, near: Found) -> Found | None:
+    """The patches of a problem from those under a close load; None if that does not find them."""
+    window = near.operator.pieces.domain
+    try:
+        found = settled(near.state, near.operator.pieces, problem)
+        refuse_unknown_ends(found.state, problem)
+        if _overlap_beyond(found, problem, window) == window:
+            return _in_one_period(found, problem)
+    except ASTRAY:
+        pass
+    return None
+
+
 def contact(problem: Problem) -> Found:
     """The patches of a problem. Raises ContactError where none are certified."""
     window = fitted_window(problem)
@@ -66,12 +80,37 @@ def contact(problem: Problem) -> Found:
         found = _within(problem, window)
         beyond = _overlap_beyond(found, problem, window)
         if beyond == window:
-            return found
+            return _in_one_period(found, problem)
         window = beyond
     raise LoadError(
         f"contact goes on beyond [{window[0]:.6g}, {window[1]:.6g}]: the slope rises too little; "
         "give a domain"
     )
+
+
+def _in_one_period(found: Found, problem: Problem) -> Found:
+    """The same contact; per period the first patch begins in that of the profile.
+
+    The widest gap follows the last patch. Sharp edges that rounding moves off the indenter's end,
+    and patches about to merge, are left where they are.
+    """
+    P, state = found.state.patches, found.state
+    if not P.chord.periodic:
+        return found
+    last = int(np.argmax(P.gaps * (1.0 + SAME * (np.arange(P.number) == P.number - 1))))
+    a, b = one_period(P.a, P.b, P.chord.period)
+    if last == P.number - 1:
+        a, b = P.a, P.b
+    turns = np.floor((a[0] - problem.domain[0]) / P.chord.period + SAME) * P.chord.period
+    if last == P.number - 1 and turns == 0.0:
+        return found
+    turn = -2 * (last + 1)
+    sharp, charge = np.roll(state.sharp, turn), np.roll(state.charge, turn)
+    turned = State(Patches(a - turns, b - turns, P.chord), sharp, charge, state.tilt)
+    try:
+        return settled(turned, found.operator.pieces, problem)
+    except ASTRAY:
+        return found
 
 
 def _within(problem: Problem, window: tuple[float, float]) -> Found:

@@ -14,11 +14,12 @@ Array = NDArray[np.float64]
 
 
 class Given(NamedTuple):
-    """The given load, and tilt or moment, in units of E*/2."""
+    """The given load, and tilt or moment, in units of E*/2; a half-width that gave the load."""
 
     load: float
     tilt: float
     moment: float | None
+    half_width: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,7 +38,9 @@ class Scene:
     normal_load : float
         P > 0, force per length. Exactly one of `normal_load` and `half_width` is given.
     half_width : float
-        Half-width of the contact, length.
+        Half-width of the contact, length: of several patches half the distance of the outermost
+        edges, per period half of the shortest interval that has all patches of a period. The load
+        follows; a half-width that it jumps over, as a patch appears beyond the others, is refused.
     tilt : float, optional
         Angle that is added to the slope of the profile.
     moment : float, optional
