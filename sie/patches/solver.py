@@ -26,7 +26,7 @@ from .of_scene import Problem, changed
 from .operator import Found, Operator
 from .pieces import Pieces
 from .repairs import after, apart, bounded, mended
-from .start import grid_pressure
+from .start import cells_of, grid_pressure
 from .start_state import start_of
 from .state import Event, Findings, Given, State, balances
 from .tension import tensions
@@ -79,10 +79,8 @@ def _within(problem: Problem, window: tuple[float, float]) -> Found:
     if problem.given.moment is not None:
         tilts = levels(problem, window)
     tilt = 0.5 * (tilts[0] + tilts[1])
-    cells = FEWEST_CELLS
     inside = np.count_nonzero((problem.breaks > window[0]) & (problem.breaks < window[1]))
-    while cells < min(CELLS * inside, MOST_CELLS):
-        cells *= 2
+    cells = cells_of(min(max(CELLS * inside, FEWEST_CELLS), MOST_CELLS))
     pieces = problem.pieces(window)
 
     def touched(asked: Problem, tilt: float, cells: int) -> State:
