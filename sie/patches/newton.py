@@ -166,17 +166,17 @@ def room(patches: Patches, corners: Array) -> Array:
 
 
 def solve(
-    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
+    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int], longest: int
 ) -> tuple[State, Event | None, int]:
     """Edges that meet the conditions, or the event that stopped the search on its way.
 
     The number of steps comes with them. `accuracy`: half-widths that the last step may have, and
-    the most steps.
+    the most steps since the last event. `longest`: the most of all.
     """
     enough, most = accuracy
     damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(most + MOST_STEPS * state.patches.number):
+    for step in range(min(most + MOST_STEPS * state.patches.number, longest)):
         if len(sizes) == most:
             break
         _, linear = conditions(state, pieces, given)
