@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 COARSEST = 256  # cells
-# of the coarsest of the grids that lead to a fine one: the lengths of fast transforms
-FAST = (135, 144, 150, 160, 180, 192, 200, 216, 225, 240, COARSEST)
+# of the coarsest of the grids that lead to a fine one: the even lengths of fast transforms
+FAST = (144, 150, 160, 180, 192, 200, 216, 240, COARSEST)
 ITERATIONS, PRECONDITIONED = 400, 200  # on one grid
 # Steps from one look for overlaps to the next: new contact ends the conjugate directions, and in
 # noise some comes with every step
