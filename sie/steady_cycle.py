@@ -27,9 +27,9 @@ from . import arguments
 from .errors import ContactError
 from .friction.changing_contact import ChangingContact
 from .friction.load_steps import steady_points
+from .friction.loads import Loads
 from .friction.path_slip import step_slip
 from .friction.slip_state import Slip
-from .friction.turning_point import Loads
 from .history import History
 from .numerics.zones import within
 from .problem.load_path import Path, loads_at

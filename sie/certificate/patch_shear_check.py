@@ -23,7 +23,7 @@ from sie.numerics.zones import Zones, within
 from sie.patches.certificate import measured_on, principal_value
 from sie.patches.chord import Chord
 from sie.patches.density import PatchPressure
-from sie.patches.full import LEVELS, FullPressure
+from sie.patches.full import FullPressure
 from sie.patches.result import PatchCertificate
 from sie.profiles.slope import Slope
 from sie.traction.base import Density
@@ -112,7 +112,7 @@ def _part(factor: float, density: Density, slope: Slope) -> Part:
         x, _, weight, *_ = composite_rule(density.contact, slope)
     else:
         assert isinstance(density, FullPressure)
-        x, weight = density.rule(LEVELS)
+        x, weight = density.rule
     return Part(factor, density, x, weight, finite(density(x)))
 
 

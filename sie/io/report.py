@@ -261,7 +261,7 @@ def tension_summary(solution: Solution, units: Units) -> str:
     """The largest tension on the surface, and where."""
     value, x = solution.peak_tension()
     if value == 0.0:
-        return _rows(("peak tension", "none: the surface is nowhere in tension"))
+        return named_rows(("peak tension", "none: the surface is nowhere in tension"))
     size = (
         f"{_number(value, solution.normal_load / solution.half_width)} {units.stress}"
         if math.isfinite(value)

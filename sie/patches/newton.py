@@ -180,17 +180,17 @@ def room(patches: Patches, corners: Array) -> Array:
 
 
 def solve(
-    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int]
+    state: State, pieces: Pieces, given: Given, accuracy: tuple[float, int], longest: int
 ) -> tuple[State, Event | None, int]:
     """Edges that meet the conditions, or the event that stopped the search on its way.
 
     The number of steps comes with them. `accuracy`: half-widths that the last step may have, and
-    the most steps.
+    the most steps since the last event. `longest`: the most of all.
     """
     enough, most = accuracy
     damping = Damping.none(2 * state.patches.number)
     sizes: list[float] = []
-    for step in range(most + MOST_STEPS * state.patches.number):
+    for step in range(min(most + MOST_STEPS * state.patches.number, longest)):
         if len(sizes) == most:
             break
         _, linear = conditions(state, pieces, given)
@@ -203,7 +203,8 @@ def solve(
         limits = pieces.solid_around(state.patches.c), given.moment is not None
         state, clipped = moved(state, damping.moved, y, limits)
         sizes.append(np.inf if clipped else size)
-        if _settled(sizes, enough, state.sharp.any()):
+        whole = np.array_equal(asked, damping.moved)
+        if _settled(sizes, enough, whole, state.sharp.any()):
             wrong = np.flatnonzero(state.sharp & (state.charge * state.outward < 0.0))
             return state, Event("smooth", int(wrong[0])) if wrong.size else None, step + 1
         event = _event(state, asked, damping.insists, pieces)
@@ -272,18 +273,19 @@ def moved(state: State, move: Array, y: Array, limits: tuple[Any, bool]) -> tupl
     return State(Patches(e[::2], e[1::2], state.patches.chord), sharp, charge, tilt), clipped
 
 
-def _settled(sizes: list[float], enough: float, sharp: np.bool_) -> bool:
+def _settled(sizes: list[float], enough: float, whole: bool, sharp: np.bool_) -> bool:
     """Whether the last step is small enough.
 
-    It is so too if what follows is, by the steps' quadratic decrease, or if only rounding is left.
-    Beside sharp edges a move is wrong as far as the charges before it were.
+    It is so too if what follows is, by the steps' quadratic decrease where it was done as a
+    `whole`, or if only rounding is left. Beside sharp edges a move is wrong as far as the charges
+    before it were.
     """
     last, before = sizes[-1], sizes[-2] if len(sizes) > 1 else np.inf
     if last < enough:
         return True
     rate = before if sharp else (last / before) ** 2
     decreased = last < QUADRATIC and before < QUADRATIC and last * rate < enough
-    return decreased or (last < SETTLED and last >= 0.5 * before)
+    return (decreased and whole) or (last < SETTLED and last >= 0.5 * before)
 
 
 def _event(state: State, asked: Array, insists: Array, pieces: Pieces) -> Event | None:

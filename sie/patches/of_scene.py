@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from sie.problem.scene import Scene
 from .chord import Chord
 from .pieces import Pieces
 from .profile_pieces import of_profile
-from .state import Given
+from .state import Effort, Given
 
 Array = NDArray[np.float64]
 
@@ -28,6 +28,7 @@ class Problem:
     domain     where the indenter is known; corners: whether its ends are the indenter's own
     given      load or half-width, tilt or moment
     half_modulus    E*/2
+    effort     what the search has taken so far
     """
 
     pieces: Callable[[tuple[float, float]], Pieces]
@@ -40,6 +41,7 @@ class Problem:
     chord: Chord
     given: Given
     half_modulus: float
+    effort: Effort = field(default_factory=Effort)
 
     def tilted(self, tilt: float, window: tuple[float, float]) -> Callable[[Array], Array]:
         """The function h + tilt x on the window, up to a constant.
