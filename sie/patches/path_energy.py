@@ -21,6 +21,7 @@ from sie.friction.marched_step import MarchedStep
 from sie.friction.memory import SlippedLayer
 from sie.friction.moving_work import work
 from sie.friction.receding_step import Receded
+from sie.friction.several_sticks import SeveralSticks
 from sie.friction.slip_state import Slip
 from sie.friction.turning_point import Loads, TurningPoint
 from sie.numerics.halving import integral
@@ -105,6 +106,16 @@ class PathEnergy:
         part = parts[0]
         assert isinstance(part, Receded)
         dP, strain = end.P - start.P, 0.5 * path.scene.Estar * (end.turn - start.turn)
+        if isinstance(part, SeveralSticks):
+
+            def at(share: float) -> SeveralSticks:
+                loads = start.towards(end, share)
+                return part.under(path.pressure_at(loads), path.sheared_by(loads))
+
+            rest = integral(
+                lambda share: at(share).integrals.work_of(dP, strain), abs(part.integrals.work)
+            )
+            return part.integrals.work - rest
         rates = dP, part.Q - part.before.Q, part.tau - part.before.tau, strain
 
         def power(share: float) -> float:
