@@ -155,7 +155,8 @@ def _part_name(token: str) -> str:
 
 def _new_part(place: Path) -> BinaryIO:
     while True:
-        stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115 -- open until moved
+        # It stays open until it is moved.
+        stream = open(place.with_name(_part_name(secrets.token_hex(8))), "xb")  # noqa: SIM115
         # Not all file systems lock; there nothing is taken for stale either.
         with suppress(OSError):
             _lock(stream, wait=True)

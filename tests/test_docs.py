@@ -66,6 +66,7 @@ def test_every_script_of_the_gallery_draws_a_labelled_picture(script, monkeypatc
     plt.close("all")
     described = runpy.run_path(str(script))
     axes = [ax for number in plt.get_fignums() for ax in plt.figure(number).axes]
+    axes = [ax for ax in axes if ax.get_label() != "<colorbar>"]
     plt.close("all")
     assert described["__doc__"].strip()
     assert axes and all(ax.get_xlabel() and ax.get_ylabel() for ax in axes)
@@ -83,7 +84,8 @@ def test_the_citation_has_the_version_of_the_package():
     assert f"\nversion: {sie.__version__}\n" in citation
 
 
-GUIDES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
+PAGES = [page for page in DOCUMENTS if "{code-cell}" in page.read_text(encoding="utf-8")]
+GUIDES = sorted({*(ROOT / "docs" / "how-to").glob("*.md")} - {*PAGES})
 
 
 @pytest.mark.parametrize("guide", GUIDES, ids=lambda path: path.stem)
@@ -93,7 +95,7 @@ def test_the_snippets_and_commands_of_a_guide_run_in_order(guide, tmp_path, monk
         shutil.copy(data, tmp_path)
     monkeypatch.chdir(tmp_path)
     text = guide.read_text(encoding="utf-8")
-    (saved,) = re.findall(r"Save this as `([\w.-]+)`", text)
+    saved = next(iter(re.findall(r"Save this as `([\w.-]+)`", text)), None)
     names = {}
     for kind, block in re.findall(r"```(python|toml|sh)\n(.*?)```", text, flags=re.DOTALL):
         if kind == "python":
@@ -112,3 +114,16 @@ def test_every_refusal_of_a_path_that_is_listed_is_one_that_is_raised():
     raised = re.sub(r'"\s+f?"', "", raised)
     for phrase in re.findall(r'"([^"]+)"', table):
         assert phrase in raised, phrase
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)
+def test_the_cells_of_a_page_run_in_order(page, tmp_path, monkeypatch, capsys):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot as plt  # noqa: PLC0415 -- after the choice of Agg
+
+    monkeypatch.setattr(plt, "show", lambda: plt.close("all"))
+    monkeypatch.chdir(tmp_path)
+    text, names = page.read_text(encoding="utf-8"), {}
+    for cell in re.findall(r"```\{code-cell\}\n(.*?)```", text, flags=re.DOTALL):
+        exec(compile(cell, page.name, "exec"), names)

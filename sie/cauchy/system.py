@@ -230,7 +230,8 @@ class System:
 
     def by_gmres(self) -> Array:
         """The solution in n² operations a step; the number of steps does not depend on n."""
-        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415 -- heavy, and for the few who need it
+        # Heavy, and for the few who need it
+        from scipy.sparse.linalg import LinearOperator, gmres  # noqa: PLC0415
 
         kind = np.result_type(self.kernel, self.rhs, *(b.analysis for b in self.blocks))
         operator = LinearOperator((len(self.rhs),) * 2, matvec=self.applied, dtype=kind)

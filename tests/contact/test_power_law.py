@@ -138,7 +138,7 @@ def on_the_axis(m, x1, x2):
     m, x1, x2 = (DIGITS.mpf(v) for v in (m, x1, x2))
     total = DIGITS.zero
     for L, side in ((x2, 1), (-x1, -1)):
-        slow = DIGITS.quad(lambda v: 1 / w(side * L * v ** (1 / (m - 1)), x1, x2), CUTS)  # noqa: B023
+        slow = DIGITS.quad(lambda v, L=side * L: 1 / w(L * v ** (1 / (m - 1)), x1, x2), CUTS)
         total += L ** (m - 1) * slow
     return w(DIGITS.zero, x1, x2) / DIGITS.pi * m * DIGITS.mpf(0.75) / (m - 1) * total
 

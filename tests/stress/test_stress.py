@@ -240,8 +240,12 @@ def test_strains_are_those_of_the_displacement_gradients_and_rotations_are_their
         and g.xy + g.yx == pytest.approx(2 * e.xy)
     )
     # the gradients of one displacement: ∂y (u_x,x) = ∂x (u_x,y), ∂y (u_y,x) = ∂x (u_y,y)
-    gradient = lambda name: lambda x, y: getattr(solution.stress(x, y).gradients, name)  # noqa: E731
-    of = {name: derivatives(gradient(name), x, y, 0.2 * y) for name in ("xx", "xy", "yx", "yy")}
+    of = {
+        name: derivatives(
+            lambda x, y, name=name: getattr(solution.stress(x, y).gradients, name), x, y, 0.2 * y
+        )
+        for name in ("xx", "xy", "yx", "yy")
+    }
     assert of["xx"][1] == pytest.approx(of["xy"][0], abs=1e-10 * scale / y)
     assert of["yx"][1] == pytest.approx(of["yy"][0], abs=1e-10 * scale / y)
 

@@ -1,0 +1,93 @@
+"""The site's build: `make -C docs html`, without a request to another machine."""
+
+import re
+
+import sie
+
+project = "plane-contact"
+author = "the plane-contact authors"
+copyright = "2026, the plane-contact authors"
+release = version = sie.__version__
+
+extensions = [
+    "myst_nb",
+    "numpydoc",
+    "sphinx-mathjax-offline",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+]
+exclude_patterns = [
+    "_build",
+    "gallery/*.py",
+    "gallery/*.rst",
+    "built-gallery/*.ipynb",
+    "built-gallery/*.py",
+]
+root_doc = "index"
+nitpicky = False
+
+myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_in_temp = True
+nb_execution_timeout = 120
+
+autosummary_generate = True
+numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "built-gallery",
+    "filename_pattern": "/plot_",
+    "abort_on_example_error": True,
+    "show_memory": False,
+    "write_computation_times": False,
+    "min_reported_time": 1.0,
+    "within_subsection_order": "FileNameSortKey",
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = "plane-contact"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_show_sourcelink = False
+html_theme_options = {
+    "show_prev_next": True,
+    "navbar_align": "left",
+    "show_toc_level": 2,
+    "navigation_with_keys": False,
+    "use_edit_page_button": False,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+}
+
+
+SECTION = re.compile(r"-{3,}$")
+LISTS = {"Parameters", "Returns", "Yields", "Raises", "Attributes", "See Also", "References"}
+
+
+def _as_restructured_text(*event):
+    """Docstrings are plain text to be read in a terminal: |x| is no substitution, and an indented
+    block after a blank line is set as it stands.
+    """
+    lines = event[-1]
+    out, section, margin = [], "", 0
+    for k, line in enumerate(lines):
+        text = line.replace("|", r"\|")
+        if k and SECTION.match(line.strip()):
+            section = lines[k - 1].strip()
+        indent = len(line) - len(line.lstrip())
+        begins = line.strip() and k and not lines[k - 1].strip() and indent > margin
+        if begins and section not in LISTS and not line.lstrip().startswith((">>>", "- ")):
+            out += ["::", ""]
+            margin = indent
+        if line.strip() and indent < margin:
+            margin = 0
+        out.append(line if margin else text)
+    lines[:] = out
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", _as_restructured_text, priority=100)

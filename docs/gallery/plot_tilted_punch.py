@@ -1,0 +1,31 @@
+"""
+A tilted punch
+==============
+
+A flat punch with rounded edges carries an eccentric load. With the moment the pressure moves to one
+edge; beyond a certain moment the flat part lifts off.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import sie
+
+level = sie.solve(
+    sie.Scene(
+        profile=sie.RoundedFlat(half_flat=1.0, radius=20.0),
+        body=sie.Elastic(young=210e3, poisson=0.3),
+        normal_load=300.0,
+        moment=0.0,
+    )
+)
+x = np.linspace(-1.5, 1.7, 1601)
+fig, (above, below) = plt.subplots(2, 1, sharex=True, layout="constrained")
+for moment in (0.0, 60.0, 120.0, 180.0, 240.0):
+    tilted = level.with_(moment=moment)
+    above.plot(x, tilted.pressure(x), label=f"{moment / 300.0:.1f}")
+    below.plot(x, 1e3 * tilted.gap(x))
+above.set(ylabel="pressure, MPa", xlabel="x, mm")
+above.legend(title="M/P, mm", ncols=2, fontsize=8)
+below.set(xlabel="x, mm", ylabel="gap, µm", ylim=(0.0, 3.0))
+plt.show()
