@@ -32,6 +32,7 @@ class Held:
     signs       the signs of slip to the left and the right of it, 0 where nothing slipped
     marks       places where q is not smooth
     gaps        zones between several stick zones that slipped, and the signs
+    left        what q lacks of ±f p at places in the contact, given ±f, without cancellation
     """
 
     Q: float
@@ -42,6 +43,18 @@ class Held:
     signs: tuple[float, float]
     marks: tuple[float, ...]
     gaps: tuple[tuple[float, float, float], ...] = ()
+    left: Callable[[float, Array], Array] | None = None
+
+    def lacking(self, bound: float, x: Array) -> Array:
+        """What q lacks of ±f p at places (1-d), given ±f; 0 beyond the contact."""
+        lack, contact = np.zeros(x.shape), self.pressure.contact
+        inside = (x >= contact.x1) & (x <= contact.x2)
+        at = x[inside]
+        if self.left is not None:
+            lack[inside] = self.left(bound, at)
+        else:
+            lack[inside] = bound * self.pressure(at) - self.shear(at)
+        return lack
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,10 +128,16 @@ class MarchedStep(ABC):
         """The slip Δg in this step at places (1-d)."""
 
     @property
-    def kept(self) -> tuple[tuple[float, float], ...]:
+    def kept(self) -> tuple[float, float]:
+        """What stuck all along the step, from the first such place to the last."""
+        return max(self.reach[0], self.stick.x1), min(self.reach[1], self.stick.x2)
+
+    @property
+    def kept_zones(self) -> tuple[tuple[float, float], ...]:
         """The zones that stuck all along the step."""
-        left, right = self.reach
-        return tuple((max(left, a), min(right, b)) for a, b in self.sticks)
+        (left, right), gaps = self.kept, self.gaps
+        cuts = [left, *(end for gap in gaps for end in gap[:2]), right]
+        return tuple(zip(cuts[::2], cuts[1::2], strict=True))
 
     @cached_property
     def marks(self) -> tuple[float, ...]:
@@ -171,6 +190,11 @@ class MarchedStep(ABC):
         return tuple(zone for zone in whole if zone[1] > zone[0])
 
     # -- integrals ---------------------------------------------------------------------------------
+
+    @property
+    def work(self) -> float:
+        """The energy that slip dissipated."""
+        return self.integrals.work
 
     @cached_property
     def integrals(self) -> IntegralsOfSlip:

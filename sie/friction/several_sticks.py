@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.errors import ContactError
+from sie.numerics.halving import integral
 from sie.numerics.interval import Interval
 from sie.traction.of_slope import SlopeDensity
 
@@ -78,8 +79,25 @@ class SeveralSticks(Receded):
             q[slips] = sign * self.friction * self.pressure(x[slips])
         return q
 
-    def under(self, pressure: SlopeDensity, loads: tuple[float, float]) -> SeveralSticks:
+    def at(self, share: float, near: Receded | None = None) -> SeveralSticks:
+        assert self.change is not None
+        loads, pressure = self.change.shear(share), self.change.pressure(share)
         return stuck_in_several(self.before, pressure, self.friction, loads)
+
+    @cached_property
+    def work(self) -> float:
+        """∫f p |Δg| dx less ∫∫f |Δg| dp dx while the pressure changes."""
+        whole, change = self.integrals.work, self.change
+        if change is None:
+            return whole
+
+        def rate(share: float) -> float:
+            state = self.at(share)
+            contact = state.pressure.contact
+            strain = float(change.rates.strain(np.array(contact.m), np.array(contact.r)))
+            return state.integrals.work_of(change.rates.P, strain)
+
+        return whole - integral(rate, abs(whole))
 
     @property
     def _beside(self) -> tuple[Side, ...]:

@@ -58,7 +58,7 @@ DRAWN = [(1, 0, 0), *[(1.1, 0.5, 0.05), (1, -0.4, -0.05)] * 2]
 HELD_UP = [(1, 0, 0), (1.3, 0.55, 0.2), (0.8, -0.3, -0.15), (1.3, 0.55, 0.2)]
 
 MEAN_STRESS, TRAVELLING = "Q cycles under a constant σ", "a stick zone travels"
-MARCHED_PATHS = {
+MARCHED_PATHS: dict[str, Points] = {
     MEAN_STRESS: [(1, 0, 0.3), (1, 0.5, 0.3), (1, -0.5, 0.3), (1, 0.5, 0.3)],
     TRAVELLING: [(1, 0, 0), (1, 0.5, 3)],
     "two stick zones": [(1, 0.06, -0.36), (1, -0.31, 0.08)],
@@ -213,7 +213,9 @@ def _in_parts(points: Points) -> tuple[float, float, float]:
     whole, (*before, (P, Q, sigma)) = followed(HERTZ, points)[-1], points
     others = [followed(HERTZ, path, 3)[-1] for path in (points, [*before, (P, Q, 0.99 * sigma)])]
     right, wrong = (float(np.abs(np.subtract(whole.stick, o.stick)).max()) for o in others)
-    return right, wrong, whole.check().shear.residual
+    sheared = whole.check().shear
+    assert sheared is not None
+    return right, wrong, sheared.residual
 
 
 # -- laws -----------------------------------------------------------------------------------------
