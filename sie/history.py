@@ -42,11 +42,12 @@ from .errors import ContactError, LoadError
 from .friction.dissipation import Dissipation
 from .friction.known_zones import KnownZones
 from .friction.load_steps import Followable, turning_points
+from .friction.loads import Loads
 from .friction.marching import march
 from .friction.path_slip import MarchedSlip, PathSlip, held, step_shift
 from .friction.slip_state import NoSlip, Slip
 from .friction.states import OneSignedSlip
-from .friction.turning_point import Loads, TurningPoint
+from .friction.turning_point import TurningPoint
 from .numerics.interval import EPS, Interval
 from .patches.answer import SeveralPatches
 from .patches.dissipation import PatchDissipation, Untouched

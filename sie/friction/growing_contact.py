@@ -19,7 +19,7 @@ from sie.numerics.interval import EPS
 from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
-from .turning_point import Loads
+from .loads import Loads
 
 Array = NDArray[np.float64]
 

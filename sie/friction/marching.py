@@ -26,6 +26,7 @@ from sie.numerics.root_finding import false_position
 
 from .growing_contact import Course, LoadChange, course
 from .growing_edge import EdgeSticks, edge_sticks
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .memory import LoadMemory
 from .receding_step import Receded
@@ -35,7 +36,7 @@ from .step_conditions import TESTED
 from .stuck_contact import BothStick, both_stick
 from .travelling_zone import Travelled, travelled
 from .trial_step import EXCEEDED, ISLAND, GoesOn, Marchable, Signs, Trial, excess
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 MOST_PARTS = 200  # of a step, in which a stick zone travels by ρ
 SETTLED = 1e-13  # of the half-width: so well the end of a zone that stops is known

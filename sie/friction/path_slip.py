@@ -17,10 +17,11 @@ from sie.traction.combination import superposed
 
 from . import changing_contact
 from .changing_contact import ChangingContact
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .panel_shear import PanelShear
 from .slip_state import Slip
-from .turning_point import Loads, TurningPoint
+from .turning_point import TurningPoint
 
 Array = NDArray[np.float64]
 

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sie.numerics import chebyshev
-from sie.numerics.graded_rule import NODES
+from sie.numerics.graded_rule import NODES, graded_angle
 
 from .growing_contact import Course, Rates, divided
-from .travelling_zone import FALL, RISE, WEIGHT
 
 Array = NDArray[np.float64]
 # Nodes from 0 to 1, their distances from 1, and weights
@@ -28,7 +27,7 @@ HALVINGS, NEWTON, TINY = 8, 6, 1e-12  # for w at a time
 TOGETHER = 40_000  # values at a time
 _g, _w = chebyshev.gauss_legendre(NODES)
 _sine, _cosine = np.sin(0.5 * math.pi * _g), np.cos(0.5 * math.pi * _g)
-GRADED: Rule = (RISE, FALL, WEIGHT)
+GRADED: Rule = graded_angle()
 ROUGH: Rule = (_sine**2, _cosine**2, math.pi * _sine * _cosine * _w)
 PLAIN: Rule = (_g**2, (1.0 - _g) * (1.0 + _g), 2.0 * _g * _w)
 

@@ -17,16 +17,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from sie.numerics.graded_rule import graded_angle
 from sie.numerics.interval import EPS, Interval
 from sie.numerics.root_finding import false_position
 
 from .growing_contact import Course, Rates
 from .marched_step import Held, MarchedStep
 from .slip_onset import Onset
-from .travelling_zone import RISE, WEIGHT
 
 Array = NDArray[np.float64]
 
+RISE, _, WEIGHT = graded_angle()
 WATCHED = 129  # times at which it is seen whether the edges stick
 ROUNDING = 1e-12  # of the rate of the pressure: what an edge may seem to slip
 

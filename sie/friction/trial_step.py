@@ -25,10 +25,10 @@ from sie.problem.scene import Scene
 from sie.traction.of_slope import SlopeDensity
 
 from .growing_contact import LoadChange
+from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .receding_step import Ends, Receded, receded
 from .step_conditions import SLACK, TESTED, inside, opens
-from .turning_point import Loads
 
 # Places in the stick zone at which |q| <= f p is tested, how near to its ends as powers of 10, and
 # by how much of the largest f p it may be missed.
