@@ -48,7 +48,9 @@ def test_no_point_of_one_stick_zone_moves_from_those_of_the_other(end):
     assert middle != 0.0 and abs(last) <= 1e-10 * abs(middle)
 
 
-def test_a_path_to_two_stick_zones_in_parts_ends_in_the_same_state(path, end):
+def test_a_path_to_two_stick_zones_in_parts_ends_in_the_same_state():
+    path = PATHS["at the end of an earlier zone"]
+    end = followed(path)[-1]
     between = np.mean(path[-2:], axis=0)
     cut = followed([*path[:-1], between, path[-1]])[-1]
     x = np.linspace(-0.99, 0.99, 101)
