@@ -13,7 +13,7 @@ each point to the next all loads change in proportion to time. What is exact, an
                                        P changing
     one end alone passes an earlier    step by step, by the shear at the start of each
     one, or slip turns at one edge     (`friction.marching`); at constant P also a stick zone that
-                                       travels
+                                       travels; several stick zones, all of which recede
 
 `friction.memory` computes the layers that a step changes, `friction.partial_slip` the slip of a
 single step, `friction.path_slip` the state at one point, and `patches.path_energy` the energy.

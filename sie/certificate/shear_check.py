@@ -194,7 +194,8 @@ def marched_certificate(
     residual = of_change = 0.0
     for part, term, before in zip(parts, terms, lower, strict=True):
         pair = [term, before._replace(factor=-1.0)]
-        _, change, _, rounding = integrals(pair, points(part.kept, pair))
+        at = np.concatenate([points(zone, pair) for zone in part.kept_zones])
+        _, change, _, rounding = integrals(pair, at)
         missed = np.abs(change - (part.tau - part.before.tau)).max(initial=0.0)
         residual, of_change = max(residual, float(missed)), max(of_change, float(rounding.max()))
     contact, (x, _, weight, *_) = parts[-1].pressure.contact, terms[-1].rule

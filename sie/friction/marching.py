@@ -8,7 +8,8 @@ constant pressure they do so with slip s to the left and right where
 
 An end whose slip has another sign now begins anew at the edge of contact. An end at which the sum
 comes to 0 on the way, as ρ shrinks, advances from there on (`travelling_zone`). While the pressure
-changes all signs are tried. `trial_step` tests what this rests on; docs/derivations/marching.md has
+changes all signs are tried. Where a second zone of slip opens inside the stick zone, several zones
+stick (`several_sticks`). `trial_step` tests what this rests on; docs/derivations/marching.md has
 the equations.
 """
 
@@ -16,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import replace
 from itertools import product
 
@@ -28,6 +30,7 @@ from .loads import Loads
 from .marched_step import Held, MarchedStep
 from .memory import LoadMemory
 from .receding_step import Receded
+from .several_sticks import SeveralSticks, in_several_zones
 from .slip_onset import Onset, onsets
 from .step_conditions import TESTED
 from .stuck_contact import BothStick, both_stick
@@ -47,9 +50,28 @@ def march(contacts: Marchable, held: Held, start: Loads, loads: Loads) -> Turnin
     Raises ContactError where the step is not covered.
     """
     trial = Trial(contacts, held, start, loads)
-    parts = at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
+    parts = _parts(trial)
     level = LoadMemory(contacts.level(loads))
     return TurningPoint(loads, level, straight=False, marched=parts)
+
+
+def _parts(trial: Trial) -> tuple[MarchedStep, ...]:
+    """The parts of a step, with one stick zone or else with several."""
+    if trial.held.gaps:
+        return (_in_several_zones(trial),)
+    try:
+        return at_constant_pressure(trial) if trial.constant else while_pressure_changes(trial)
+    except ContactError as problem:
+        with suppress(ContactError):
+            return (_in_several_zones(trial),)
+        raise problem
+
+
+def _in_several_zones(trial: Trial) -> SeveralSticks:
+    found = in_several_zones(trial)
+    if trial.constant:
+        return found
+    return replace(found, change=LoadChange(trial.contacts, trial.start, trial.end))
 
 
 def at_constant_pressure(trial: Trial) -> tuple[MarchedStep, ...]:

@@ -37,6 +37,7 @@ from .receding_equations import Equations
 from .slip_zones import Drive, SlipZone, SlipZones
 
 Array = NDArray[np.float64]
+Side = tuple[float, float, float]
 
 TURNED = 1e-9  # of the fastest slip: what may seem to turn, which is rounding
 OF_SLIP = 1e-11  # of the steepest slip, to which its steepness is resolved
@@ -152,7 +153,7 @@ class Receded(MarchedStep):
 
     def slip(self, x: Array) -> Array:
         out = np.zeros(x.shape)
-        for side, (end, panels, until) in self._opening.items():
+        for side, end, panels, until in self._opening:
             distance = side * (x - end)
             beside = (distance > 0.0) & (distance <= panels.hi[-1])
             d = distance[beside]
@@ -163,20 +164,24 @@ class Receded(MarchedStep):
             out[beside] = (until[k] + 0.5 * length * grown) / self.pressure.half_modulus
         return out
 
+    @property
+    def _beside(self) -> tuple[Side, ...]:
+        """The zones of slip: +1 to the right of a stick zone or -1, its end, and the far end."""
+        old, new = self.before.pressure.contact, self.pressure.contact
+        left, right = self.reach
+        return (-1.0, left, min(old.x1, new.x1)), (1.0, right, max(old.x2, new.x2))
+
     @cached_property
-    def _opening(self) -> dict[float, tuple[float, Panels, Array]]:
-        """The end of the stick zone, E*/2 dΔg, and its integrals, for each side.
+    def _opening(self) -> tuple[tuple[float, float, Panels, Array], ...]:
+        """The side and the end of the stick zone, E*/2 dΔg, and its integrals, for each zone.
 
         dΔg is on panels of the distance from the end, and has an integral up to each.
         """
-        old, new = self.before.pressure.contact, self.pressure.contact
-        ends = (min(old.x1, new.x1), max(old.x2, new.x2))
-        return {
-            side: self._on_one_side(side, end, edge)
-            for side, end, edge in zip((-1.0, 1.0), self.reach, ends, strict=True)
-        }
+        return tuple(self._on_one_side(*zone) for zone in self._beside)
 
-    def _on_one_side(self, side: float, end: float, edge: float) -> tuple[float, Panels, Array]:
+    def _on_one_side(
+        self, side: float, end: float, edge: float
+    ) -> tuple[float, float, Panels, Array]:
         length = side * (edge - end)
         d = np.unique(side * (np.array([*self._places, *self.marks]) - end))
         apart = np.diff(d, prepend=0.0) > SAME * length
@@ -191,7 +196,7 @@ class Receded(MarchedStep):
         panels = resolved_panels((steepness,), (*inner, length), 0.0, OF_SLIP)[0]
         sums = chebyshev.antiderivative(panels.series).T
         whole = 0.5 * (panels.hi - panels.lo) * chebyshev.evaluate(sums, np.ones(len(panels.lo)))
-        return end, panels, np.cumsum(whole) - whole
+        return side, end, panels, np.cumsum(whole) - whole
 
 
 def receded(

@@ -112,11 +112,14 @@ class Trial:
         loads, shear = self.start.towards(self.end, share), self.shear(share)
         if abs(loads.Q) >= self.friction * loads.P * (1.0 - SLACK):
             raise ContactError("the bodies slide as a whole, |Q| = f P, which is not marched")
+        ends = Ends(self.signs, self.goes_on if self.constant else (False, False))
+        return receded(self.held, self.pressure(share), self.friction, shear, ends)
+
+    def pressure(self, share: float) -> SlopeDensity:
+        """p after a share of the step."""
         if self.constant:
-            p = self.held.pressure
-            return receded(self.held, p, self.friction, shear, Ends(self.signs, self.goes_on))
-        p = self.contacts.pressure_at(loads)
-        return receded(self.held, p, self.friction, shear, Ends(self.signs))
+            return self.held.pressure
+        return self.contacts.pressure_at(self.start.towards(self.end, share))
 
     # -- tests -------------------------------------------------------------------------------------
 
